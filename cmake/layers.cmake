@@ -1,0 +1,27 @@
+# A layer is one static library whose headers are reached as "layer/path.hpp". Each layer's include root holds a link to
+# that layer's folder and nothing else, so a header of a layer that a target does not link is not found: an arrow that the
+# design forbids does not compile.
+function(comma_layer name)
+  set(root ${CMAKE_BINARY_DIR}/layers/${name})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  list(FILTER sources EXCLUDE REGEX "/(tests|bench|fuzz|tools)/|/main\\.cpp$")
+  add_library(comma_${name} STATIC ${sources})
+  target_include_directories(comma_${name} PUBLIC ${root})
+endfunction()
+
+# The unit tests of a layer: every *.cpp under its tests/, one executable, one ctest entry.
+function(comma_layer_tests name)
+  if(NOT COMMA_TESTS)
+    return()
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${name}_tests ${sources})
+  target_link_libraries(${name}_tests PRIVATE comma_${name} comma_test_main)
+  target_compile_definitions(${name}_tests PRIVATE COMMA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  add_test(NAME unit.${name} COMMAND ${name}_tests)
+endfunction()

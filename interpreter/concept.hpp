@@ -1,0 +1,40 @@
+// A concept is what a command produces: a mesh, a model, a result, a table ... The interpreter knows its name, its type
+// and which node of the command graph fills it; the commands layer derives from ConceptData and knows the rest.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/source.hpp"
+
+namespace comma::interpreter {
+
+class Value;
+
+/// The filled inside of a concept. Commands derive from it. The three functions are what the language can do with a
+/// concept; by default each throws DiagnosticError `not-supported`.
+struct ConceptData {
+  virtual ~ConceptData() = default;
+  virtual Value subscript(const Value& key) const;                        ///< T["DX", 1]
+  virtual Value call(const std::vector<Value>& arguments) const;          ///< F(2.0)
+  virtual Value method(std::string_view name, const std::vector<Value>& arguments,
+                       const std::map<std::string, Value>& keywords) const;  ///< MA.getNumberOfNodes()
+};
+
+/// A concept as the language handles it; every Value that refers to it shares this object. `data` is null until the
+/// graph node that produces it has run; a later command with reuse= changes `data` in place.
+struct Concept {
+  std::string name;              ///< the variable it was first assigned to; "_7" for one that has no name
+  std::string type;              ///< Code_Aster's type name: "maillage_sdaster", "evol_noli", ...
+  int id = 0;                    ///< dense, in order of creation
+  Span defined_at;               ///< the call that made it
+  std::shared_ptr<ConceptData> data;
+  std::vector<std::shared_ptr<Concept>> reads_through;  ///< reading this one reads those too (a model reads its mesh)
+};
+
+using ConceptPtr = std::shared_ptr<Concept>;
+
+}  // namespace comma::interpreter

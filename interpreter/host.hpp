@@ -1,0 +1,38 @@
+// The seam between the language and the commands: the evaluator meets a call of a command and hands it to its host, which
+// checks it, adds it to the command graph and returns a handle. The evaluator itself knows no command.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/value.hpp"
+
+namespace comma::interpreter {
+
+/// A call as the evaluator met it, not checked yet. A **mapping argument has been spread into `arguments`.
+struct CommandCall {
+  std::string name;
+  Span name_span;
+  Span span;
+  std::vector<Argument> arguments;
+};
+
+/// What the evaluator needs from the outside.
+class CommandHost {
+ public:
+  virtual ~CommandHost() = default;
+
+  virtual bool is_command(std::string_view name) const = 0;
+  /// All names, for hints.
+  virtual std::vector<std::string> command_names() const = 0;
+
+  /// Checks the call and adds it to the graph. Returns the handle it produces, or None. A call that is wrong is reported
+  /// to the diagnostics and gives Value::unknown(), so that one mistake makes one error. `eager` (inside try) runs it at once.
+  virtual Value call(const CommandCall& call, bool eager) = 0;
+
+  /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
+  virtual void force(const ConceptPtr& handle) = 0;
+};
+
+}  // namespace comma::interpreter

@@ -1,0 +1,49 @@
+// Contact as the user describes it, in the solver's words.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "solver/functions/function.hpp"
+#include "solver/model/component.hpp"
+
+namespace comma::solver {
+
+/// Condition  sum over components coefficient(t) * u(node, component) <= bound(t)  at each node.
+struct UnilateralCondition {
+  std::vector<int> nodes;
+  std::vector<Component> components;
+  std::vector<FieldFunction> coefficients;  ///< one a component
+  FieldFunction bound;
+};
+
+enum class ContactAlgorithm : std::uint8_t { active_set };
+enum class GeometryUpdate : std::uint8_t { none, automatic, controlled };
+enum class NormalRule : std::uint8_t { automatic, fixed, along_y };
+enum class NormalSide : std::uint8_t { master, slave, average };
+
+/// A pair of surfaces. Slave nodes may not enter master facets.
+struct ContactZone {
+  std::vector<int> master_cells;
+  std::vector<int> slave_cells;
+  NormalSide normal_side = NormalSide::master;
+  NormalRule master_normal = NormalRule::automatic;
+  std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
+  std::vector<int> excluded_slave_nodes;   ///< SANS_GROUP_NO
+  double projection_tolerance = 0.5;       ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
+  double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the master are not paired; < 0: no limit
+};
+
+struct ContactDefinition {
+  ContactAlgorithm algorithm = ContactAlgorithm::active_set;
+  GeometryUpdate geometry_update = GeometryUpdate::automatic;
+  int controlled_updates = 2;        ///< NB_ITER_GEOM, for GeometryUpdate::controlled
+  int max_geometry_updates = 10;     ///< ITER_GEOM_MAXI
+  double geometry_tolerance = 0.01;  ///< RESI_GEOM
+  int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
+  bool stop_on_interpenetration = false;
+  std::vector<ContactZone> zones;
+};
+
+}  // namespace comma::solver

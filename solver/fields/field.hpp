@@ -1,0 +1,63 @@
+// Fields on nodes and on elements, and the results that hold them.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
+/// values[node * components.size() + component]; NaN where the node does not carry the component.
+struct NodalField {
+  std::string quantity;                 ///< "DEPL_R", "SIEF_R", ...
+  std::vector<std::string> components;  ///< "DX", "DY" ...
+  std::vector<double> values;
+
+  double at(int node, int component) const { return values[static_cast<std::size_t>(node) * components.size() + component]; }
+  /// Index of a component, -1 if there is none.
+  int component(std::string_view name) const;
+};
+
+enum class Support : std::uint8_t { cell, element_node, gauss_point };
+
+/// values[(starts[cell] + point) * components.size() + component]; starts has cell_count()+1 entries, and a cell that does not
+/// carry the field has no points; NaN where the cell does not carry the component.
+struct ElementField {
+  std::string quantity;
+  Support support = Support::cell;
+  std::vector<std::string> components;
+  std::vector<int> starts;
+  std::vector<double> values;
+
+  int points(int cell) const { return starts[cell + 1] - starts[cell]; }
+  double at(int cell, int point, int component) const {
+    return values[static_cast<std::size_t>(starts[cell] + point) * components.size() + component];
+  }
+  int component(std::string_view name) const;
+};
+
+using Field = std::variant<NodalField, ElementField>;
+
+/// One archived step.
+struct ResultStep {
+  int order = 0;
+  double instant = 0.0;
+  std::map<std::string, Field, std::less<>> fields;       ///< "DEPL", "SIEF_ELGA", "FORC_NODA" ...
+  std::map<std::string, double, std::less<>> parameters;  ///< "ITER_GLOB" ...
+};
+
+/// Steps in rising order and instant.
+struct Result {
+  std::shared_ptr<const Model> model;
+  std::vector<ResultStep> steps;
+};
+
+}  // namespace comma::solver

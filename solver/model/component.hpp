@@ -1,0 +1,22 @@
+// The degrees of freedom a node can carry, by their usual names.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace comma::solver {
+
+enum class Component : std::uint8_t { dx, dy, dz, drx, dry, drz };
+inline constexpr int component_count = 6;
+
+std::string_view name_of(Component component);               ///< "DX" ...
+std::optional<Component> component_named(std::string_view name);
+
+/// A set of components, one bit each.
+using ComponentMask = std::uint16_t;
+constexpr ComponentMask mask_of(Component component) { return static_cast<ComponentMask>(1u << static_cast<unsigned>(component)); }
+constexpr bool contains(ComponentMask mask, Component component) { return (mask & mask_of(component)) != 0; }
+
+}  // namespace comma::solver

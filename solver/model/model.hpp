@@ -1,0 +1,53 @@
+// The model: which finite element each cell carries, and where degrees of freedom therefore exist.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "solver/mesh/mesh.hpp"
+#include "solver/model/component.hpp"
+
+namespace comma::solver {
+
+/// The mechanical assumption of a cell. `none`: the cell carries no element.
+enum class Formulation : std::uint8_t {
+  none, solid, solid_reduced, plane_strain, plane_strain_reduced, plane_stress, plane_stress_reduced,
+  axisymmetric, axisymmetric_reduced, bar, bar_2d, euler_beam, timoshenko_beam,
+  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d
+};
+
+/// Elements on cells. Cells of one dimension less than a continuum formulation (the edges of a plane model, the faces of a
+/// solid one) are skin elements: they carry no stiffness but take pressure and contact.
+struct Model {
+  std::shared_ptr<Mesh> mesh;             ///< shared: a group added to the mesh later is known here
+  std::vector<Formulation> formulations;  ///< one a cell
+
+  /// Whether the cell is the skin of its formulation's continuum rather than part of it.
+  bool is_skin(int cell) const;
+  /// The components that the element of a cell gives to each of its nodes (0 where it carries none).
+  ComponentMask components_of(int cell) const;
+};
+
+/// The numbering of degrees of freedom: those of a node are consecutive, in the order of Component; a node without any
+/// element has none.
+class DofMap {
+ public:
+  explicit DofMap(const Model& model);
+
+  int size() const { return starts_.back(); }
+  int node_count() const { return static_cast<int>(masks_.size()); }
+  ComponentMask components(int node) const { return masks_[node]; }
+  /// Index of the degree of freedom, -1 where the node has no such component.
+  int dof(int node, Component component) const;
+  int node_of(int dof) const { return nodes_[dof]; }
+  Component component_of(int dof) const { return components_[dof]; }
+
+ private:
+  std::vector<ComponentMask> masks_;
+  std::vector<int> starts_;
+  std::vector<int> nodes_;
+  std::vector<Component> components_;
+};
+
+}  // namespace comma::solver

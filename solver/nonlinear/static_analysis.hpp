@@ -1,0 +1,66 @@
+// Quasi-static analysis by Newton's method, with contact and unilateral conditions.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/contact/definition.hpp"
+#include "solver/elements/section.hpp"
+#include "solver/fields/field.hpp"
+#include "solver/linear/linear_solver.hpp"
+#include "solver/loads/load.hpp"
+#include "solver/materials/material.hpp"
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+/// Work counters, as in the JSON report.
+struct Counters {
+  long factorisations = 0;
+  long solves = 0;
+  long newton_iterations = 0;
+  long contact_iterations = 0;
+  long pairings = 0;
+};
+
+struct StaticProblem {
+  std::shared_ptr<const Model> model;
+  std::shared_ptr<const MaterialField> materials;
+  std::shared_ptr<const ElementProperties> properties;  ///< never null, may be empty
+  std::vector<AppliedLoad> loads;
+  std::vector<UnilateralCondition> unilateral;
+  std::optional<ContactDefinition> contact;
+};
+
+struct NewtonOptions {
+  std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
+  std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
+  int max_iterations = 10;                         ///< ITER_GLOB_MAXI
+  std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
+  LinearOptions linear;
+};
+
+/// One line of the live table.
+struct IterationReport {
+  double instant = 0.0;
+  int iteration = 0;
+  double relative_residual = 0.0;
+  double absolute_residual = 0.0;
+  std::string worst;         ///< "DY at N12": where the residual is largest
+  int active_conditions = 0;
+  int contact_changes = 0;
+};
+
+/// Called after each Newton iteration and at the end of each step; may be empty.
+using IterationObserver = std::function<void(const IterationReport&)>;
+
+/// Solves the steps at `instants` (the first is the initial state, archived as order 0) and appends each converged one to
+/// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
+/// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
+/// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
+void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
+                  Result& result, Counters& counters, const IterationObserver& observer = {});
+
+}  // namespace comma::solver
