@@ -1,0 +1,95 @@
+#include "commands/cli/report.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace comma::commands {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr int report_version = 1;
+
+ordered_json json_of(const std::optional<TestedValue>& value) {
+  if (!value) return nullptr;
+  return std::visit([](const auto& held) { return ordered_json(held); }, *value);
+}
+
+ordered_json json_of(const Verdict& verdict) {
+  return {{"file", verdict.file},
+          {"line", verdict.line},
+          {"command", verdict.command},
+          {"label", verdict.label},
+          {"kind", verdict.kind},
+          {"reference_type", verdict.reference_type},
+          {"reference", json_of(verdict.reference)},
+          {"computed", json_of(verdict.computed)},
+          {"criterion", verdict.relative ? "RELATIF" : "ABSOLU"},
+          {"tolerance", verdict.tolerance},
+          {"order_of_magnitude", verdict.order_of_magnitude ? ordered_json(*verdict.order_of_magnitude) : ordered_json(nullptr)},
+          {"error", verdict.error},
+          {"passed", verdict.passed}};
+}
+
+ordered_json json_of(const CommandRecord& command) {
+  return {{"name", command.name},
+          {"line", command.line},
+          {"concept", command.concept_name},
+          {"seconds", command.seconds},
+          {"skipped", command.skipped}};
+}
+
+ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
+  ordered_json json = {{"severity", std::string(interpreter::name_of(diagnostic.severity))},
+                       {"code", diagnostic.code},
+                       {"message", diagnostic.message}};
+  if (!diagnostic.hint.empty()) json["hint"] = diagnostic.hint;
+  const auto& span = diagnostic.span;
+  const auto begin = span ? span.file->position(span.begin) : interpreter::Position{};
+  const auto end = span ? span.file->position(span.end) : interpreter::Position{};
+  json["file"] = span ? span.file->path() : "";
+  json["line"] = begin.line;
+  json["column"] = begin.column;
+  json["end_line"] = end.line;
+  json["end_column"] = end.column;
+  return json;
+}
+
+long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024;  // Linux counts in KiB
+}
+
+template <class Items>
+ordered_json list_of(const Items& items) {
+  ordered_json list = ordered_json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  const solver::Counters& counters = report.counters;
+  const ordered_json json = {{"version", report_version},
+                             {"file", report.file},
+                             {"status", report.status},
+                             {"tests", list_of(report.tests)},
+                             {"commands", list_of(report.commands)},
+                             {"diagnostics", list_of(report.diagnostics)},
+                             {"counters",
+                              {{"factorisations", counters.factorisations},
+                               {"solves", counters.solves},
+                               {"newton_iterations", counters.newton_iterations},
+                               {"contact_iterations", counters.contact_iterations},
+                               {"pairings", counters.pairings}}},
+                             {"peak_memory_bytes", peak_memory_bytes()},
+                             {"seconds", report.seconds}};
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,48 @@
+#include "commands/concepts.hpp"
+
+#include "interpreter/diagnostic.hpp"
+#include "interpreter/value.hpp"
+
+namespace comma::commands {
+
+Value FunctionConcept::call(const std::vector<Value>& arguments) const {
+  if (arguments.size() != 1 || !(arguments[0].is_number() || arguments[0].is_bool())) {
+    throw interpreter::DiagnosticError("type-error", "a function of one parameter is called with one number", {},
+                                       "write F(" + table.parameter + ")");
+  }
+  return Value(table(arguments[0].as_real()));
+}
+
+Value TableConcept::subscript(const Value& key) const {
+  const bool shaped = key.is_tuple() && key.items().size() == 2 && key.items()[0].is_text() && key.items()[1].is_integer();
+  if (!shaped) {
+    throw interpreter::DiagnosticError("type-error", "a table is read by column name and row number", {},
+                                       "write TABLE[\"COLUMN\", 1]; rows count from 1");
+  }
+  const std::string& name = key.items()[0].as_text();
+  const std::int64_t row = key.items()[1].as_integer();
+  const int column = table.column(name);
+  if (column < 0) {
+    const std::string near = interpreter::nearest(name, table.columns);
+    throw interpreter::DiagnosticError("unknown-column", "the table has no column " + name, {},
+                                       near.empty() ? "" : "did you mean " + near + "?");
+  }
+  if (row < 1 || row > static_cast<std::int64_t>(table.rows.size())) {
+    throw interpreter::DiagnosticError("index-error", "the table has no row " + std::to_string(row) + "; it has " +
+                                                          std::to_string(table.rows.size()));
+  }
+  return std::visit(
+      [](const auto& cell) -> Value {
+        using T = std::decay_t<decltype(cell)>;
+        if constexpr (std::is_same_v<T, std::monostate>) {
+          return Value();
+        } else {
+          return Value(cell);
+        }
+      },
+      table.rows[row - 1][column]);
+}
+
+solver::TimeFunction time_function(const FunctionConcept& function) { return function.table; }
+
+}  // namespace comma::commands

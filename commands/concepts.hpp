@@ -1,0 +1,85 @@
+// What the concepts of a command file hold: thin handles on the solver's data.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "commands/table.hpp"
+#include "interpreter/concept.hpp"
+#include "solver/contact/definition.hpp"
+#include "solver/elements/section.hpp"
+#include "solver/fields/field.hpp"
+#include "solver/functions/function.hpp"
+#include "solver/loads/load.hpp"
+#include "solver/materials/material.hpp"
+#include "solver/mesh/mesh.hpp"
+#include "solver/model/model.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::commands {
+
+using interpreter::ConceptData;
+using interpreter::Value;
+
+struct MeshConcept : ConceptData {
+  std::shared_ptr<solver::Mesh> mesh;
+};
+
+struct ModelConcept : ConceptData {
+  std::shared_ptr<solver::Model> model;
+};
+
+struct MaterialConcept : ConceptData {
+  std::shared_ptr<const solver::Material> material;
+};
+
+struct MaterialFieldConcept : ConceptData {
+  std::shared_ptr<const solver::MaterialField> field;
+};
+
+struct PropertiesConcept : ConceptData {
+  std::shared_ptr<const solver::ElementProperties> properties;
+};
+
+/// AFFE_CHAR_MECA and AFFE_CHAR_CINE alike: conditions are eliminated whichever command wrote them.
+struct LoadConcept : ConceptData {
+  std::shared_ptr<const solver::Load> load;
+};
+
+/// DEFI_FONCTION and DEFI_CONSTANTE.
+struct FunctionConcept : ConceptData {
+  solver::TabulatedFunction table;
+
+  Value call(const std::vector<Value>& arguments) const override;
+};
+
+struct ListConcept : ConceptData {
+  std::vector<double> values;
+};
+
+struct ContactConcept : ConceptData {
+  std::variant<solver::ContactDefinition, std::vector<solver::UnilateralCondition>> conditions;
+};
+
+/// A result and what CALC_CHAMP needs to go on from it.
+struct ResultConcept : ConceptData {
+  solver::Result result;
+  solver::StaticProblem problem;
+};
+
+struct TableConcept : ConceptData {
+  Table table;
+
+  Value subscript(const Value& key) const override;
+};
+
+/// What a command function returns; null for a command that produces nothing.
+using Product = std::shared_ptr<ConceptData>;
+
+/// The function of time behind a function concept.
+solver::TimeFunction time_function(const FunctionConcept& function);
+
+}  // namespace comma::commands

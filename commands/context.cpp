@@ -1,0 +1,29 @@
+#include "commands/context.hpp"
+
+#include <fstream>
+
+namespace comma::commands {
+
+void Context::write(const std::filesystem::path& path, std::string_view text) {
+  const bool first = written.insert(path.string()).second;
+  std::ofstream file(path, first ? std::ios::trunc : std::ios::app);
+  file << text;
+  file.flush();
+  if (!file) {
+    throw interpreter::DiagnosticError("unwritable-file", "cannot write " + path.string(), {},
+                                       "see that its folder exists and may be written to");
+  }
+  if (first) console.progress("  writes " + path.string());
+}
+
+void Context::report(Verdict verdict) {
+  const std::string text = format_verdict(verdict);
+  if (verdict.passed) {
+    console.progress(text);
+  } else {
+    console.line(text);
+  }
+  verdicts.push_back(std::move(verdict));
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,57 @@
+// What a command function reaches beside its keywords: files, the console, the list of verdicts, counters.
+#pragma once
+
+#include <cstdio>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/files.hpp"
+#include "commands/verdict.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::commands {
+
+enum class Verbosity : std::uint8_t { quiet, normal, verbose };
+
+/// Plain text lines, on standard output.
+class Console {
+ public:
+  explicit Console(Verbosity verbosity) : verbosity_(verbosity) {}
+
+  Verbosity verbosity() const { return verbosity_; }
+  /// A line that every run shows; `detail` one that only -v shows, `progress` one that -q leaves out.
+  void line(std::string_view text) const { print(text); }
+  void progress(std::string_view text) const {
+    if (verbosity_ != Verbosity::quiet) print(text);
+  }
+  void detail(std::string_view text) const {
+    if (verbosity_ == Verbosity::verbose) print(text);
+  }
+
+ private:
+  static void print(std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fputc('\n', stdout);
+  }
+  Verbosity verbosity_;
+};
+
+struct Context {
+  Files files;
+  Console console;
+  interpreter::Diagnostics& diagnostics;
+  std::vector<Verdict> verdicts = {};
+  solver::Counters counters = {};
+  std::set<std::string> written = {};  ///< outputs that this run has opened: the first writing replaces, later ones append
+
+  /// Appends text to the output of a unit; the first time in a run the file starts anew.
+  void write(const std::filesystem::path& path, std::string_view text);
+
+  /// Keeps a verdict and shows it.
+  void report(Verdict verdict);
+};
+
+}  // namespace comma::commands

@@ -1,0 +1,98 @@
+#include "commands/commands.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::Component;
+
+solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const std::string& keyword) {
+  solver::TimeFunction function = time_function(interpreter::data_of<FunctionConcept>(handle, keyword));
+  return [function = std::move(function)](const solver::Point&, double time) { return function(time); };
+}
+
+Component component(const Keywords& zone, const std::string& name, const std::vector<int>& nodes, const solver::DofMap& dofs) {
+  const auto known = solver::component_named(name);
+  if (known) {
+    for (const int node : nodes) {
+      if (dofs.dof(node, *known) >= 0) return *known;
+    }
+  }
+  throw DiagnosticError("unknown-component", "NOM_CMP: none of these nodes carries " + name, zone.span_of("NOM_CMP"));
+}
+
+// COEF_MULT . u <= COEF_IMPO at each node (U4.44.11).
+solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model& model) {
+  const solver::DofMap dofs(model);
+  solver::UnilateralCondition condition;
+  condition.nodes = selected_nodes(zone, *model.mesh);
+  for (const std::string& name : zone.texts("NOM_CMP")) {
+    condition.components.push_back(component(zone, name, condition.nodes, dofs));
+  }
+  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, "COEF_MULT"));
+  if (condition.coefficients.size() != condition.components.size()) {
+    throw DiagnosticError("wrong-count", "DEFI_CONTACT: each of the " + std::to_string(condition.components.size()) +
+                                             " components of NOM_CMP needs its coefficient",
+                          zone.span_of("COEF_MULT"), "give as many functions to COEF_MULT as names to NOM_CMP");
+  }
+  condition.bound = field_function(zone.concept_of("COEF_IMPO"), "COEF_IMPO");
+  return condition;
+}
+
+solver::NormalSide normal_side(const std::string& word) {
+  if (word == "ESCL") return solver::NormalSide::slave;
+  return word == "MAIT_ESCL" ? solver::NormalSide::average : solver::NormalSide::master;
+}
+
+solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
+  solver::ContactZone zone;
+  zone.master_cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_MAIT", "MAILLE_MAIT"});
+  zone.slave_cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_ESCL", "MAILLE_ESCL"});
+  if (keywords.has("NORMALE")) zone.normal_side = normal_side(keywords.text("NORMALE"));
+  if (keywords.has("VECT_MAIT") && keywords.text("VECT_MAIT") == "FIXE") {
+    zone.master_normal = solver::NormalRule::fixed;
+    const auto vector = keywords.reals("MAIT_FIXE");
+    std::copy(vector.begin(), vector.end(), zone.master_vector.begin());
+  }
+  zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
+  if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
+  if (keywords.has("TOLE_APPA")) zone.pairing_distance = keywords.real("TOLE_APPA");
+  return zone;
+}
+
+solver::GeometryUpdate geometry_update(const std::string& word) {
+  if (word == "SANS") return solver::GeometryUpdate::none;
+  return word == "CONTROLE" ? solver::GeometryUpdate::controlled : solver::GeometryUpdate::automatic;
+}
+
+solver::ContactDefinition discrete_contact(const Call& call, const solver::Mesh& mesh) {
+  solver::ContactDefinition definition;
+  definition.geometry_update = geometry_update(call.text("REAC_GEOM"));
+  if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
+  if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
+  if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
+  if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
+  if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
+  for (const Keywords& zone : call.factors("ZONE")) definition.zones.push_back(contact_zone(zone, mesh));
+  return definition;
+}
+
+}  // namespace
+
+Product defi_contact(const Call& call, Context&) {
+  const solver::Model& model = *call.data<ModelConcept>("MODELE").model;
+  auto product = std::make_shared<ContactConcept>();
+  if (call.text("FORMULATION") == "LIAISON_UNIL") {
+    std::vector<solver::UnilateralCondition> conditions;
+    for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));
+    product->conditions = std::move(conditions);
+  } else {
+    product->conditions = discrete_contact(call, *model.mesh);
+  }
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <numeric>
+
+#include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::Extension;
+using solver::Scale;
+
+Extension extension(const std::string& word) {
+  if (word == "CONSTANT") return Extension::constant;
+  if (word == "LINEAIRE") return Extension::linear;
+  return Extension::excluded;
+}
+
+Scale scale(const std::string& word) { return word == "LOG" ? Scale::logarithmic : Scale::linear; }
+
+void read_points(const Call& call, solver::TabulatedFunction& function) {
+  if (call.has("VALE")) {
+    const auto values = call.reals("VALE");
+    if (values.size() % 2 != 0) {
+      throw DiagnosticError("wrong-count", "DEFI_FONCTION: VALE holds pairs x, y; it has " + std::to_string(values.size()) + " values",
+                            call.span_of("VALE"), "give an even number of values");
+    }
+    for (std::size_t i = 0; i < values.size(); i += 2) {
+      function.x.push_back(values[i]);
+      function.y.push_back(values[i + 1]);
+    }
+    return;
+  }
+  const bool by_lists = call.has("VALE_PARA");
+  function.x = by_lists ? call.data<ListConcept>("VALE_PARA").values : call.reals("ABSCISSE");
+  function.y = by_lists ? call.data<ListConcept>("VALE_FONC").values : call.reals("ORDONNEE");
+  if (function.x.size() != function.y.size()) {
+    throw DiagnosticError("wrong-count",
+                          "DEFI_FONCTION: " + std::to_string(function.x.size()) + " abscissas stand against " +
+                              std::to_string(function.y.size()) + " ordinates",
+                          call.span);
+  }
+}
+
+// Code_Aster sorts the points by abscissa, and refuses two points at one (U4.31.02).
+void sort_points(const Call& call, solver::TabulatedFunction& function) {
+  std::vector<std::size_t> order(function.x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
+  std::vector<double> x, y;
+  for (const std::size_t i : order) {
+    if (!x.empty() && x.back() == function.x[i]) {
+      throw DiagnosticError("repeated-abscissa", "DEFI_FONCTION: the abscissa " + std::to_string(function.x[i]) + " stands twice",
+                            call.span, "a function has one value at each abscissa; make a jump a steep ramp");
+    }
+    x.push_back(function.x[i]);
+    y.push_back(function.y[i]);
+  }
+  function.x = std::move(x);
+  function.y = std::move(y);
+}
+
+}  // namespace
+
+Product defi_fonction(const Call& call, Context&) {
+  auto product = std::make_shared<FunctionConcept>();
+  solver::TabulatedFunction& function = product->table;
+  function.parameter = call.text("NOM_PARA");
+  function.result = call.text("NOM_RESU");
+  read_points(call, function);
+  sort_points(call, function);
+  const auto scales = call.texts("INTERPOL");
+  function.x_scale = scale(scales.front());
+  function.y_scale = scale(scales.back());
+  function.left = extension(call.text("PROL_GAUCHE"));
+  function.right = extension(call.text("PROL_DROITE"));
+  return product;
+}
+
+Product defi_constante(const Call& call, Context&) {
+  auto product = std::make_shared<FunctionConcept>();
+  product->table.x = {0.0};
+  product->table.y = {call.real("VALE")};
+  product->table.result = call.text("NOM_RESU");
+  product->table.left = product->table.right = Extension::constant;
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+
+// A last step shorter or longer than PAS by less than this share of it is rounding of JUSQU_A, not a step (U4.34.01).
+constexpr double step_rounding = 1e-3;
+
+int steps_of(const Keywords& interval, double length) {
+  if (interval.has("NOMBRE")) return static_cast<int>(interval.integer("NOMBRE"));
+  const double exact = length / interval.real("PAS");
+  const int steps = static_cast<int>(std::lround(exact));
+  if (steps < 1 || std::abs(exact - steps) > step_rounding) {
+    throw DiagnosticError("wrong-step", fmt::format("DEFI_LIST_REEL: {} steps of PAS fill the interval; it must be a whole number", exact),
+                          interval.span, "change PAS or JUSQU_A, or give NOMBRE");
+  }
+  return steps;
+}
+
+std::vector<double> by_intervals(const Call& call) {
+  std::vector<double> values = {call.real("DEBUT")};
+  for (const Keywords& interval : call.factors("INTERVALLE")) {
+    const double begin = values.back();
+    const double end = interval.real("JUSQU_A");
+    if (!(end > begin)) {
+      throw DiagnosticError("wrong-order", fmt::format("DEFI_LIST_REEL: JUSQU_A = {} does not lie beyond {}", end, begin),
+                            interval.span_of("JUSQU_A"), "values must rise");
+    }
+    const int steps = steps_of(interval, end - begin);
+    const double step = (end - begin) / steps;
+    for (int i = 1; i < steps; ++i) values.push_back(begin + i * step);
+    values.push_back(end);
+  }
+  return values;
+}
+
+}  // namespace
+
+Product defi_list_reel(const Call& call, Context&) {
+  auto product = std::make_shared<ListConcept>();
+  product->values = call.has("VALE") ? call.reals("VALE") : by_intervals(call);
+  for (std::size_t i = 1; i < product->values.size(); ++i) {
+    if (product->values[i] > product->values[i - 1]) continue;
+    throw DiagnosticError("wrong-order",
+                          fmt::format("DEFI_LIST_REEL: {} does not lie beyond {}", product->values[i], product->values[i - 1]),
+                          call.span_of("VALE"), "values must rise");
+  }
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,42 @@
+#include "commands/files.hpp"
+
+#include <cctype>
+
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace fs = std::filesystem;
+
+Files::Files(fs::path command_file, std::vector<ExportFile> exported, fs::path output_folder)
+    : command_file_(std::move(command_file)), exported_(std::move(exported)), output_folder_(std::move(output_folder)) {}
+
+fs::path Files::input(int unit, const std::vector<std::string>& extensions) const {
+  for (const ExportFile& file : exported_) {
+    if (file.unit == unit && file.input) return file.path;
+  }
+  std::vector<std::string> stems = {command_file_.stem().string()};
+  if (const std::string& stem = stems.front(); stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back()))) {
+    stems.push_back(stem.substr(0, stem.size() - 1));
+  }
+  std::string tried;
+  for (const std::string& stem : stems) {
+    for (const std::string& extension : extensions) {
+      const fs::path candidate = command_file_.parent_path() / (stem + "." + extension);
+      if (fs::is_regular_file(candidate)) return candidate;
+      tried += (tried.empty() ? "" : ", ") + candidate.filename().string();
+    }
+  }
+  throw interpreter::DiagnosticError("missing-file", "no file stands for unit " + std::to_string(unit), {},
+                                     "put one of " + tried + " beside the command file, or name it in an .export");
+}
+
+fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
+  for (const ExportFile& file : exported_) {
+    if (file.unit == unit && file.output) return file.path;
+  }
+  const std::string middle = unit == default_unit ? "." : "." + std::to_string(unit) + ".";
+  return output_folder_ / (command_file_.stem().string() + middle + extension);
+}
+
+}  // namespace comma::commands

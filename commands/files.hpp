@@ -1,0 +1,41 @@
+// Which file a logical unit number stands for: as an .export says, else by the name of the command file.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace comma::commands {
+
+/// One line `F type name D|R|DR|RC unit` of an .export.
+struct ExportFile {
+  std::string type;
+  std::filesystem::path path;  ///< absolute or relative to the .export's folder
+  bool input = false;
+  bool output = false;
+  int unit = 0;
+};
+
+/// Files by unit. Outputs go into `output_folder` unless the .export names them.
+class Files {
+ public:
+  Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
+
+  /// The input file of a unit: the .export's, else a file beside the command file with its stem and one of the extensions,
+  /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed). Throws DiagnosticError
+  /// `missing-file` listing what was looked for.
+  std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
+
+  /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,
+  /// `<stem>.<unit>.<extension>` for another.
+  std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
+
+ private:
+  std::filesystem::path command_file_;
+  std::vector<ExportFile> exported_;
+  std::filesystem::path output_folder_;
+};
+
+}  // namespace comma::commands

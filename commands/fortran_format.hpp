@@ -1,0 +1,15 @@
+// Numbers in Fortran's edit descriptors, which FORMAT_R and its like carry in command files ("E12.5", "1PE13.6").
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace comma::commands {
+
+/// Whether the text is a descriptor that format_real knows: E, D, F or G, with a scale factor 1P or not.
+bool is_real_format(std::string_view format);
+
+/// A number by a descriptor. Throws DiagnosticError `bad-format` on one that is not known.
+std::string format_real(double value, std::string_view format);
+
+}  // namespace comma::commands

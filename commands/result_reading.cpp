@@ -1,0 +1,80 @@
+#include "commands/result_reading.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+using solver::ResultStep;
+
+namespace {
+
+// Code_Aster's default precision in the search of an instant (U4.71.00).
+constexpr double default_instant_precision = 1e-6;
+
+std::string known_instants(const solver::Result& result) {
+  if (result.steps.empty()) return "the result holds no step";
+  return fmt::format("the result holds {} steps, from INST={} to INST={}", result.steps.size(), result.steps.front().instant,
+                     result.steps.back().instant);
+}
+
+const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
+  const double precision = keywords.given("PRECISION") && !keywords.given("VALE_REFE") && !keywords.given("VALE_CALC")
+                               ? keywords.real("PRECISION")
+                               : default_instant_precision;
+  const double reach = precision * (instant == 0.0 ? 1.0 : std::abs(instant));
+  for (const ResultStep& step : result.steps) {
+    if (std::abs(step.instant - instant) <= reach) return step;
+  }
+  throw DiagnosticError("unknown-step", fmt::format("no step of the result stands at INST={}", instant), keywords.span_of("INST"),
+                        known_instants(result));
+}
+
+const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& result, std::int64_t order) {
+  for (const ResultStep& step : result.steps) {
+    if (step.order == order) return step;
+  }
+  throw DiagnosticError("unknown-step", fmt::format("no step of the result has NUME_ORDRE={}", order), keywords.span_of("NUME_ORDRE"),
+                        known_instants(result));
+}
+
+}  // namespace
+
+std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const solver::Result& result) {
+  std::vector<const ResultStep*> steps;
+  if (keywords.given("INST")) {
+    for (const double instant : keywords.reals("INST")) steps.push_back(&step_at(keywords, result, instant));
+  } else if (keywords.given("NUME_ORDRE")) {
+    for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order));
+  } else {
+    for (const ResultStep& step : result.steps) steps.push_back(&step);
+  }
+  return steps;
+}
+
+const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
+  const std::string& name = keywords.text("NOM_CHAM");
+  const auto found = step.fields.find(name);
+  if (found != step.fields.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [field, _] : step.fields) known.push_back(field);
+  throw DiagnosticError("unknown-field", fmt::format("step INST={} of the result holds no {}", step.instant, name),
+                        keywords.span_of("NOM_CHAM"),
+                        fmt::format("it holds {}; CALC_CHAMP computes more", fmt::join(known, ", ")));
+}
+
+int component_of(const Keywords& keywords, const std::vector<std::string>& components, const std::string& name) {
+  const auto found = std::find(components.begin(), components.end(), name);
+  if (found != components.end()) return static_cast<int>(found - components.begin());
+  throw DiagnosticError("unknown-component", "the field has no component " + name, keywords.span_of("NOM_CMP"),
+                        fmt::format("it has {}", fmt::join(components, ", ")));
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,22 @@
+// Finding a step, a field and a component in a result by the keywords of post-processing commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "commands/concepts.hpp"
+#include "interpreter/call.hpp"
+
+namespace comma::commands {
+
+/// The steps that NUME_ORDRE, INST (with PRECISION and CRITERE) or TOUT_ORDRE name; all when none is given.
+/// Throws DiagnosticError `unknown-step` listing the steps there are.
+std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keywords& keywords, const solver::Result& result);
+
+/// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.
+const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
+
+/// Index of a component among a field's names. Throws DiagnosticError `unknown-component` at NOM_CMP with the nearest name.
+int component_of(const interpreter::Keywords& keywords, const std::vector<std::string>& components, const std::string& name);
+
+}  // namespace comma::commands

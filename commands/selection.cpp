@@ -1,0 +1,104 @@
+#include "commands/selection.hpp"
+
+#include <numeric>
+
+#include "solver/error.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+
+namespace {
+
+// A list without repetition that keeps its order of arrival.
+class OrderedSet {
+ public:
+  explicit OrderedSet(int size) : seen_(static_cast<std::size_t>(size), false) {}
+  void add(int index) {
+    if (seen_[index]) return;
+    seen_[index] = true;
+    items_.push_back(index);
+  }
+  template <class Range>
+  void add_all(const Range& range) {
+    for (const int index : range) add(index);
+  }
+  std::vector<int> take() { return std::move(items_); }
+
+ private:
+  std::vector<bool> seen_;
+  std::vector<int> items_;
+};
+
+bool takes(const Keywords& keywords, const std::string& name) { return !name.empty() && keywords.given(name); }
+
+// Calls visit(group) for each group that the keyword names; a name that does not exist is told at the keyword's value.
+template <class Find, class Visit>
+void each_group(const Keywords& keywords, const std::string& keyword, Find find, Visit visit) {
+  for (const std::string& name : keywords.texts(keyword)) {
+    try {
+      visit(find(name));
+    } catch (const solver::Error& error) {
+      throw DiagnosticError(error.code(), keyword + ": " + error.what(), keywords.span_of(keyword), error.hint());
+    }
+  }
+}
+
+template <class Find, class Visit>
+void each_name(const Keywords& keywords, const std::string& keyword, const char* code, const char* what, Find find, Visit visit) {
+  for (const std::string& name : keywords.texts(keyword)) {
+    const int index = find(name);
+    if (index < 0) {
+      throw DiagnosticError(code, keyword + ": the mesh has no " + what + " " + name, keywords.span_of(keyword));
+    }
+    visit(index);
+  }
+}
+
+}  // namespace
+
+std::vector<int> selected_cells(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
+  OrderedSet cells(mesh.cell_count());
+  if (takes(keywords, names.all)) {
+    std::vector<int> all(static_cast<std::size_t>(mesh.cell_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (takes(keywords, names.cell_groups)) {
+    each_group(keywords, names.cell_groups, [&](const std::string& name) { return mesh.cell_group(name); },
+               [&](const std::vector<int>& group) { cells.add_all(group); });
+  }
+  if (takes(keywords, names.cells)) {
+    each_name(keywords, names.cells, "unknown-cell", "cell", [&](const std::string& name) { return mesh.find_cell(name); },
+              [&](int index) { cells.add(index); });
+  }
+  return cells.take();
+}
+
+std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
+  OrderedSet nodes(mesh.node_count());
+  if (takes(keywords, names.all)) {
+    for (int node = 0; node < mesh.node_count(); ++node) nodes.add(node);
+    return nodes.take();
+  }
+  if (takes(keywords, names.node_groups)) {
+    each_group(keywords, names.node_groups, [&](const std::string& name) { return mesh.node_group(name); },
+               [&](const std::vector<int>& group) { nodes.add_all(group); });
+  }
+  if (takes(keywords, names.nodes)) {
+    each_name(keywords, names.nodes, "unknown-node", "node", [&](const std::string& name) { return mesh.find_node(name); },
+              [&](int index) { nodes.add(index); });
+  }
+  for (const int cell : selected_cells(keywords, mesh, names)) nodes.add_all(mesh.cell(cell));
+  return nodes.take();
+}
+
+bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {
+  for (const std::string* name : {&names.all, &names.node_groups, &names.nodes, &names.cell_groups, &names.cells}) {
+    if (takes(keywords, *name)) return true;
+  }
+  return false;
+}
+
+}  // namespace comma::commands

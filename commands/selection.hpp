@@ -1,0 +1,34 @@
+// Nodes and cells that keywords name: TOUT, GROUP_NO, GROUP_MA, NOEUD, MAILLE.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpreter/call.hpp"
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::commands {
+
+/// The keywords that name places, under the names they have in the occurrence at hand (GROUP_MA_ESCL ...). An empty name is
+/// not looked at.
+struct PlaceKeywords {
+  std::string all = "TOUT";
+  std::string node_groups = "GROUP_NO";
+  std::string nodes = "NOEUD";
+  std::string cell_groups = "GROUP_MA";
+  std::string cells = "MAILLE";
+};
+
+/// The nodes that the keywords name, those of named cells included, each once, in the order of the file.
+/// Throws DiagnosticError `unknown-group`, `unknown-node`, `unknown-cell` at the keyword's value, with the nearest name.
+std::vector<int> selected_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
+                                const PlaceKeywords& names = {});
+
+/// The cells that the keywords name, each once. Throws as above.
+std::vector<int> selected_cells(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
+                                const PlaceKeywords& names = {});
+
+/// Whether any of the keywords is given.
+bool names_a_place(const interpreter::Keywords& keywords, const PlaceKeywords& names = {});
+
+}  // namespace comma::commands

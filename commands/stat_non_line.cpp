@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::LinearMethod;
+
+std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
+  std::vector<solver::AppliedLoad> loads;
+  for (const Keywords& excitation : call.factors("EXCIT")) {
+    solver::AppliedLoad& applied = loads.emplace_back();
+    applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    if (excitation.has("FONC_MULT")) applied.multiplier = time_function(excitation.data<FunctionConcept>("FONC_MULT"));
+  }
+  return loads;
+}
+
+solver::StaticProblem problem_of(const Call& call) {
+  solver::StaticProblem problem;
+  problem.model = call.data<ModelConcept>("MODELE").model;
+  problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
+  problem.properties = call.has("CARA_ELEM") ? call.data<PropertiesConcept>("CARA_ELEM").properties
+                                             : std::make_shared<const solver::ElementProperties>();
+  problem.loads = applied_loads(call);
+  if (call.has("CONTACT")) {
+    const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
+    if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
+      problem.contact = *contact;
+    } else {
+      problem.unilateral = std::get<std::vector<solver::UnilateralCondition>>(conditions);
+    }
+  }
+  return problem;
+}
+
+std::optional<LinearMethod> linear_method(const std::string& word) {
+  if (word == "MUMPS") return LinearMethod::mumps;
+  if (word == "MULT_FRONT") return LinearMethod::cholmod;
+  if (word == "LDLT") return LinearMethod::eigen_ldlt;
+  return std::nullopt;
+}
+
+solver::NewtonOptions newton_options(const Call& call) {
+  solver::NewtonOptions options;
+  if (call.has("CONVERGENCE")) {
+    const Keywords& convergence = call.factor("CONVERGENCE");
+    const bool relative = convergence.given("RESI_GLOB_RELA");
+    const bool absolute = convergence.given("RESI_GLOB_MAXI");
+    if (relative) options.relative_residual = convergence.real("RESI_GLOB_RELA");
+    if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
+    if (absolute && !relative) options.relative_residual.reset();
+    if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
+  }
+  if (call.has("SOLVEUR")) {
+    const Keywords& solver = call.factor("SOLVEUR");
+    // Without METHODE in the file the choice is comma's own: the fastest that is safe for the matrix.
+    if (solver.given("METHODE")) options.method = linear_method(solver.text("METHODE"));
+    if (solver.has("NPREC")) options.linear.singular_digits = static_cast<int>(solver.integer("NPREC"));
+  }
+  return options;
+}
+
+void show_header(const Context& context) {
+  context.console.progress("     instant  iter   relative   absolute  worst                 active  changes");
+}
+
+solver::IterationObserver live_table(const Context& context) {
+  if (context.console.verbosity() == Verbosity::quiet) return {};
+  return [&context](const solver::IterationReport& report) {
+    context.console.progress(fmt::format("  {:>10.5g} {:>5} {:>10.2e} {:>10.2e}  {:<20} {:>7} {:>8}", report.instant, report.iteration,
+                                         report.relative_residual, report.absolute_residual, report.worst,
+                                         report.active_conditions, report.contact_changes));
+  };
+}
+
+}  // namespace
+
+Product stat_non_line(const Call& call, Context& context) {
+  auto product = std::make_shared<ResultConcept>();
+  product->problem = problem_of(call);
+  product->result.model = product->problem.model;
+  const auto& instants = call.factor("INCREMENT").data<ListConcept>("LIST_INST").values;
+  show_header(context);
+  // What has converged stays readable although the computation goes on to fail.
+  call.result->data = product;
+  solver::solve_static(product->problem, instants, newton_options(call), product->result, context.counters, live_table(context));
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,29 @@
+// A table as commands exchange it: named columns, rows of cells that may be empty.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace comma::commands {
+
+using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
+
+/// Every row has as many cells as there are columns.
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;
+
+  /// Index of a column, -1 if there is none.
+  int column(std::string_view name) const;
+  /// Index of a column, added (empty in every row) if there is none.
+  int add_column(const std::string& name);
+};
+
+/// The table as aligned text: a `#` title, the column names, a line a row; an empty cell is `separator`'s "-".
+std::string format_table(const Table& table, std::string_view separator, const std::string& real_format);
+
+}  // namespace comma::commands

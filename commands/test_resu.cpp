@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "commands/commands.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::ElementField;
+using solver::NodalField;
+
+// The values that a test ranges over, gathered before TYPE_TEST reduces them.
+using Values = std::vector<double>;
+
+double reduced(const Keywords& test, const Values& values) {
+  const std::string& type = test.text("TYPE_TEST");
+  if (type == "MAX") return *std::max_element(values.begin(), values.end());
+  if (type == "MIN") return *std::min_element(values.begin(), values.end());
+  if (type == "SOMM") return std::accumulate(values.begin(), values.end(), 0.0);
+  return std::accumulate(values.begin(), values.end(), 0.0, [](double sum, double value) { return sum + std::abs(value); });
+}
+
+[[noreturn]] void not_carried(const Keywords& test, const std::string& place) {
+  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, test.text("NOM_CMP")),
+                        test.span_of("NOM_CMP"));
+}
+
+int single(const Keywords& test, const std::vector<int>& found, const std::string& keyword, const char* what) {
+  if (found.size() == 1) return found.front();
+  throw DiagnosticError("wrong-count", fmt::format("{} names {} {}s; a value is tested at one", keyword, found.size(), what),
+                        test.span_of(keyword), "name a group of one, or use TYPE_TEST over several");
+}
+
+std::string place_keyword(const Keywords& test, const PlaceKeywords& names) {
+  for (const std::string* name : {&names.node_groups, &names.nodes, &names.cell_groups, &names.cells}) {
+    if (!name->empty() && test.given(*name)) return *name;
+  }
+  return names.all;
+}
+
+const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
+const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+
+std::vector<int> components_tested(const Keywords& test, const std::vector<std::string>& components) {
+  if (test.given("NOM_CMP")) return {component_of(test, components, test.texts("NOM_CMP").front())};
+  std::vector<int> all(components.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+double nodal_value(const Keywords& test, const NodalField& field, const solver::Mesh& mesh) {
+  const auto components = components_tested(test, field.components);
+  if (test.given("TYPE_TEST")) {
+    auto nodes = names_a_place(test) ? selected_nodes(test, mesh) : std::vector<int>();
+    if (nodes.empty()) {
+      nodes.resize(static_cast<std::size_t>(mesh.node_count()));
+      std::iota(nodes.begin(), nodes.end(), 0);
+    }
+    Values values;
+    for (const int node : nodes) {
+      for (const int component : components) {
+        if (const double value = field.at(node, component); !std::isnan(value)) values.push_back(value);
+      }
+    }
+    if (values.empty()) not_carried(test, "the field");
+    return reduced(test, values);
+  }
+  const std::string keyword = place_keyword(test, node_places);
+  const int node = single(test, selected_nodes(test, mesh, node_places), keyword, "node");
+  const double value = field.at(node, components.front());
+  if (std::isnan(value)) not_carried(test, "node " + mesh.node_name(node));
+  return value;
+}
+
+int local_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
+  if (test.given("POINT")) {
+    const auto point = test.integer("POINT");
+    if (point >= 1 && point <= field.points(cell)) return static_cast<int>(point) - 1;
+    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), field.points(cell)),
+                          test.span_of("POINT"), "points count from 1");
+  }
+  if (field.support == solver::Support::cell) return 0;
+  const int node = single(test, selected_nodes(test, mesh, node_places), place_keyword(test, node_places), "node");
+  const auto nodes = mesh.cell(cell);
+  const auto found = std::find(nodes.begin(), nodes.end(), node);
+  if (found == nodes.end() || field.support != solver::Support::element_node) {
+    throw DiagnosticError("unknown-node", fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)),
+                          test.span, "name a node of the cell and a field at its nodes (..._ELNO), or a POINT");
+  }
+  return static_cast<int>(found - nodes.begin());
+}
+
+double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
+  const auto components = components_tested(test, field.components);
+  auto cells = selected_cells(test, mesh, cell_places);
+  if (test.given("TYPE_TEST")) {
+    if (cells.empty()) {
+      cells.resize(static_cast<std::size_t>(mesh.cell_count()));
+      std::iota(cells.begin(), cells.end(), 0);
+    }
+    Values values;
+    for (const int cell : cells) {
+      for (int point = 0; point < field.points(cell); ++point) {
+        for (const int component : components) {
+          if (const double value = field.at(cell, point, component); !std::isnan(value)) values.push_back(value);
+        }
+      }
+    }
+    if (values.empty()) not_carried(test, "the field");
+    return reduced(test, values);
+  }
+  const int cell = single(test, cells, place_keyword(test, cell_places), "cell");
+  if (field.points(cell) == 0) not_carried(test, "cell " + mesh.cell_name(cell));
+  const double value = field.at(cell, local_point(test, field, cell, mesh), components.front());
+  if (std::isnan(value)) not_carried(test, "cell " + mesh.cell_name(cell));
+  return value;
+}
+
+double field_value(const Keywords& test, const solver::Field& field, const solver::Mesh& mesh) {
+  if (const auto* nodal = std::get_if<NodalField>(&field)) return nodal_value(test, *nodal, mesh);
+  return element_value(test, std::get<ElementField>(field), mesh);
+}
+
+TestedValue parameter_value(const Keywords& test, const solver::ResultStep& step) {
+  const std::string& name = test.text("PARA");
+  if (name == "INST") return step.instant;
+  if (name == "NUME_ORDRE") return static_cast<std::int64_t>(step.order);
+  const auto found = step.parameters.find(name);
+  if (found == step.parameters.end()) {
+    throw DiagnosticError("unknown-parameter", "the result has no parameter " + name, test.span_of("PARA"));
+  }
+  if (test.given("VALE_CALC_I") || test.given("VALE_REFE_I")) return static_cast<std::int64_t>(std::llround(found->second));
+  return found->second;
+}
+
+// "DEPL DY at A, INST=20": what a reader of the verdict needs to find the value again.
+std::string label_of(const Keywords& test, const solver::ResultStep& step) {
+  std::string label = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
+  if (test.given("NOM_CMP")) label += " " + test.texts("NOM_CMP").front();
+  if (test.given("TYPE_TEST")) label += " " + test.text("TYPE_TEST");
+  const char* lead = " at ";
+  for (const char* keyword : {"GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"}) {
+    if (!test.given(keyword)) continue;
+    label += lead + fmt::format("{}", fmt::join(test.texts(keyword), " "));
+    lead = " of ";
+  }
+  if (test.given("POINT")) label += fmt::format(" point {}", test.integer("POINT"));
+  return label + fmt::format(", INST={:g}", step.instant);
+}
+
+void test_result(const Keywords& test, Context& context) {
+  const auto& data = interpreter::data_of<ResultConcept>(test.concept_of("RESULTAT"), "RESULTAT");
+  const auto steps = selected_steps(test, data.result);
+  if (steps.size() != 1) {
+    throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; a value is tested at one", steps.size()),
+                          test.span, "give INST or NUME_ORDRE");
+  }
+  const solver::ResultStep& step = *steps.front();
+  const TestedValue value = test.given("PARA") ? parameter_value(test, step)
+                                               : field_value(test, field_of(test, step), *data.result.model->mesh);
+  for (Verdict& verdict : judge(test, "TEST_RESU", label_of(test, step), value)) {
+    context.report(std::move(verdict));
+  }
+}
+
+}  // namespace
+
+Product test_resu(const Call& call, Context& context) {
+  for (const Keywords& test : call.factors("RESU")) test_result(test, context);
+  return nullptr;
+}
+
+}  // namespace comma::commands

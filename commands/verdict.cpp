@@ -1,0 +1,97 @@
+#include "commands/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace comma::commands {
+
+using interpreter::Keywords;
+
+namespace {
+
+double as_double(const TestedValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  return std::get<double>(value);
+}
+
+// A relative criterion has no meaning around a zero reference: then the error is absolute, unless ORDRE_GRANDEUR gives
+// the scale that it is relative to.
+void compare(Verdict& verdict) {
+  const TestedValue& computed = *verdict.computed;
+  if (std::holds_alternative<std::string>(verdict.reference) || std::holds_alternative<std::string>(computed)) {
+    verdict.passed = verdict.reference == computed;
+    verdict.error = verdict.passed ? 0.0 : 1.0;
+    return;
+  }
+  const double reference = as_double(verdict.reference);
+  const double scale = std::abs(verdict.order_of_magnitude.value_or(reference));
+  if (scale == 0.0) verdict.relative = false;
+  const double difference = std::abs(as_double(computed) - reference);
+  verdict.error = verdict.relative ? difference / scale : difference;
+  verdict.passed = verdict.error <= verdict.tolerance;  // false for a NaN
+}
+
+std::optional<TestedValue> given_reference(const Keywords& test, const std::string& stem) {
+  if (test.given(stem)) return test.reals(stem).front();
+  if (test.given(stem + "_I")) return test.integers(stem + "_I").front();
+  if (test.given(stem + "_K")) return test.texts(stem + "_K").front();
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Verdict> judge(const Keywords& test, const std::string& command, const std::string& label,
+                           const TestedValue& computed) {
+  Verdict common;
+  common.file = test.span ? test.span.file->path() : "";
+  common.line = test.span ? test.span.file->position(test.span.begin).line : 0;
+  common.command = command;
+  common.label = label;
+  common.computed = computed;
+  common.relative = test.texts("CRITERE").empty() || test.texts("CRITERE").front() == "RELATIF";
+  if (test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI" && std::holds_alternative<double>(computed)) {
+    common.computed = std::abs(std::get<double>(computed));
+  }
+
+  std::vector<Verdict> verdicts;
+  if (const auto reference = given_reference(test, "VALE_CALC")) {
+    Verdict verdict = common;
+    verdict.kind = "VALE_CALC";
+    verdict.reference_type = "NON_REGRESSION";
+    verdict.reference = *reference;
+    verdict.tolerance = test.reals("TOLE_MACHINE").front();
+    if (test.given("ORDRE_GRANDEUR")) {
+      verdict.order_of_magnitude = test.real("ORDRE_GRANDEUR");
+      verdict.relative = true;
+    }
+    compare(verdict);
+    verdicts.push_back(std::move(verdict));
+  }
+  if (const auto reference = given_reference(test, "VALE_REFE")) {
+    Verdict verdict = common;
+    verdict.kind = "VALE_REFE";
+    verdict.reference_type = test.has("REFERENCE") ? test.text("REFERENCE") : "NON_DEFINI";
+    verdict.reference = *reference;
+    verdict.tolerance = test.reals("PRECISION").front();
+    compare(verdict);
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+std::string format_verdict(const Verdict& verdict) {
+  const auto shown = [](const TestedValue& value) {
+    if (const auto* real = std::get_if<double>(&value)) return fmt::format("{:.9g}", *real);
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+    return std::get<std::string>(value);
+  };
+  const std::string judged = fmt::format("{} {} {} {}", verdict.relative ? "relative error" : "absolute error",
+                                         fmt::format("{:.1e}", verdict.error), verdict.passed ? "<=" : "over",
+                                         fmt::format("{:.1e}", verdict.tolerance));
+  return fmt::format("{} {:<34} {} {:<16} {:>16}  computed {:>16}  {}", verdict.passed ? "  ok    " : "  FAILED", verdict.label,
+                     verdict.kind, verdict.kind == "VALE_CALC" ? "" : verdict.reference_type, shown(verdict.reference),
+                     verdict.computed ? shown(*verdict.computed) : "nothing", judged);
+}
+
+}  // namespace comma::commands

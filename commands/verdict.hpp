@@ -1,0 +1,40 @@
+// Verdicts: a computed value against a reference, by Code_Aster's rules (U4.92.01).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "interpreter/call.hpp"
+
+namespace comma::commands {
+
+using TestedValue = std::variant<double, std::int64_t, std::string>;
+
+/// One tested reference, as the JSON report lists it.
+struct Verdict {
+  std::string file;
+  int line = 0;
+  std::string command;
+  std::string label;           ///< "DEPL DY at A, INST=20"
+  std::string kind;            ///< "VALE_CALC" or "VALE_REFE"
+  std::string reference_type;  ///< "ANALYTIQUE", ...; "NON_REGRESSION" for VALE_CALC
+  TestedValue reference;
+  std::optional<TestedValue> computed;
+  bool relative = true;
+  double tolerance = 0.0;
+  std::optional<double> order_of_magnitude;
+  double error = 0.0;
+  bool passed = false;
+};
+
+/// Judges a value against every reference that the keywords of a TEST_* occurrence give (VALE_CALC, VALE_CALC_I, VALE_REFE,
+/// VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS).
+std::vector<Verdict> judge(const interpreter::Keywords& test, const std::string& command, const std::string& label,
+                           const TestedValue& computed);
+
+/// One line for the console: ok or FAILED, what, the computed value, the reference, the error against its tolerance.
+std::string format_verdict(const Verdict& verdict);
+
+}  // namespace comma::commands
