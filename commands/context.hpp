@@ -22,17 +22,19 @@ class Console {
   explicit Console(Verbosity verbosity) : verbosity_(verbosity) {}
 
   Verbosity verbosity() const { return verbosity_; }
+  /// Text as it is: what the file's own print() says.
+  void print(std::string_view text) const { std::fwrite(text.data(), 1, text.size(), stdout); }
   /// A line that every run shows; `detail` one that only -v shows, `progress` one that -q leaves out.
-  void line(std::string_view text) const { print(text); }
+  void line(std::string_view text) const { print_line(text); }
   void progress(std::string_view text) const {
-    if (verbosity_ != Verbosity::quiet) print(text);
+    if (verbosity_ != Verbosity::quiet) print_line(text);
   }
   void detail(std::string_view text) const {
-    if (verbosity_ == Verbosity::verbose) print(text);
+    if (verbosity_ == Verbosity::verbose) print_line(text);
   }
 
  private:
-  static void print(std::string_view text) {
+  static void print_line(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stdout);
     std::fputc('\n', stdout);
   }

@@ -11,6 +11,21 @@ namespace fs = std::filesystem;
 Files::Files(fs::path command_file, std::vector<ExportFile> exported, fs::path output_folder)
     : command_file_(std::move(command_file)), exported_(std::move(exported)), output_folder_(std::move(output_folder)) {}
 
+namespace {
+
+// The files of a folder that have one of the extensions.
+std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::string>& extensions) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder)) {
+    for (const std::string& extension : extensions) {
+      if (entry.is_regular_file() && entry.path().extension() == "." + extension) found.push_back(entry.path());
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
 fs::path Files::input(int unit, const std::vector<std::string>& extensions) const {
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
@@ -27,6 +42,7 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
       tried += (tried.empty() ? "" : ", ") + candidate.filename().string();
     }
   }
+  if (const auto others = files_with(command_file_.parent_path(), extensions); others.size() == 1) return others.front();
   throw interpreter::DiagnosticError("missing-file", "no file stands for unit " + std::to_string(unit), {},
                                      "put one of " + tried + " beside the command file, or name it in an .export");
 }

@@ -24,8 +24,8 @@ class Files {
   Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
 
   /// The input file of a unit: the .export's, else a file beside the command file with its stem and one of the extensions,
-  /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed). Throws DiagnosticError
-  /// `missing-file` listing what was looked for.
+  /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
+  /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
 
   /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,

@@ -7,11 +7,12 @@ namespace comma::commands {
 namespace {
 
 solver::Mesh read(const Call& call, const Context& context) {
-  const std::string& format = call.text("FORMAT");
+  const bool text = call.text("FORMAT") == "ASTER";
   const int unit = static_cast<int>(call.integer("UNITE"));
-  if (format == "ASTER") return solver::read_aster_mesh(context.files.input(unit, {"mail", "aster"}).string());
-  const std::string name = call.has("NOM_MED") ? call.text("NOM_MED") : "";
-  return solver::read_med_mesh(context.files.input(unit, {"mmed", "med"}).string(), name);
+  const std::vector<std::string> extensions = text ? std::vector<std::string>{"mail", "aster"} : std::vector<std::string>{"mmed", "med"};
+  const std::string path = context.files.input(unit, extensions).string();
+  context.console.progress("  reads " + path);
+  return text ? solver::read_aster_mesh(path) : solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ Product run_located(Function function, const Call& call, Context& context) {
 
 }  // namespace
 
-CommandTable make_command_table(Context& context) {
-  CommandTable table;
+interpreter::CommandTable make_command_table(Context& context) {
+  interpreter::CommandTable table;
   for (const auto& [name, function] : functions) {
     table.emplace(name, [function = function, &context](const Call& call) { return run_located(function, call, context); });
   }

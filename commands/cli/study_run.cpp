@@ -1,0 +1,100 @@
+#include "commands/cli/study_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "commands/catalogue.hpp"
+#include "commands/cli/options.hpp"
+#include "commands/registry.hpp"
+#include "interpreter/evaluator.hpp"
+#include "interpreter/parser.hpp"
+
+namespace comma::commands {
+
+namespace fs = std::filesystem;
+using interpreter::Diagnostic;
+using interpreter::Severity;
+
+namespace {
+
+// Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any other
+// error says that the file is wrong.
+constexpr std::array<std::string_view, 7> computation_codes = {"no-convergence",   "singular-matrix", "contradictory-conditions",
+                                                               "contact-cycling",  "not-finite",      "interpenetration",
+                                                               "command-failed"};
+constexpr std::array<std::string_view, 4> machine_codes = {"internal-error", "out-of-memory", "unwritable-file", "missing-library"};
+
+template <class Codes>
+bool is_one_of(const Codes& codes, const std::string& code) {
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
+int status_of(const Diagnostic& diagnostic) {
+  if (is_one_of(machine_codes, diagnostic.code)) return anything_else;
+  return is_one_of(computation_codes, diagnostic.code) ? the_computation_failed : the_file_is_wrong;
+}
+
+}  // namespace
+
+Study open_study(const fs::path& file) {
+  if (file.extension() == ".export") return read_export(file, fs::current_path());
+  if (!fs::is_regular_file(file)) {
+    throw interpreter::DiagnosticError("missing-file", "there is no file " + file.string());
+  }
+  return Study{{file}, {}};
+}
+
+StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options)
+    : study_(std::move(study)),
+      context_{Files(study_.command_files.front(), study_.files, fs::current_path()), Console(verbosity), diagnostics_},
+      commands_(make_command_table(context_)),
+      catalogue_(catalogue_blobs()),
+      session_(catalogue_, commands_, diagnostics_, options) {}
+
+void StudyRun::run() {
+  interpreter::Evaluator evaluator(session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); });
+  for (const fs::path& file : study_.command_files) {
+    const auto tree = interpreter::parse(interpreter::SourceFile::read(file.string()), diagnostics_);
+    evaluator.run(tree);
+  }
+  session_.finish();
+}
+
+void print_diagnostics(const interpreter::Diagnostics& diagnostics, bool alarms) {
+  std::vector<Diagnostic> ordered = diagnostics.items();
+  std::stable_partition(ordered.begin(), ordered.end(), [](const Diagnostic& item) { return item.severity != Severity::error; });
+  std::fflush(stdout);
+  for (const Diagnostic& diagnostic : ordered) {
+    if (!alarms && diagnostic.severity != Severity::error) continue;
+    const std::string text = interpreter::render(diagnostic) + "\n";
+    std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+}
+
+// A wrong file outweighs a failed computation, since it may have caused it; what is comma's own fault outweighs both.
+int status_of(const interpreter::Diagnostics& diagnostics) {
+  bool wrong = false, failed = false;
+  for (const Diagnostic& diagnostic : diagnostics.items()) {
+    if (diagnostic.severity != Severity::error) continue;
+    const int status = status_of(diagnostic);
+    if (status == anything_else) return anything_else;
+    wrong |= status == the_file_is_wrong;
+    failed |= status == the_computation_failed;
+  }
+  if (wrong) return the_file_is_wrong;
+  return failed ? the_computation_failed : 0;
+}
+
+std::string status_word(int exit_status) {
+  switch (exit_status) {
+    case all_verdicts_hold: return "passed";
+    case a_verdict_fails: return "failed";
+    case the_file_is_wrong: return "invalid";
+    default: return "error";
+  }
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,48 @@
+// One pass over a study: its command files parsed, evaluated, checked and, if wanted, executed.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "commands/cli/export_file.hpp"
+#include "commands/cli/report.hpp"
+#include "commands/context.hpp"
+#include "interpreter/session.hpp"
+
+namespace comma::commands {
+
+/// The command files and other files behind a `.comm` or an `.export`.
+Study open_study(const std::filesystem::path& file);
+
+/// What a pass needs and what it leaves: the graph, the verdicts, the diagnostics.
+class StudyRun {
+ public:
+  StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options);
+
+  /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in diagnostics().
+  void run();
+
+  const interpreter::CommandGraph& graph() const { return session_.graph(); }
+  const interpreter::Diagnostics& diagnostics() const { return diagnostics_; }
+  const Context& context() const { return context_; }
+
+ private:
+  Study study_;
+  interpreter::Diagnostics diagnostics_;
+  Context context_;
+  interpreter::CommandTable commands_;
+  interpreter::Catalogue catalogue_;
+  interpreter::Session session_;
+};
+
+/// Prints the diagnostics, errors last so that they stay in sight. `alarms` false: errors only.
+void print_diagnostics(const interpreter::Diagnostics& diagnostics, bool alarms);
+
+/// The exit status that the errors call for; 0 if there are none.
+int status_of(const interpreter::Diagnostics& diagnostics);
+
+/// The status word of the report for an exit status.
+std::string status_word(int exit_status);
+
+}  // namespace comma::commands
