@@ -1,0 +1,391 @@
+#include "interpreter/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "interpreter/check_rules.hpp"
+#include "interpreter/check_value.hpp"
+
+namespace comma::interpreter {
+namespace {
+
+/// The keywords that conditions see: those of the level, then those of the levels around it. An absent one is None.
+struct Scope {
+  const Scope* outer = nullptr;
+  std::map<std::string, Value, std::less<>> values;
+
+  std::optional<Value> lookup(std::string_view name) const {
+    for (const Scope* scope = this; scope != nullptr; scope = scope->outer)
+      if (const auto found = scope->values.find(name); found != scope->values.end()) return found->second;
+    return std::nullopt;
+  }
+};
+
+enum class Truth { no, yes, unknown };
+
+Truth holds(const Expression& condition, const Scope& scope) {
+  const auto lookup = [&](std::string_view name) -> std::optional<Value> {
+    if (auto value = scope.lookup(name)) return value;
+    const bool keyword = std::ranges::find(condition.variables(), name) != condition.variables().end();
+    return keyword ? std::optional(Value()) : std::nullopt;
+  };
+  if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
+  return condition.holds(lookup) ? Truth::yes : Truth::no;
+}
+
+/// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whatever their conditions.
+template <class Visit>
+void visit_keywords(const LevelPage& level, const std::string& conditions, const Visit& visit) {
+  for (const KeywordPage& keyword : level.keywords) visit(keyword, conditions);
+  for (const BlockPage& block : level.blocks)
+    visit_keywords(block.inside, conditions.empty() ? block.when : conditions + " and " + block.when, visit);
+}
+
+/// An argument of the level on its way to its keyword.
+struct Pending {
+  std::string name;  ///< the catalogue's name, when it was written with an older one
+  const Argument* argument = nullptr;
+  bool used = false;
+};
+
+/// One _F(...) of a factor keyword.
+struct Occurrence {
+  std::vector<Argument> arguments;
+  Span span;
+};
+
+std::optional<Occurrence> occurrence_of(const Value& value, const Span& otherwise) {
+  if (!value.is_factor()) return std::nullopt;
+  const Factor& factor = value.as_factor();
+  return Occurrence{factor.arguments, factor.span ? factor.span : otherwise};
+}
+
+/// A single _F(...), or a tuple or list of them; unknown ones are left out.
+std::optional<std::vector<Occurrence>> occurrences_of(const Value& value, const Span& span) {
+  std::vector<Value> items{value};
+  if (value.is_sequence()) items.assign(value.items().begin(), value.items().end());
+  std::vector<Occurrence> occurrences;
+  for (const Value& item : items) {
+    if (item.is_unknown()) continue;
+    auto occurrence = occurrence_of(item, span);
+    if (!occurrence) return std::nullopt;
+    occurrences.push_back(std::move(*occurrence));
+  }
+  return occurrences;
+}
+
+/// Checks one level: the keywords of a call, or of one occurrence of a factor.
+class LevelCheck {
+ public:
+  LevelCheck(const LevelPage& level, std::string label, Span span, const Scope* outer, CheckContext& context)
+      : level_(level), label_(std::move(label)), span_(std::move(span)), context_(context) {
+    scope_.outer = outer;
+    result_.span = span_;
+  }
+
+  Keywords run(const std::vector<Argument>& arguments) {
+    resolve(arguments);
+    for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
+    activate(level_, true);
+    for (const Pending& pending : pending_)
+      if (!pending.used) report_stray(pending);
+    return std::move(result_);
+  }
+
+  const Scope& scope() const { return scope_; }
+
+ private:
+  /// A factor keyword is True for conditions: they only ask whether it is there.
+  static Value seen_by_conditions(const Value& value) { return value.is_factor() ? Value(true) : value; }
+
+  void resolve(const std::vector<Argument>& arguments) {
+    std::map<std::string, std::string, std::less<>> canonical;
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
+      for (const std::string& alias : keyword.aliases) canonical.emplace(alias, keyword.name);
+    });
+    for (const Argument& argument : arguments) {
+      if (argument.value->is_none()) continue;  // KEYWORD=None is Code_Aster's way to leave a keyword out
+      const auto alias = canonical.find(argument.name);
+      add_pending({alias == canonical.end() ? argument.name : alias->second, &argument, false});
+    }
+  }
+
+  void add_pending(Pending pending) {
+    const bool twice = std::ranges::any_of(pending_, [&](const Pending& other) { return other.name == pending.name; });
+    if (!twice) {
+      given_.push_back({pending.name, pending.argument->name_span});
+      pending_.push_back(std::move(pending));
+      return;
+    }
+    const std::string also = pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
+    context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
+                               pending.argument->name_span, "keep one of them");
+  }
+
+  /// `certain` is false in a block whose condition depends on a value that is unknown: nothing is missing there.
+  void activate(const LevelPage& level, bool certain) {
+    for (const KeywordPage& keyword : level.keywords) take(keyword, certain);
+    if (certain) check_rules(level.rules, given_, label_, span_, context_.diagnostics);
+    for (const BlockPage& block : level.blocks) {
+      const Truth truth = holds(*block.condition, scope_);
+      if (truth != Truth::no) activate(block.inside, certain && truth == Truth::yes);
+    }
+  }
+
+  void take(const KeywordPage& keyword, bool certain) {
+    if (!defined_.insert(keyword.name).second) return;
+    const auto pending = std::ranges::find(pending_, keyword.name, &Pending::name);
+    if (pending != pending_.end()) {
+      pending->used = true;
+      take_given(keyword, *pending->argument);
+    } else if (certain) {
+      take_default(keyword);
+    }
+  }
+
+  void take_given(const KeywordPage& keyword, const Argument& argument) {
+    const std::string label = label_ + "/" + keyword.name;
+    const bool was_quiet = context_.quiet;
+    if (!keyword.supported) {
+      context_.report_unsupported(fmt::format("comma does not support {} yet", label), argument.name_span);
+      context_.quiet = true;
+    }
+    Keyword item{keyword.name, Value(), {}, argument.name_span, argument.value_span, true};
+    const bool right = keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
+    if (right) result_.items.push_back(std::move(item));
+    context_.quiet = was_quiet;
+  }
+
+  bool take_value(const KeywordPage& keyword, const Argument& argument, const std::string& label, Keyword& item) {
+    auto value = check_value(*argument.value, keyword, label, argument.value_span, context_);
+    if (!value) {
+      scope_.values[keyword.name] = Value::unknown();  // a condition on a wrong value would only make further errors
+      return false;
+    }
+    item.value = std::move(*value);
+    scope_.values[keyword.name] = item.value;
+    return true;
+  }
+
+  bool take_factor(const KeywordPage& keyword, const Argument& argument, const std::string& label, Keyword& item) {
+    scope_.values[keyword.name] = Value(true);
+    if (argument.value->is_unknown()) {
+      item.value = *argument.value;
+      return true;
+    }
+    const auto occurrences = occurrences_of(*argument.value, argument.value_span);
+    if (!occurrences) {
+      context_.diagnostics.error("wrong-type", fmt::format("{} wants _F(...), not {}", label, argument.value->repr()),
+                                 argument.value_span, fmt::format("write {}=_F(...)", keyword.name));
+      return false;
+    }
+    check_occurrence_count(keyword, label, occurrences->size(), argument.value_span);
+    for (const Occurrence& occurrence : *occurrences)
+      item.factors.push_back(check_occurrence(keyword, occurrence.arguments, label, occurrence.span));
+    return true;
+  }
+
+  void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count, const Span& span) {
+    const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "_F(...)");
+    const bool too_many = keyword.max_count != unlimited && count > static_cast<std::size_t>(keyword.max_count);
+    if (too_many)
+      context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count), span);
+    else if (count < static_cast<std::size_t>(keyword.min_count))
+      context_.diagnostics.error("wrong-count", fmt::format("{} takes {}, not {}", label, wanted, count), span);
+  }
+
+  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments, const std::string& label,
+                            const Span& span) {
+    return LevelCheck(keyword.inside, label, span, &scope_, context_).run(arguments);
+  }
+
+  void take_default(const KeywordPage& keyword) {
+    if (keyword.required) {
+      context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_, keyword.doc);
+      return;
+    }
+    Keyword item{keyword.name, Value(), {}, Span(), Span(), false};
+    if (keyword.present_by_default) {
+      item.factors.push_back(check_occurrence(keyword, {}, label_ + "/" + keyword.name, span_));
+    } else if (keyword.default_value) {
+      item.value = default_of(keyword);
+      scope_.values[keyword.name] = item.value;
+    } else {
+      return;
+    }
+    result_.items.push_back(std::move(item));
+  }
+
+  /// Defaults obey their page (the build checks it), so nothing can be reported here.
+  Value default_of(const KeywordPage& keyword) const {
+    Diagnostics nothing;
+    CheckContext context{context_.catalogue, nothing};
+    auto value = check_value(*keyword.default_value, keyword, keyword.name, Span(), context);
+    assert(value);
+    return value ? *value : Value::unknown();
+  }
+
+  /// A keyword that the level does not have, or not now.
+  void report_stray(const Pending& pending) {
+    std::vector<std::string> conditions, known;
+    std::string home;
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string& when) {
+      if (keyword.name == pending.name) conditions.push_back(when);
+      known.push_back(keyword.name);
+      if (keyword.is_factor() && has_keyword(keyword.inside, pending.name)) home = keyword.name;
+    });
+    const Span& span = pending.argument->name_span;
+    if (!conditions.empty()) {
+      context_.diagnostics.error("unknown-keyword",
+                                 fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
+      return;
+    }
+    const std::string near = nearest(pending.name, known);
+    std::string hint;
+    if (!home.empty())
+      hint = fmt::format("it belongs inside {}=_F(...)", home);
+    else if (!near.empty())
+      hint = fmt::format("did you mean {}?", near);
+    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span, hint);
+  }
+
+  static bool has_keyword(const LevelPage& level, const std::string& name) {
+    bool found = false;
+    visit_keywords(level, "", [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
+    return found;
+  }
+
+  const LevelPage& level_;
+  std::string label_;
+  Span span_;
+  CheckContext& context_;
+  Scope scope_;
+  std::vector<Pending> pending_;
+  std::vector<GivenKeyword> given_;
+  std::set<std::string, std::less<>> defined_;
+  Keywords result_;
+};
+
+bool holds_unknown(const Keywords& keywords);
+
+bool holds_unknown(const Keyword& keyword) {
+  if (keyword.value.is_unknown()) return true;
+  if (keyword.value.is_sequence() && std::ranges::any_of(keyword.value.items(), &Value::is_unknown)) return true;
+  return std::ranges::any_of(keyword.factors, [](const Keywords& factor) { return holds_unknown(factor); });
+}
+
+bool holds_unknown(const Keywords& keywords) {
+  return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
+}
+
+/// Whether the concept stands at "A" or in an occurrence at "A/B".
+bool holds_at(const Keywords& keywords, std::string_view path, const Concept* handle) {
+  const std::size_t slash = path.find('/');
+  if (slash == std::string_view::npos) {
+    const auto& items = keywords.items;
+    const auto found = std::ranges::find(items, path, &Keyword::name);
+    if (found == items.end()) return false;
+    if (found->value.is_unknown()) return true;
+    if (found->value.is_concept()) return found->value.as_concept().get() == handle;
+    if (!found->value.is_sequence()) return false;
+    return std::ranges::any_of(found->value.items(),
+                               [&](const Value& item) { return item.is_concept() && item.as_concept().get() == handle; });
+  }
+  const auto& factors = keywords.factors(path.substr(0, slash));
+  return std::ranges::any_of(factors, [&](const Keywords& factor) { return holds_at(factor, path.substr(slash + 1), handle); });
+}
+
+/// The checks of reuse=.
+class ReuseCheck {
+ public:
+  ReuseCheck(const CommandCall& written, const CommandPage& page, const Argument* reuse, CheckContext& context)
+      : written_(written), page_(page), reuse_(reuse), context_(context) {}
+
+  void run(CheckedCall& checked) {
+    if (reuse_ == nullptr) {
+      if (page_.reuse == Reuse::compulsory)
+        error(fmt::format("{} changes {} in place and needs reuse=", page_.name, page_.reuse_same_as.front()),
+              written_.name_span, fmt::format("add reuse= with the concept of {}", page_.reuse_same_as.front()));
+      return;
+    }
+    const Value& value = *reuse_->value;
+    if (value.is_unknown()) return;
+    if (page_.reuse == Reuse::none) return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
+    if (!value.is_concept()) return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
+    check_concept(value.as_concept(), checked);
+  }
+
+ private:
+  void check_concept(const ConceptPtr& handle, CheckedCall& checked) {
+    const bool fits = std::ranges::any_of(
+        page_.products, [&](const ProductPage& product) { return context_.catalogue.is_a(handle->type, product.type); });
+    if (!fits)
+      return error(fmt::format("{} cannot change {} in place: it is {} ({})", page_.name, handle->name,
+                               with_article(context_.catalogue.describe_type(handle->type)), handle->type),
+                   reuse_->value_span);
+    const bool same = std::ranges::any_of(page_.reuse_same_as,
+                                          [&](const std::string& path) { return holds_at(checked.call, path, handle.get()); });
+    if (!same)
+      error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
+            reuse_->value_span);
+    checked.call.result = handle;
+    checked.call.reuse = true;
+    checked.product_type = handle->type;
+  }
+
+  void error(std::string message, const Span& span, std::string hint = {}) {
+    context_.diagnostics.error("bad-reuse", std::move(message), span, std::move(hint));
+  }
+
+  const CommandCall& written_;
+  const CommandPage& page_;
+  const Argument* reuse_;
+  CheckContext& context_;
+};
+
+std::string product_type(const CommandPage& page, const Scope& scope) {
+  for (const ProductPage& product : page.products)
+    if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes) return product.type;
+  return "";
+}
+
+std::size_t count_errors(const Diagnostics& diagnostics) {
+  return static_cast<std::size_t>(std::ranges::count(diagnostics.items(), Severity::error, &Diagnostic::severity));
+}
+
+}  // namespace
+
+CheckedCall check_call(const CommandCall& written, const CommandPage& page, const Catalogue& catalogue,
+                       Diagnostics& diagnostics, Severity unsupported) {
+  const std::size_t errors_before = count_errors(diagnostics);
+  CheckContext context{catalogue, diagnostics, unsupported};
+  if (!page.supported) {
+    context.report_unsupported(fmt::format("comma does not support {} yet", page.name), written.name_span);
+    context.quiet = true;
+  }
+
+  const auto reuse = std::ranges::find(written.arguments, "reuse", &Argument::name);
+  std::vector<Argument> arguments;
+  std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse"; });
+
+  LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
+  CheckedCall checked;
+  static_cast<Keywords&>(checked.call) = level.run(arguments);
+  checked.call.span = written.span;
+  checked.call.command = page.name;
+  checked.product_type = product_type(page, level.scope());
+  const bool reused = reuse != written.arguments.end() && !reuse->value->is_none();
+  ReuseCheck(written, page, reused ? &*reuse : nullptr, context).run(checked);
+
+  checked.sound = count_errors(diagnostics) == errors_before;
+  const bool unknown_reuse = reused && reuse->value->is_unknown();
+  checked.complete = checked.sound && !context.met_unsupported && !unknown_reuse && !holds_unknown(checked.call);
+  return checked;
+}
+
+}  // namespace comma::interpreter

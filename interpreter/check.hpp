@@ -1,0 +1,27 @@
+// Turns a call as it was written into a call that a command can trust. Every problem of the call is reported, each once,
+// at the keyword or the value that has it; see check_value.hpp for single values and check_rules.hpp for relations.
+#pragma once
+
+#include <string>
+
+#include "interpreter/call.hpp"
+#include "interpreter/catalogue.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "interpreter/host.hpp"
+
+namespace comma::interpreter {
+
+struct CheckedCall {
+  Call call;                 ///< call.result is the reused concept, or null: the session makes the new one
+  std::string product_type;  ///< type of the concept that it gives, or empty
+  bool sound = true;         ///< no error was reported
+  bool complete = true;      ///< it may run: no value is unknown and comma supports everything in it
+};
+
+/// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count, out-of-bounds,
+/// unknown-word, too-many-occurrences, missing-one-of, exclusive-keywords, requires-keyword, bad-reuse, unsupported.
+/// `unsupported` is the severity of the last one: an alarm while checking, an error before running.
+CheckedCall check_call(const CommandCall& written, const CommandPage& page, const Catalogue& catalogue,
+                       Diagnostics& diagnostics, Severity unsupported);
+
+}  // namespace comma::interpreter

@@ -1,0 +1,115 @@
+#include "interpreter/check_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace comma::interpreter {
+namespace {
+
+using Kind = RulePage::Kind;
+
+std::string joined(const std::vector<std::string>& names, std::size_t first = 0) {
+  return fmt::format("{}", fmt::join(names.begin() + static_cast<std::ptrdiff_t>(first), names.end(), ", "));
+}
+
+/// One rule against what is given.
+class RuleCheck {
+ public:
+  RuleCheck(const RulePage& rule, const std::vector<GivenKeyword>& given, const std::string& label, const Span& span,
+            Diagnostics& diagnostics)
+      : rule_(rule), label_(label), span_(span), diagnostics_(diagnostics) {
+    for (const GivenKeyword& keyword : given)
+      if (std::ranges::find(rule.keywords, keyword.name) != rule.keywords.end()) present_.push_back(&keyword);
+  }
+
+  void run() {
+    switch (rule_.kind) {
+      case Kind::exactly_one: at_least_one(), at_most_one(); return;
+      case Kind::at_least_one: at_least_one(); return;
+      case Kind::at_most_one: at_most_one(); return;
+      case Kind::all_or_none: all_or_none(); return;
+      case Kind::requires_all: requires_all(); return;
+      case Kind::requires_one: requires_one(); return;
+      case Kind::excludes: excludes(); return;
+    }
+  }
+
+ private:
+  const GivenKeyword* given(const std::string& name) const {
+    const auto found = std::ranges::find_if(present_, [&](const GivenKeyword* keyword) { return keyword->name == name; });
+    return found == present_.end() ? nullptr : *found;
+  }
+
+  void at_least_one() {
+    if (present_.empty()) diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
+  }
+
+  void at_most_one() {
+    for (std::size_t i = 1; i < present_.size(); ++i) report_exclusive(*present_[i], *present_.front());
+  }
+
+  void report_exclusive(const GivenKeyword& second, const GivenKeyword& first) {
+    diagnostics_.error("exclusive-keywords", fmt::format("{} takes {} or {}, not both", label_, first.name, second.name),
+                       second.name_span, "keep one of them");
+  }
+
+  void all_or_none() {
+    if (present_.empty()) return;
+    for (const std::string& name : rule_.keywords)
+      if (!given(name)) report_required(*present_.front(), name);
+  }
+
+  void requires_all() {
+    const GivenKeyword* asking = given(rule_.keywords.front());
+    if (asking == nullptr) return;
+    for (std::size_t i = 1; i < rule_.keywords.size(); ++i)
+      if (!given(rule_.keywords[i])) report_required(*asking, rule_.keywords[i]);
+  }
+
+  void requires_one() {
+    const GivenKeyword* asking = given(rule_.keywords.front());
+    if (asking != nullptr && present_.size() == 1) report_required(*asking, "one of " + joined(rule_.keywords, 1));
+  }
+
+  void report_required(const GivenKeyword& asking, const std::string& missing) {
+    diagnostics_.error("requires-keyword", fmt::format("{}/{} goes together with {}", label_, asking.name, missing),
+                       asking.name_span, fmt::format("add {}", missing));
+  }
+
+  void excludes() {
+    const GivenKeyword* first = given(rule_.keywords.front());
+    if (first == nullptr) return;
+    for (const GivenKeyword* other : present_)
+      if (other != first) report_exclusive(*other, *first);
+  }
+
+  const RulePage& rule_;
+  const std::string& label_;
+  const Span& span_;
+  Diagnostics& diagnostics_;
+  std::vector<const GivenKeyword*> present_;  ///< in the order of the file
+};
+
+}  // namespace
+
+void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyword>& given, const std::string& label,
+                 const Span& span, Diagnostics& diagnostics) {
+  for (const RulePage& rule : rules) RuleCheck(rule, given, label, span, diagnostics).run();
+}
+
+std::string describe_rule(const RulePage& rule) {
+  const std::string all = joined(rule.keywords);
+  switch (rule.kind) {
+    case Kind::exactly_one: return "exactly one of " + all;
+    case Kind::at_least_one: return "at least one of " + all;
+    case Kind::at_most_one: return "at most one of " + all;
+    case Kind::all_or_none: return "all or none of " + all;
+    case Kind::requires_all: return fmt::format("{} requires {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case Kind::requires_one: return fmt::format("{} requires one of {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case Kind::excludes: return fmt::format("{} excludes {}", rule.keywords.front(), joined(rule.keywords, 1));
+  }
+  return "";
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,269 @@
+#include "interpreter/check_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace comma::interpreter {
+namespace {
+
+std::string describe_kind(Kind kind) {
+  switch (kind) {
+    case Kind::real: return "a real number";
+    case Kind::integer: return "an integer";
+    case Kind::complex: return "a complex number";
+    case Kind::text: return "a text";
+    case Kind::node_group: return "the name of a node group";
+    case Kind::cell_group: return "the name of a cell group";
+    case Kind::node: return "the name of a node";
+    case Kind::cell: return "the name of a cell";
+    case Kind::component: return "the name of a component";
+    case Kind::field: return "the name of a field";
+    case Kind::parameter: return "the name of a parameter";
+    case Kind::input_unit:
+    case Kind::output_unit: return "a file unit (an integer)";
+    case Kind::concept_kind: return "a concept";
+    case Kind::factor: return "_F(...)";
+  }
+  return "";
+}
+
+std::string describe_type(const TypePage& type, const Catalogue& catalogue) {
+  if (type.kind != Kind::concept_kind) return describe_kind(type.kind);
+  if (type.concept_type == "any") return "a concept";
+  return fmt::format("{} ({})", with_article(catalogue.describe_type(type.concept_type)), type.concept_type);
+}
+
+/// What was written, in words: "the text 'abc'", "MA, a mesh (maillage_sdaster)".
+std::string describe_value(const Value& value, const Catalogue& catalogue) {
+  constexpr std::size_t longest_shown = 40;
+  if (value.is_concept()) {
+    const Concept& handle = *value.as_concept();
+    return fmt::format("{}, {} ({})", handle.name, with_article(catalogue.describe_type(handle.type)), handle.type);
+  }
+  if (value.is_factor()) return "_F(...)";
+  std::string shown = value.repr();
+  if (shown.size() > longest_shown) shown = shown.substr(0, longest_shown) + "...";
+  if (value.is_text()) return "the text " + shown;
+  if (value.is_number()) return shown;
+  return fmt::format("{} ({})", shown, value.type_name());
+}
+
+/// ('RI', real, imaginary) and ('MP', modulus, phase in degrees): Code_Aster's way to write a complex number.
+bool is_complex_triple(const Value& value) {
+  if (!value.is_sequence() || value.items().size() != 3) return false;
+  const auto items = value.items();
+  if (!items[0].is_text() || !items[1].is_number() || !items[2].is_number()) return false;
+  return items[0].as_text() == "RI" || items[0].as_text() == "MP";
+}
+
+std::complex<double> complex_from_triple(const Value& value) {
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  const auto items = value.items();
+  const double first = items[1].as_real(), second = items[2].as_real();
+  return items[0].as_text() == "RI" ? std::complex<double>(first, second) : std::polar(first, second * degree);
+}
+
+std::optional<Value> convert(const Value& value, const TypePage& type, const Catalogue& catalogue) {
+  switch (type.kind) {
+    case Kind::real: return value.is_number() ? std::optional(Value(value.as_real())) : std::nullopt;
+    case Kind::integer:
+    case Kind::input_unit:
+    case Kind::output_unit: return value.is_integer() ? std::optional(value) : std::nullopt;
+    case Kind::complex:
+      if (is_complex_triple(value)) return Value(complex_from_triple(value));
+      return value.is_number() || value.is_complex() ? std::optional(Value(value.as_complex())) : std::nullopt;
+    case Kind::concept_kind:
+      return value.is_concept() && catalogue.is_a(value.as_concept()->type, type.concept_type) ? std::optional(value)
+                                                                                              : std::nullopt;
+    case Kind::factor: return std::nullopt;
+    default: return value.is_text() ? std::optional(value) : std::nullopt;
+  }
+}
+
+bool admits(const KeywordPage& page, Kind kind) {
+  return std::ranges::any_of(page.types, [kind](const TypePage& type) { return type.kind == kind; });
+}
+
+bool same_word(const Value& value, const Value& word) {
+  if (value.is_text() && word.is_text()) return value.as_text() == word.as_text();
+  if (value.is_number() && word.is_number()) return value.as_real() == word.as_real();
+  return false;
+}
+
+bool within(double number, const Bounds& bounds) {
+  if (bounds.above && !(number > *bounds.above)) return false;
+  if (bounds.at_least && !(number >= *bounds.at_least)) return false;
+  if (bounds.below && !(number < *bounds.below)) return false;
+  return !bounds.at_most || number <= *bounds.at_most;
+}
+
+/// The checks of one keyword's value, element by element.
+class ValueCheck {
+ public:
+  ValueCheck(const KeywordPage& page, const std::string& label, const Span& span, CheckContext& context)
+      : page_(page), label_(label), span_(span), context_(context) {}
+
+  std::optional<Value> run(const Value& value) {
+    if (value.is_unknown()) return value;
+    const bool several = value.is_sequence() && !(admits(page_, Kind::complex) && is_complex_triple(value));
+    std::vector<Value> items;
+    if (several)
+      items.assign(value.items().begin(), value.items().end());
+    else
+      items.push_back(value);
+    if (!check_types(items)) return std::nullopt;
+    const bool right_count = check_count(items.size());
+    bool right = right_count;
+    for (const Value& item : items) right = check_word(item) && check_bounds(item) && right;
+    if (!right) return std::nullopt;
+    return page_.holds_many() ? Value::tuple(std::move(items)) : items.front();
+  }
+
+ private:
+  void error(std::string code, std::string message, std::string hint = {}) {
+    context_.diagnostics.error(std::move(code), std::move(message), span_, std::move(hint));
+  }
+
+  /// Converts in place; stops at the first element of a wrong type, for the others are likely to be wrong alike.
+  bool check_types(std::vector<Value>& items) {
+    for (Value& item : items) {
+      if (item.is_unknown()) continue;
+      const auto converted = convert_any(item);
+      if (!converted) {
+        report_type(item);
+        return false;
+      }
+      item = *converted;
+    }
+    return true;
+  }
+
+  std::optional<Value> convert_any(const Value& item) const {
+    for (const TypePage& type : page_.types)
+      if (auto converted = convert(item, type, context_.catalogue)) return converted;
+    return std::nullopt;
+  }
+
+  void report_type(const Value& item) {
+    const bool wrong_concept = item.is_concept() && admits(page_, Kind::concept_kind);
+    error(wrong_concept ? "wrong-concept-type" : "wrong-type",
+          fmt::format("{} wants {}, not {}", label_, describe_types(page_, context_.catalogue),
+                      describe_value(item, context_.catalogue)),
+          type_hint(item));
+  }
+
+  std::string type_hint(const Value& item) const {
+    if (item.is_real() && admits(page_, Kind::integer)) return "write it without a decimal point";
+    if (item.is_factor()) return label_ + " is a simple keyword: give it a value, without _F(...)";
+    if (item.is_number() && holds_text(page_.types.front().kind)) return "put it between quotes";
+    return producers_hint();
+  }
+
+  /// Which commands make what is wanted.
+  std::string producers_hint() const {
+    constexpr std::size_t most_named = 4;
+    std::vector<std::string> makers;
+    for (const TypePage& type : page_.types) {
+      if (type.kind != Kind::concept_kind || type.concept_type == "any") continue;
+      for (const std::string& command : context_.catalogue.names())
+        for (const ProductPage& product : context_.catalogue.page(command).products)
+          if (context_.catalogue.is_a(product.type, type.concept_type) && std::ranges::find(makers, command) == makers.end())
+            makers.push_back(command);
+    }
+    if (makers.empty()) return "";
+    if (makers.size() > most_named) makers.resize(most_named);
+    return fmt::format("made by {}", fmt::join(makers, ", "));
+  }
+
+  bool check_count(std::size_t count) {
+    const bool enough = count >= static_cast<std::size_t>(page_.min_count);
+    const bool fits = page_.max_count == unlimited || count <= static_cast<std::size_t>(page_.max_count);
+    if (enough && fits) return true;
+    error("wrong-count", fmt::format("{} wants {}, not {}", label_,
+                                     describe_count(page_.min_count, page_.max_count, "value"), count));
+    return false;
+  }
+
+  bool check_word(const Value& item) {
+    if (page_.words.empty() || item.is_unknown() || item.is_concept()) return true;
+    const auto word = std::ranges::find_if(page_.words, [&](const WordPage& known) { return same_word(item, known.value); });
+    if (word == page_.words.end()) {
+      report_word(item);
+      return false;
+    }
+    if (!word->supported)
+      context_.report_unsupported(fmt::format("comma does not support {}={} yet", label_, item.repr()), span_);
+    return true;
+  }
+
+  void report_word(const Value& item) {
+    constexpr std::size_t most_listed = 12;
+    std::vector<std::string> known, shown;
+    for (const WordPage& word : page_.words) {
+      if (word.value.is_text()) known.push_back(word.value.as_text());
+      shown.push_back(word.value.repr());
+    }
+    const std::string near = item.is_text() ? nearest(item.as_text(), known) : "";
+    std::string hint;
+    if (!near.empty()) {
+      hint = fmt::format("did you mean '{}'?", near);
+    } else {
+      const bool cut = shown.size() > most_listed;
+      if (cut) shown.resize(most_listed);
+      hint = fmt::format("one of {}{}", fmt::join(shown, ", "), cut ? ", ..." : "");
+    }
+    error("unknown-word", fmt::format("{} does not know {}", label_, item.repr()), hint);
+  }
+
+  bool check_bounds(const Value& item) {
+    if (!item.is_number() || within(item.as_real(), page_.bounds)) return true;
+    error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()));
+    return false;
+  }
+
+  const KeywordPage& page_;
+  const std::string& label_;
+  const Span& span_;
+  CheckContext& context_;
+};
+
+}  // namespace
+
+void CheckContext::report_unsupported(std::string message, const Span& span) {
+  met_unsupported = true;
+  if (!quiet) diagnostics.add({unsupported, "unsupported", std::move(message), "", span});
+}
+
+std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label, const Span& span,
+                                 CheckContext& context) {
+  return ValueCheck(page, label, span, context).run(value);
+}
+
+std::string describe_types(const KeywordPage& page, const Catalogue& catalogue) {
+  std::vector<std::string> shown;
+  for (const TypePage& type : page.types) shown.push_back(describe_type(type, catalogue));
+  if (shown.size() < 2) return shown.empty() ? "" : shown.front();
+  const std::string last = std::move(shown.back());
+  shown.pop_back();
+  return fmt::format("{} or {}", fmt::join(shown, ", "), last);
+}
+
+std::string describe_bounds(const Bounds& bounds) {
+  std::vector<std::string> parts;
+  if (bounds.above) parts.push_back(fmt::format("above {:g}", *bounds.above));
+  if (bounds.at_least) parts.push_back(fmt::format("at least {:g}", *bounds.at_least));
+  if (bounds.below) parts.push_back(fmt::format("below {:g}", *bounds.below));
+  if (bounds.at_most) parts.push_back(fmt::format("at most {:g}", *bounds.at_most));
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+std::string describe_count(int min_count, int max_count, std::string_view noun) {
+  const auto counted = [&](int count) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); };
+  if (max_count == unlimited) return "at least " + counted(min_count);
+  if (min_count == max_count) return counted(max_count);
+  return fmt::format("{} to {}", min_count, counted(max_count));
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,80 @@
+// The command graph: one node a call, ordered by what the calls read and write, like instructions in a processor. A later
+// reader waits for an earlier writer; a writer in place (reuse=) waits for the earlier readers and the earlier writer.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "interpreter/call.hpp"
+#include "interpreter/catalogue.hpp"
+
+namespace comma::interpreter {
+
+enum class Hazard { read_after_write, write_after_read, write_after_write };
+
+/// "raw", "war", "waw".
+std::string_view name_of(Hazard hazard);
+
+/// This node waits for node `from` because of `resource`: a concept's name, or "file 80".
+struct Edge {
+  int from = 0;
+  Hazard hazard = Hazard::read_after_write;
+  std::string resource;
+};
+
+enum class State { waiting, done, failed, skipped };
+
+/// What wants a node's work; a node that many want counts for the strongest.
+enum class Need { nothing, output, verdict };
+
+/// "nothing", "output", "verdict".
+std::string_view name_of(Need need);
+std::string_view name_of(State state);
+
+struct Node {
+  int id = 0;                 ///< position in the file's order of execution
+  Call call;
+  ConceptPtr product;         ///< made, or changed in place; null if the command gives nothing
+  Cost cost = Cost::cheap;
+  Role role = Role::value;
+  bool complete = true;       ///< false: a value is unknown or unsupported, so it never runs
+  std::vector<Edge> waits_for;
+  State state = State::waiting;
+  bool forgiven = false;      ///< it failed inside try: what it left may still be read
+  double seconds = 0;
+};
+
+class CommandGraph {
+ public:
+  /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The product's
+  /// reads_through is filled here.
+  Node& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
+
+  std::vector<Node>& nodes() { return nodes_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+
+  /// For each node, what needs it. Setup commands count as needed by a verdict: they always run.
+  std::vector<Need> needs() const;
+
+  /// The nodes whose work `id` builds on, itself included, in order.
+  std::vector<int> required_by(int id) const;
+
+  /// The last node that made or changed a concept, or -1.
+  int last_writer(const Concept& handle) const;
+
+ private:
+  /// Who touched a resource last. Resources: concept id >= 0; file unit n as -1 - n.
+  struct History {
+    int writer = -1;
+    std::vector<int> readers;  ///< since that writer
+  };
+
+  void read(Node& node, int resource, const std::string& name);
+  void write(Node& node, int resource, const std::string& name);
+
+  std::vector<Node> nodes_;
+  std::map<int, History> histories_;
+};
+
+}  // namespace comma::interpreter

@@ -1,0 +1,70 @@
+#include "interpreter/command_graph_export.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace comma::interpreter {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+int line_of(const Node& node) { return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0; }
+
+std::string style_of(Need need) {
+  switch (need) {
+    case Need::verdict: return "style=filled, fillcolor=\"#e8f0fe\"";
+    case Need::output: return "style=dashed";
+    case Need::nothing: return "color=grey, fontcolor=grey";
+  }
+  return "";
+}
+
+std::string label_of(const Node& node) {
+  const std::string concept_name = node.product ? node.product->name + " = " : "";
+  const int line = line_of(node);
+  return concept_name + node.call.command + (line > 0 ? fmt::format(" (line {})", line) : "");
+}
+
+}  // namespace
+
+std::string to_dot(const CommandGraph& graph) {
+  const auto needs = graph.needs();
+  std::string out = "digraph commands {\n  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=10];\n";
+  for (const Node& node : graph.nodes())
+    fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, quoted(label_of(node)),
+                   style_of(needs[static_cast<std::size_t>(node.id)]));
+  for (const Node& node : graph.nodes())
+    for (const Edge& edge : node.waits_for)
+      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id, quoted(edge.resource),
+                     edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
+  return out + "}\n";
+}
+
+nlohmann::json to_json(const CommandGraph& graph) {
+  const auto needs = graph.needs();
+  auto nodes = nlohmann::json::array(), edges = nlohmann::json::array();
+  for (const Node& node : graph.nodes()) {
+    nodes.push_back({{"id", node.id},
+                     {"command", node.call.command},
+                     {"concept", node.product ? nlohmann::json(node.product->name) : nlohmann::json()},
+                     {"file", node.call.span ? node.call.span.file->path() : ""},
+                     {"line", line_of(node)},
+                     {"needed_by", name_of(needs[static_cast<std::size_t>(node.id)])},
+                     {"state", name_of(node.state)},
+                     {"cost", node.cost == Cost::solve ? "solve" : "cheap"}});
+    for (const Edge& edge : node.waits_for)
+      edges.push_back({{"from", edge.from}, {"to", node.id}, {"kind", name_of(edge.hazard)}, {"resource", edge.resource}});
+  }
+  return {{"nodes", nodes}, {"edges", edges}};
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,19 @@
+// The command graph for other eyes: Graphviz' dot language, and JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "interpreter/command_graph.hpp"
+
+namespace comma::interpreter {
+
+/// A digraph: boxes are commands with their concept and line, arrows are concepts and files. What a verdict needs is drawn
+/// solid, what only an output needs dashed, the rest grey.
+std::string to_dot(const CommandGraph& graph);
+
+/// {"nodes": [{"id", "command", "concept", "file", "line", "needed_by", "state", "cost"}],
+///  "edges": [{"from", "to", "kind": "raw|war|waw", "resource"}]}
+nlohmann::json to_json(const CommandGraph& graph);
+
+}  // namespace comma::interpreter

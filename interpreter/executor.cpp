@@ -1,0 +1,131 @@
+#include "interpreter/executor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <stdexcept>
+
+namespace comma::interpreter {
+namespace {
+
+bool is_preparation(const Node& node) {
+  return node.cost == Cost::cheap && (node.role == Role::value || node.role == Role::setup);
+}
+
+/// Whether what `source` made can be read.
+bool is_readable(const Node& source) {
+  if (source.state == State::done) return true;
+  return source.state == State::failed && source.forgiven && source.product && source.product->data;
+}
+
+int line_of(const Node& node) { return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0; }
+
+DiagnosticError not_computed(const Node& source) {
+  return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)), source.call.span};
+}
+
+}  // namespace
+
+void Executor::run_cheap(Need least) {
+  const auto needs = graph_.needs();
+  for (Node& node : graph_.nodes()) {
+    const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
+    if (node.state != State::waiting || !wanted || !node.complete || !is_preparation(node)) continue;
+    const bool in_turn = std::ranges::none_of(node.waits_for, [&](const Edge& edge) {
+      return graph_.nodes()[static_cast<std::size_t>(edge.from)].state == State::waiting;
+    });
+    if (in_turn && missing_source(node) == nullptr) run_reporting(node);
+  }
+}
+
+void Executor::run_all(Need least) {
+  const auto needs = graph_.needs();
+  for (Node& node : graph_.nodes()) {
+    if (node.state != State::waiting) continue;
+    const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
+    if (wanted && node.complete && missing_source(node) == nullptr)
+      run_reporting(node);
+    else
+      node.state = State::skipped;
+  }
+}
+
+void Executor::force(int id) {
+  for (const int required : graph_.required_by(id)) {
+    Node& node = graph_.nodes()[static_cast<std::size_t>(required)];
+    if (node.state != State::waiting) continue;
+    if (const Node* source = missing_source(node)) throw not_computed(*source);
+    if (!node.complete) throw not_computed(node);
+    run(node);
+  }
+  const Node& last = graph_.nodes()[static_cast<std::size_t>(id)];
+  if (!is_readable(last)) throw not_computed(last);
+}
+
+bool Executor::is_cheap(int id) const {
+  return std::ranges::all_of(graph_.required_by(id), [&](int required) {
+    const Node& node = graph_.nodes()[static_cast<std::size_t>(required)];
+    return node.state != State::waiting || (node.complete && is_preparation(node));
+  });
+}
+
+void Executor::forgive(int id) { graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true; }
+
+void Executor::run_reporting(Node& node) {
+  try {
+    run(node);
+  } catch (const DiagnosticError& error) {
+    diagnostics_.add(error.diagnostic());
+  }
+}
+
+void Executor::run(Node& node) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto stop_clock = [&] {
+    node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  try {
+    auto data = invoke(node);
+    if (node.product && data) node.product->data = std::move(data);
+    node.state = State::done;
+    stop_clock();
+  } catch (...) {
+    node.state = State::failed;
+    stop_clock();
+    throw;
+  }
+}
+
+std::shared_ptr<ConceptData> Executor::invoke(const Node& node) const {
+  const Call& call = node.call;
+  const auto command = commands_.find(call.command);
+  if (command == commands_.end())
+    throw DiagnosticError("unsupported", fmt::format("comma does not run {} yet", call.command), call.span);
+  try {
+    return command->second(call);
+  } catch (const DiagnosticError& error) {
+    if (error.diagnostic().span) throw;
+    Diagnostic placed = error.diagnostic();
+    placed.span = call.span;
+    throw DiagnosticError(std::move(placed));
+  } catch (const std::bad_alloc&) {
+    throw DiagnosticError("out-of-memory", fmt::format("{} needs more memory than there is", call.command), call.span);
+  } catch (const std::logic_error& error) {
+    throw DiagnosticError("internal-error", fmt::format("{}: {}", call.command, error.what()), call.span,
+                          "this is a fault of comma, not of the file");
+  } catch (const std::exception& error) {
+    throw DiagnosticError("command-failed", fmt::format("{}: {}", call.command, error.what()), call.span);
+  }
+}
+
+const Node* Executor::missing_source(const Node& node) const {
+  for (const Edge& edge : node.waits_for) {
+    const Node& source = graph_.nodes()[static_cast<std::size_t>(edge.from)];
+    if (edge.hazard == Hazard::read_after_write && !is_readable(source)) return &source;
+  }
+  return nullptr;
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,57 @@
+// Runs the command graph: calls each command's function in the file's order, keeps failures apart, measures time.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "interpreter/command_graph.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::interpreter {
+
+/// A command: computes the inside of its product (null if it has none). With reuse=, `call.result->data` is what it
+/// changes; it may return that same data, or other data that replaces it, or null to keep it. It may set
+/// `call.result->data` before throwing: what had converged then stays readable.
+using CommandFunction = std::function<std::shared_ptr<ConceptData>(const Call&)>;
+using CommandTable = std::map<std::string, CommandFunction, std::less<>>;
+
+class Executor {
+ public:
+  Executor(CommandGraph& graph, const CommandTable& commands, Diagnostics& diagnostics)
+      : graph_(graph), commands_(commands), diagnostics_(diagnostics) {}
+
+  /// Runs what is cheap, makes no output, gives no verdict, and waits for nothing that is not: meshes, groups, models,
+  /// loads. Their errors are those that a check can find before anything is solved.
+  void run_cheap(Need least);
+
+  /// Runs all nodes that are needed at least so much. A failing node is reported and stops those that build on it; the
+  /// others still run.
+  void run_all(Need least);
+
+  /// Runs a node and what it depends on, each once. Throws DiagnosticError of the first that fails.
+  void force(int id);
+
+  /// Whether all that `id` still waits for is cheap.
+  bool is_cheap(int id) const;
+
+  /// The failure of a node is handled by the file (try/except): what it left may be read.
+  void forgive(int id);
+
+ private:
+  /// Marks the node done, or failed and throws.
+  void run(Node& node);
+  void run_reporting(Node& node);
+  /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
+  std::shared_ptr<ConceptData> invoke(const Node& node) const;
+  /// The first node that this one builds on and that is not there, or null.
+  const Node* missing_source(const Node& node) const;
+
+  CommandGraph& graph_;
+  const CommandTable& commands_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace comma::interpreter

@@ -1,0 +1,220 @@
+#include "interpreter/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "interpreter/check_rules.hpp"
+#include "interpreter/check_value.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::interpreter {
+namespace {
+
+constexpr std::array<std::string_view, 10> categories{"mesh",  "model",        "material", "loads",     "contact",
+                                                      "solve", "post-process", "verify",   "functions", "session"};
+
+/// A keyword with the conditions under which its level has it.
+struct Place {
+  const KeywordPage* keyword = nullptr;
+  std::string conditions;
+};
+
+void collect(const LevelPage& level, const std::string& conditions, std::vector<Place>& places) {
+  for (const KeywordPage& keyword : level.keywords) places.push_back({&keyword, conditions});
+  for (const BlockPage& block : level.blocks)
+    collect(block.inside, conditions.empty() ? block.when : conditions + " and " + block.when, places);
+}
+
+std::vector<Place> places_of(const LevelPage& level) {
+  std::vector<Place> places;
+  collect(level, "", places);
+  return places;
+}
+
+/// A page of text under construction.
+class Writer {
+ public:
+  explicit Writer(const Catalogue& catalogue) : catalogue_(catalogue) {}
+
+  template <class... Arguments>
+  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    text_ += '\n';
+  }
+
+  void command(const CommandPage& page) {
+    line("{} - {}", page.name, page.doc);
+    line("");
+    line("  category   {}", page.category);
+    products(page);
+    reuse(page);
+    line("  supported  {}", page.supported ? "yes" : "not yet: using it is an error");
+    if (!page.note.empty()) line("  note       {}", page.note);
+    level(page.inside);
+    example(page);
+  }
+
+  void keyword(const std::string& path, const Place& place) {
+    const KeywordPage& page = *place.keyword;
+    line("{} - {}", path, page.doc);
+    line("");
+    line("  type       {}", types(page));
+    if (page.holds_many() || page.is_factor()) line("  count      {}", count(page));
+    if (!page.unit.empty()) line("  unit       {}", page.unit);
+    if (const std::string bounds = describe_bounds(page.bounds); !bounds.empty()) line("  bounds     {}", bounds);
+    if (page.required) line("  required   yes");
+    if (page.default_value) line("  default    {}", page.default_value->repr());
+    if (page.present_by_default) line("  default    _F() with the defaults of its keywords");
+    if (!place.conditions.empty()) line("  only when  {}", place.conditions);
+    if (!page.aliases.empty()) line("  older name {}", fmt::join(page.aliases, ", "));
+    line("  supported  {}", page.supported ? "yes" : "not yet: using it is an error");
+    if (!page.no_effect.empty()) line("  no effect  {}", page.no_effect);
+    words(page);
+    if (page.is_factor()) level(page.inside);
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  void products(const CommandPage& page) {
+    if (page.products.empty()) line("  gives      nothing");
+    for (const ProductPage& product : page.products)
+      line("  gives      {} ({}){}", with_article(catalogue_.describe_type(product.type)), product.type,
+           product.when.empty() ? "" : " when " + product.when);
+  }
+
+  void reuse(const CommandPage& page) {
+    if (page.reuse == Reuse::none) return;
+    line("  reuse      {}, with the concept of {}", page.reuse == Reuse::compulsory ? "compulsory" : "allowed",
+         fmt::join(page.reuse_same_as, " or "));
+  }
+
+  std::string types(const KeywordPage& page) const {
+    return page.is_factor() ? "factor: _F(...)" : describe_types(page, catalogue_);
+  }
+
+  static std::string count(const KeywordPage& page) {
+    return describe_count(page.min_count, page.max_count, page.is_factor() ? "_F(...)" : "value");
+  }
+
+  void words(const KeywordPage& page) {
+    if (page.words.empty()) return;
+    line("");
+    line("  words");
+    for (const WordPage& word : page.words)
+      line("    {:<20} {}{}", word.value.repr(), word.doc, word.supported ? "" : " [not supported yet]");
+  }
+
+  void level(const LevelPage& level_page) {
+    line("");
+    line("  keywords");
+    keywords(level_page, "    ");
+  }
+
+  void keywords(const LevelPage& level_page, const std::string& indent) {
+    for (const KeywordPage& keyword : level_page.keywords)
+      line("{}{}{:<20} {}{}{}", indent, keyword.required ? "* " : "  ", keyword.name, keyword.doc,
+           keyword.default_value ? " Default " + keyword.default_value->repr() + "." : "",
+           keyword.supported ? "" : " [not supported yet]");
+    for (const RulePage& rule : level_page.rules) line("{}rule: {}", indent, describe_rule(rule));
+    for (const BlockPage& block : level_page.blocks) {
+      line("{}when {}", indent, block.when);
+      keywords(block.inside, indent + "  ");
+    }
+  }
+
+  void example(const CommandPage& page) {
+    if (page.example.empty()) return;
+    line("");
+    line("  example");
+    std::size_t begin = 0;
+    while (begin < page.example.size()) {
+      const std::size_t end = std::min(page.example.find('\n', begin), page.example.size());
+      line("    {}", page.example.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+
+  const Catalogue& catalogue_;
+  std::string text_;
+};
+
+std::string hint_for(std::string_view name, const std::vector<std::string>& known) {
+  const std::string near = nearest(name, known);
+  return near.empty() ? "" : fmt::format("did you mean {}?", near);
+}
+
+std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
+  std::vector<Place> found;
+  for (const Place& place : places_of(level)) {
+    const auto& aliases = place.keyword->aliases;
+    if (place.keyword->name == name || std::ranges::find(aliases, name) != aliases.end()) found.push_back(place);
+  }
+  return found;
+}
+
+[[noreturn]] void throw_unknown_keyword(const std::string& level, const LevelPage& page, std::string_view name) {
+  std::vector<std::string> known;
+  for (const Place& place : places_of(page)) known.push_back(place.keyword->name);
+  throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {}, hint_for(name, known));
+}
+
+/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once for each.
+void explain_keyword(Writer& writer, const std::string& above, const LevelPage& level, std::string_view rest) {
+  const std::size_t slash = rest.find('/');
+  const std::string_view name = rest.substr(0, slash);
+  const std::vector<Place> places = find_places(level, name);
+  if (places.empty()) throw_unknown_keyword(above, level, name);
+  const std::string path = fmt::format("{}/{}", above, places.front().keyword->name);
+  if (slash == std::string_view::npos) {
+    for (const Place& place : places) writer.keyword(path, place);
+    return;
+  }
+  const std::string_view below = rest.substr(slash + 1);
+  bool told = false;
+  for (const Place& place : places) {
+    if (find_places(place.keyword->inside, below.substr(0, below.find('/'))).empty()) continue;
+    explain_keyword(writer, path, place.keyword->inside, below);
+    told = true;
+  }
+  if (!told) throw_unknown_keyword(path, places.front().keyword->inside, below.substr(0, below.find('/')));
+}
+
+}  // namespace
+
+std::string explain_all(const Catalogue& catalogue) {
+  Writer writer(catalogue);
+  const std::vector<std::string> names = catalogue.names();
+  for (const std::string_view category : categories) {
+    bool titled = false;
+    for (const std::string& name : names) {
+      const CommandPage& page = catalogue.page(name);
+      if (page.category != category) continue;
+      if (!titled) writer.line("{}", category);
+      titled = true;
+      writer.line("  {:<18} {}{}", name, page.doc, page.supported ? "" : " [not supported yet]");
+    }
+  }
+  writer.line("\nMore: comma explain COMMAND, comma explain COMMAND/KEYWORD");
+  return writer.take();
+}
+
+std::string explain(const Catalogue& catalogue, std::string_view path) {
+  const std::size_t slash = path.find('/');
+  const std::string command(path.substr(0, slash));
+  if (!catalogue.has(command))
+    throw DiagnosticError("unknown-command", fmt::format("there is no command {}", command), {},
+                          hint_for(command, catalogue.names()));
+  const CommandPage& page = catalogue.page(command);
+  Writer writer(catalogue);
+  if (slash == std::string_view::npos)
+    writer.command(page);
+  else
+    explain_keyword(writer, command, page.inside, path.substr(slash + 1));
+  return writer.take();
+}
+
+}  // namespace comma::interpreter

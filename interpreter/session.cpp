@@ -1,0 +1,67 @@
+#include "interpreter/session.hpp"
+
+#include <fmt/format.h>
+
+namespace comma::interpreter {
+
+Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics, SessionOptions options)
+    : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
+
+bool Session::is_command(std::string_view name) const { return catalogue_.has(name); }
+
+std::vector<std::string> Session::command_names() const { return catalogue_.names(); }
+
+Value Session::call(const CommandCall& written, bool eager) {
+  if (!catalogue_.has(written.name)) {
+    const std::string near = nearest(written.name, catalogue_.names());
+    diagnostics_.error("unknown-command", fmt::format("there is no command {}", written.name), written.name_span,
+                       near.empty() ? "" : fmt::format("did you mean {}?", near));
+    return Value::unknown();
+  }
+  const CommandPage& page = catalogue_.page(written.name);
+  const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
+  CheckedCall checked = check_call(written, page, catalogue_, diagnostics_, unsupported);
+  if (!checked.sound) return Value::unknown();
+
+  ConceptPtr product = checked.call.result;
+  if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);
+  checked.call.result = product;
+  const int id = graph_.add(std::move(checked.call), product, page, checked.complete).id;
+  if (eager && may_run(id)) {
+    try {
+      executor_.force(id);
+    } catch (const DiagnosticError&) {
+      executor_.forgive(id);
+      throw;
+    }
+  }
+  return product ? Value(product) : Value();
+}
+
+void Session::force(const ConceptPtr& handle) {
+  const int writer = graph_.last_writer(*handle);
+  if (writer >= 0 && may_run(writer)) executor_.force(writer);
+}
+
+void Session::finish() {
+  const Need least = options_.only_tests ? Need::output : Need::nothing;
+  executor_.run_cheap(least);
+  if (options_.check_only || diagnostics_.has_errors()) return;
+  executor_.run_all(least);
+}
+
+ConceptPtr Session::make_concept(const std::string& type, const Span& span) {
+  auto handle = std::make_shared<Concept>();
+  handle->id = next_concept_++;
+  handle->name = fmt::format("_{}", handle->id);
+  handle->type = type;
+  handle->defined_at = span;
+  return handle;
+}
+
+bool Session::may_run(int node) const {
+  if (executor_.is_cheap(node)) return true;
+  return !options_.check_only && !diagnostics_.has_errors();
+}
+
+}  // namespace comma::interpreter

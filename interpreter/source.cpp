@@ -1,0 +1,55 @@
+#include "interpreter/source.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::interpreter {
+
+namespace {
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+}  // namespace
+
+SourceFile::SourceFile(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    const bool lone_return = text_[i] == '\r' && (i + 1 == text_.size() || text_[i + 1] != '\n');
+    if (text_[i] == '\n' || lone_return) line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+}
+
+std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (stream) text << stream.rdbuf();
+  if (!stream) throw DiagnosticError("unreadable-file", "the file " + path + " cannot be read");
+  return std::make_shared<const SourceFile>(path, std::move(text).str());
+}
+
+Position SourceFile::position(std::uint32_t offset) const {
+  offset = std::min<std::uint32_t>(offset, static_cast<std::uint32_t>(text_.size()));
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
+  const std::uint32_t start = *(next - 1);
+  Position place;
+  place.line = static_cast<int>(next - line_starts_.begin());
+  place.column = 1;
+  for (std::uint32_t i = start; i < offset; ++i) {
+    if (!continues_character(text_[i])) ++place.column;
+  }
+  return place;
+}
+
+std::string_view SourceFile::line(int number) const {
+  if (number < 1 || number > static_cast<int>(line_starts_.size())) return {};
+  const std::size_t begin = line_starts_[static_cast<std::size_t>(number) - 1];
+  std::size_t end = begin;
+  while (end < text_.size() && text_[end] != '\n' && text_[end] != '\r') ++end;
+  return std::string_view(text_).substr(begin, end - begin);
+}
+
+}  // namespace comma::interpreter
