@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "solver/error.hpp"
@@ -85,6 +86,8 @@ MedFile MedFile::open_for_reading(const std::string& path) {
 }
 
 MedFile MedFile::create(const std::string& path) {
+  // The MED library writes to the screen when it cannot create a file, so we try first.
+  if (!std::ofstream(path)) throw Error("unwritable-file", fmt::format("{}: the file cannot be written", path));
   const QuietHdf5 quiet;
   const med_idt id = MEDfileOpen(path.c_str(), MED_ACC_CREAT);
   if (id < 0) throw Error("unwritable-file", fmt::format("{}: the file cannot be written", path));
