@@ -1,0 +1,64 @@
+#include "commands/files.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "commands/cli/export_file.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace fs = std::filesystem;
+using namespace comma::commands;
+using comma::interpreter::DiagnosticError;
+
+namespace {
+
+// A folder that goes with the test.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / fs::path("comma_files_" + std::to_string(std::hash<const void*>{}(this)));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path file(const std::string& name, const std::string& text = "") const {
+    std::ofstream(path / name) << text;
+    return path / name;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A mesh is found by the stem, then by the stem without its letter, then alone in the folder") {
+  const Folder folder;
+  const Files files(folder.path / "beam1a.comm", {}, folder.path);
+  CHECK_THROWS_AS(files.input(20, {"mmed", "med"}), DiagnosticError);
+  const auto alone = folder.file("other.med");
+  CHECK(files.input(20, {"mmed", "med"}) == alone);
+  const auto shared = folder.file("beam1.med");
+  CHECK(files.input(20, {"mmed", "med"}) == shared);
+  const auto own = folder.file("beam1a.mmed");
+  CHECK(files.input(20, {"mmed", "med"}) == own);
+}
+
+TEST_CASE("An .export names files by unit, and outputs land in the current folder") {
+  const Folder folder;
+  folder.file("a.comm");
+  const auto path = folder.file("a.export", "P time_limit 60\n# comment\nF comm a.comm D 1\nF mmed m.mmed D 20\nF rmed out.rmed R 80\n");
+  const Study study = read_export(path, "/elsewhere");
+  REQUIRE(study.command_files.size() == 1);
+  const Files files(study.command_files[0], study.files, "/elsewhere");
+  CHECK(files.input(20, {"mmed"}) == folder.path / "m.mmed");
+  CHECK(files.output(80, "rmed", 80) == fs::path("/elsewhere/out.rmed"));
+  CHECK(files.output(8, "resu", 8) == fs::path("/elsewhere/a.resu"));
+  CHECK(files.output(38, "resu", 8) == fs::path("/elsewhere/a.38.resu"));
+}
+
+TEST_CASE("A wrong line of an .export is told with its place") {
+  const Folder folder;
+  folder.file("a.comm");
+  const auto path = folder.file("a.export", "F comm a.comm D 1\nF mmed m.mmed D twenty\n");
+  try {
+    read_export(path, ".");
+    FAIL("no error");
+  } catch (const DiagnosticError& error) {
+    CHECK(error.diagnostic().code == "bad-export");
+    CHECK(error.diagnostic().span.file->position(error.diagnostic().span.begin).line == 2);
+  }
+}

@@ -1,0 +1,46 @@
+#include "commands/table.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "commands/concepts.hpp"
+#include "commands/fortran_format.hpp"
+#include "interpreter/diagnostic.hpp"
+
+using namespace comma::commands;
+using comma::interpreter::DiagnosticError;
+
+TEST_CASE("A table is printed in aligned columns, an empty cell as a dash") {
+  Table table;
+  table.title = "forces";
+  table.columns = {"NOEUD", "DX"};
+  table.rows = {{std::string("N1"), 1.5}, {std::string("N12"), Cell()}};
+  CHECK(format_table(table, " ", "E12.5") == "# forces\n NOEUD DX\n N1     1.50000E+00\n N12   -\n");
+}
+
+TEST_CASE("A column added later is empty in the rows before") {
+  Table table;
+  table.columns = {"A"};
+  table.rows = {{1.0}};
+  CHECK(table.add_column("B") == 1);
+  CHECK(std::holds_alternative<std::monostate>(table.rows[0][1]));
+  CHECK(table.add_column("A") == 0);
+}
+
+TEST_CASE("Fortran's edit descriptors") {
+  CHECK(format_real(-1234.5678, "E12.5") == "-1.23457E+03");
+  CHECK(format_real(1234.5678, "1PE13.6") == " 1.234568E+03");
+  CHECK(format_real(3.14159, "F8.3") == "   3.142");
+  CHECK_THROWS_AS(format_real(1.0, "Q5"), DiagnosticError);
+  CHECK_FALSE(is_real_format("E12"));
+}
+
+TEST_CASE("A command file reads a table cell by column and row") {
+  using comma::interpreter::Value;
+  TableConcept table;
+  table.table.columns = {"DX", "NOEUD"};
+  table.table.rows = {{2.5, std::string("N1")}};
+  CHECK(table.subscript(Value::tuple({Value("DX"), Value(1)})).as_real() == 2.5);
+  CHECK(table.subscript(Value::tuple({Value("NOEUD"), Value(1)})).as_text() == "N1");
+  CHECK_THROWS_AS(table.subscript(Value::tuple({Value("DX"), Value(2)})), DiagnosticError);
+  CHECK_THROWS_AS(table.subscript(Value("DX")), DiagnosticError);
+}
