@@ -17,8 +17,13 @@ enum class Formulation : std::uint8_t {
   spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d
 };
 
-/// Elements on cells. Cells of one dimension less than a continuum formulation (the edges of a plane model, the faces of a
-/// solid one) are skin elements: they carry no stiffness but take pressure and contact.
+/// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric bodies,
+/// 0 for formulations without a continuum.
+int continuum_dimension(Formulation formulation);
+bool is_axisymmetric(Formulation formulation);
+
+/// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces and
+/// edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact.
 struct Model {
   std::shared_ptr<Mesh> mesh;             ///< shared: a group added to the mesh later is known here
   std::vector<Formulation> formulations;  ///< one a cell
@@ -40,6 +45,8 @@ class DofMap {
   ComponentMask components(int node) const { return masks_[node]; }
   /// Index of the degree of freedom, -1 where the node has no such component.
   int dof(int node, Component component) const;
+  /// The node's first degree of freedom (where it has none: that of the next node that has).
+  int first_dof(int node) const { return starts_[node]; }
   int node_of(int dof) const { return nodes_[dof]; }
   Component component_of(int dof) const { return components_[dof]; }
 

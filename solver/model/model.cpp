@@ -1,0 +1,85 @@
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr ComponentMask plane_translations = mask_of(Component::dx) | mask_of(Component::dy);
+constexpr ComponentMask space_translations = plane_translations | mask_of(Component::dz);
+constexpr ComponentMask space_rotations = mask_of(Component::drx) | mask_of(Component::dry) | mask_of(Component::drz);
+
+ComponentMask components_of_formulation(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::none:
+      return 0;
+    case Formulation::plane_strain:
+    case Formulation::plane_strain_reduced:
+    case Formulation::plane_stress:
+    case Formulation::plane_stress_reduced:
+    case Formulation::axisymmetric:
+    case Formulation::axisymmetric_reduced:
+    case Formulation::bar_2d:
+    case Formulation::spring_2d:
+      return plane_translations;
+    case Formulation::spring_rotation_2d:
+      return plane_translations | mask_of(Component::drz);
+    case Formulation::solid:
+    case Formulation::solid_reduced:
+    case Formulation::bar:
+    case Formulation::spring_3d:
+      return space_translations;
+    case Formulation::euler_beam:
+    case Formulation::timoshenko_beam:
+    case Formulation::spring_rotation_3d:
+      return space_translations | space_rotations;
+  }
+  return 0;
+}
+
+bool is_spring(Formulation formulation) {
+  return formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ||
+         formulation == Formulation::spring_3d || formulation == Formulation::spring_rotation_3d;
+}
+
+/// Whether elements of a formulation exist on cells of a type at all, skin included.
+bool carries(Formulation formulation, CellType type) {
+  const int continuum = continuum_dimension(formulation);
+  if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
+  if (is_spring(formulation)) return type == CellType::poi1 || type == CellType::seg2;
+  return formulation != Formulation::none && type == CellType::seg2;
+}
+
+}  // namespace
+
+int continuum_dimension(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::solid:
+    case Formulation::solid_reduced:
+      return 3;
+    case Formulation::plane_strain:
+    case Formulation::plane_strain_reduced:
+    case Formulation::plane_stress:
+    case Formulation::plane_stress_reduced:
+    case Formulation::axisymmetric:
+    case Formulation::axisymmetric_reduced:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+bool is_axisymmetric(Formulation formulation) {
+  return formulation == Formulation::axisymmetric || formulation == Formulation::axisymmetric_reduced;
+}
+
+bool Model::is_skin(int cell) const {
+  const int type_dimension = dimension(mesh->cell_types[cell]);
+  return type_dimension > 0 && type_dimension < continuum_dimension(formulations[cell]);
+}
+
+ComponentMask Model::components_of(int cell) const {
+  const Formulation formulation = formulations[cell];
+  return carries(formulation, mesh->cell_types[cell]) ? components_of_formulation(formulation) : ComponentMask{0};
+}
+
+}  // namespace comma::solver
