@@ -1,12 +1,16 @@
 // Kinematic conditions by elimination: u = T q + g. What is symmetric positive definite stays so.
 #pragma once
 
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "solver/constraints/congruence.hpp"
+#include "solver/constraints/gauss_jordan.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/model/model.hpp"
@@ -14,28 +18,59 @@
 namespace comma::solver {
 
 /// Sparse Gauss-Jordan elimination with pivoting on the largest coefficient. Coefficients do not change with time; the
-/// right-hand sides do. Redundant relations are found and dropped; a contradictory pair is an error that names both origins.
+/// right-hand sides c(t) do, so g(t) = G c(t). Redundant relations are found and dropped; a contradictory pair is an error that
+/// names both origins. Keeps the loads alive, nothing else of its arguments. Not for use from several threads at once (reduce
+/// caches its plan).
 class Elimination {
  public:
+  /// `mesh`: for the points at which functions are evaluated and for the names of nodes in messages.
   /// Throws Error `unknown-dof` when a relation uses a component that its node does not carry, naming node, component, origin;
-  /// Error `contradictory-conditions` when a relation reads 0 = c.
-  Elimination(const DofMap& dofs, std::span<const AppliedLoad> loads);
+  /// Error `contradictory-conditions` when a relation reads 0 = c, or when conditions that do not change with time disagree.
+  Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads);
 
-  int full_size() const;
-  int reduced_size() const;
+  int full_size() const { return static_cast<int>(transformation_.rows()); }
+  int reduced_size() const { return static_cast<int>(kept_.size()); }
   /// T, full_size x reduced_size.
-  const Eigen::SparseMatrix<double>& transformation() const;
+  const Eigen::SparseMatrix<double>& transformation() const { return transformation_; }
   /// g at a time (full_size). Throws Error `contradictory-conditions` naming both origins when redundant relations
   /// disagree at that time by more than `contradiction_tolerance` relative to the largest value involved.
   Eigen::VectorXd offset(double time) const;
-  /// The full degree of freedom behind each reduced one (for messages).
-  std::span<const int> kept() const;
+  /// The full degree of freedom behind each reduced one (for messages); its row of T is a unit row.
+  std::span<const int> kept() const { return kept_; }
 
-  /// T^T K T, lower triangle; the pattern depends on K's pattern alone.
+  /// T^T K T, lower triangle; the pattern depends on K's pattern alone. Its plan is made anew when K's pattern changes.
   SymmetricMatrix reduce(const SymmetricMatrix& stiffness) const;
 
+  /// Twelve digits typed by hand, or a function's interpolation, agree better than this; different intentions do not.
+  static constexpr double contradiction_tolerance = 1e-9;
+
  private:
-  // to be filled by its implementer
+  /// One relation with what its right-hand side needs.
+  struct Condition {
+    std::shared_ptr<const Load> load;  ///< keeps `relation` alive
+    const LinearRelation* relation;
+    TimeFunction multiplier;
+    Point at;
+    std::string text;  ///< "DX at N3", "DX at N1 - DX at N2"
+    bool constant;
+
+    double value(double time) const;
+    std::string origin() const;
+  };
+
+  SparseRow add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied, const LinearRelation& relation);
+  void set_transformation(const GaussJordan& reduction, int full_size);
+  Eigen::VectorXd values(double time) const;
+  void check(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const;
+  void check_constant_dependencies() const;
+  [[noreturn]] void contradict(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const;
+
+  std::vector<Condition> conditions_;
+  std::vector<SparseRow> dependencies_;
+  std::vector<int> kept_;
+  Eigen::SparseMatrix<double> transformation_;
+  Eigen::SparseMatrix<double> offsets_;  ///< G, full_size x conditions
+  mutable std::unique_ptr<Congruence> plan_;
 };
 
 }  // namespace comma::solver

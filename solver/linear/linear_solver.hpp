@@ -1,6 +1,10 @@
 // One interface for all direct solvers of symmetric systems (design: analyse once a pattern, factorise once a stiffness).
+//
+// Every solver works on the equilibrated matrix S A S and refines its solutions against the matrix as given, see
+// refined_solver.hpp; docs/linear_solvers.md shows what that buys on nearly singular matrices.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -19,18 +23,22 @@ std::string_view name_of(LinearMethod method);
 
 enum class FactorVerdict : std::uint8_t { ok, indefinite, singular };
 
-/// What a factorisation found.
+/// What a factorisation found. `ok`: positive definite.
 struct FactorReport {
   FactorVerdict verdict = FactorVerdict::ok;
-  std::vector<int> null_rows;     ///< rows without a usable pivot (verdict singular)
-  int lost_digits = 0;            ///< decimal digits lost on the worst pivot, relative to its initial diagonal
+  std::vector<int> null_rows;     ///< rows without a usable pivot (verdict singular), rising
+  int lost_digits = 0;            ///< decimal digits lost on the worst pivot, relative to its initial diagonal (at most 17);
+                                  ///< MUMPS keeps its pivots to itself: there, an estimate of log10 of the inverse's norm
 };
 
 struct LinearOptions {
   /// A pivot that loses more decimal digits than this is null (Code_Aster's NPREC); negative: never tested.
   int singular_digits = 8;
-  /// Steps of iterative refinement at most, the residual in extended precision.
-  int refinement_steps = 3;
+  /// Steps of iterative refinement at most, the residual in doubled precision. They end as soon as a correction no longer
+  /// changes the solution: one step is usual, a matrix of condition 1e15 needs a dozen. 0: none.
+  int refinement_steps = 20;
+  /// Power-of-two scaling of rows and columns; only a study of its effect turns it off.
+  bool equilibrate = true;
 };
 
 class LinearSolver {
@@ -39,13 +47,29 @@ class LinearSolver {
   virtual LinearMethod method() const = 0;
   /// Symbolic analysis of a pattern.
   virtual void analyse(const SymmetricMatrix& matrix) = 0;
-  /// Numeric factorisation of a matrix of the analysed pattern; keeps a copy for refinement.
+  /// Numeric factorisation; keeps a copy for refinement. A matrix of another pattern than the analysed one is analysed again.
+  /// Throws Error `not-finite` naming the row of an entry that is infinite or not a number; `out-of-memory`.
   virtual FactorReport factorise(const SymmetricMatrix& matrix) = 0;
-  /// rhs: size n x k, overwritten by the solution. Returns the relative residual |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf)
-  /// reached. Throws Error `singular-matrix` if the last factorisation was singular.
+  /// rhs: size n x k, overwritten by the solution. Returns the largest relative residual
+  /// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf) of the columns. Throws Error `singular-matrix` if the last factorisation was
+  /// singular, `inaccurate-solution` if the residual stays above `worst_residual` (an indefinite matrix met by a solver that
+  /// does not pivot; MUMPS does).
   virtual double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
+
+  /// A backward stable factorisation stays near 1e-16, whatever the condition; at 1e-6 the factors are not those of the matrix.
+  static constexpr double worst_residual = 1e-6;
 };
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const LinearOptions& options);
+
+/// The fastest method that is safe for the matrix:
+///  - a diagonal entry that is not positive (the matrix cannot be positive definite): MUMPS, which pivots;
+///  - up to `small_system` rows: Eigen's simplicial LDL^T, part of the program itself;
+///  - beyond: CHOLMOD, whose supernodes run on BLAS kernels.
+/// docs/linear_solvers.md has the times behind the limit.
+LinearMethod choose_method(const SymmetricMatrix& matrix);
+
+/// Below this CHOLMOD's gain is less than the few milliseconds that it takes to load it together with its BLAS.
+inline constexpr int small_system = 2000;
 
 }  // namespace comma::solver

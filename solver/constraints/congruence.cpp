@@ -1,0 +1,100 @@
+#include "solver/constraints/congruence.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace comma::solver {
+
+namespace {
+
+using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+struct Contribution {
+  int row;
+  int source;
+  double weight;
+};
+
+/// Calls place(row, column, source, weight) for every contribution to the lower triangle of T^T K T.
+template <typename Place>
+void for_each_contribution(const SymmetricMatrix& pattern, const RowMajor& transformation, Place&& place) {
+  for (int j = 0; j < pattern.outerSize(); ++j) {
+    for (int source = pattern.outerIndexPtr()[j]; source < pattern.outerIndexPtr()[j + 1]; ++source) {
+      const int i = pattern.innerIndexPtr()[source];
+      for (RowMajor::InnerIterator a(transformation, i); a; ++a) {
+        for (RowMajor::InnerIterator b(transformation, j); b; ++b) {
+          const int row = static_cast<int>(a.col());
+          const int column = static_cast<int>(b.col());
+          if (i == j && row < column) continue;
+          // K_ij and its mirror image meet on the product's diagonal.
+          const double factor = i != j && row == column ? 2.0 : 1.0;
+          place(std::max(row, column), std::min(row, column), source, factor * a.value() * b.value());
+        }
+      }
+    }
+  }
+}
+
+std::vector<int> count_by_column(const SymmetricMatrix& pattern, const RowMajor& transformation) {
+  std::vector<int> starts(transformation.cols() + 1, 0);
+  for_each_contribution(pattern, transformation, [&](int, int column, int, double) { ++starts[column + 1]; });
+  for (std::size_t column = 1; column < starts.size(); ++column) starts[column] += starts[column - 1];
+  return starts;
+}
+
+}  // namespace
+
+Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix<double>& transformation)
+    : outer_(pattern.outerIndexPtr(), pattern.outerIndexPtr() + pattern.outerSize() + 1),
+      inner_(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros()) {
+  const RowMajor by_rows = transformation;
+  const std::vector<int> starts = count_by_column(pattern, by_rows);
+  std::vector<Contribution> contributions(starts.back());
+  std::vector<int> next(starts.begin(), starts.end() - 1);
+  for_each_contribution(pattern, by_rows, [&](int row, int column, int source, double weight) {
+    contributions[next[column]++] = {row, source, weight};
+  });
+
+  const int columns = static_cast<int>(transformation.cols());
+  std::vector<int> outer = {0};
+  std::vector<int> inner;
+  bool all_ones = true;
+  for (int column = 0; column < columns; ++column) {
+    const auto first = contributions.begin() + starts[column];
+    const auto last = contributions.begin() + starts[column + 1];
+    std::stable_sort(first, last, [](const auto& a, const auto& b) { return a.row < b.row; });
+    for (auto entry = first; entry != last; ++entry) {
+      if (entry == first || entry->row != (entry - 1)->row) inner.push_back(entry->row);
+      targets_.push_back(static_cast<int>(inner.size()) - 1);
+      sources_.push_back(entry->source);
+      weights_.push_back(entry->weight);
+      all_ones = all_ones && entry->weight == 1.0;
+    }
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  if (all_ones) weights_ = {};
+  const std::vector<double> zeros(inner.size(), 0.0);
+  product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(), inner.data(),
+                                               zeros.data());
+}
+
+bool Congruence::fits(const SymmetricMatrix& matrix) const {
+  return matrix.outerSize() + 1 == static_cast<Eigen::Index>(outer_.size()) &&
+         matrix.nonZeros() == static_cast<Eigen::Index>(inner_.size()) &&
+         std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr()) &&
+         std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+}
+
+SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
+  SymmetricMatrix result = product_;
+  const double* from = matrix.valuePtr();
+  double* to = result.valuePtr();
+  if (weights_.empty()) {
+    for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] += from[sources_[k]];
+    return result;
+  }
+  for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] += weights_[k] * from[sources_[k]];
+  return result;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,167 @@
+#include "solver/constraints/elimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+using Triplet = Eigen::Triplet<double>;
+
+/// Longer relations are cut in messages.
+constexpr std::size_t most_terms_shown = 4;
+
+std::string describe(const LinearRelation& relation, const Mesh& mesh) {
+  std::string text;
+  for (std::size_t k = 0; k < relation.terms.size(); ++k) {
+    const auto& term = relation.terms[k];
+    if (k == most_terms_shown) return text + " + ...";
+    const double size = std::abs(term.coefficient);
+    const bool first = text.empty();
+    text += term.coefficient < 0.0 ? (first ? "-" : " - ") : (first ? "" : " + ");
+    if (size != 1.0) text += fmt::format("{} ", size);
+    text += fmt::format("{} at {}", name_of(term.component), mesh.node_name(term.node));
+  }
+  return text.empty() ? "0" : text;
+}
+
+[[noreturn]] void unknown_dof(const Mesh& mesh, const DofMap& dofs, const LinearRelation::Term& term, const std::string& origin) {
+  std::vector<std::string_view> carried;
+  for (int k = 0; k < component_count; ++k) {
+    const auto component = static_cast<Component>(k);
+    if (contains(dofs.components(term.node), component)) carried.push_back(name_of(component));
+  }
+  throw Error("unknown-dof", fmt::format("node {} has no component {} ({})", mesh.node_name(term.node), name_of(term.component), origin),
+              carried.empty() ? "the node belongs to no finite element of the model"
+                              : fmt::format("the components of this node are {}", fmt::join(carried, ", ")));
+}
+
+}  // namespace
+
+double Elimination::Condition::value(double time) const {
+  const double prescribed = relation->function ? relation->function(at, time) : relation->value;
+  return multiplier ? multiplier(time) * prescribed : prescribed;
+}
+
+std::string Elimination::Condition::origin() const { return relation->origin ? *relation->origin : "origin unknown"; }
+
+Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads) {
+  std::vector<SparseRow> rows;
+  for (const AppliedLoad& applied : loads) {
+    for (const LinearRelation& relation : applied.load->relations) rows.push_back(add_condition(mesh, dofs, applied, relation));
+  }
+  GaussJordan reduction = gauss_jordan(rows, dofs.size());
+  dependencies_ = std::move(reduction.dependencies);
+  set_transformation(reduction, dofs.size());
+  check_constant_dependencies();
+}
+
+SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
+                                     const LinearRelation& relation) {
+  const Point at = relation.terms.empty() ? Point{} : mesh.nodes[relation.terms.front().node];
+  const bool constant = !relation.function && !applied.multiplier;
+  conditions_.push_back({applied.load, &relation, applied.multiplier, at, describe(relation, mesh), constant});
+  std::map<int, double> coefficients;
+  for (const auto& term : relation.terms) {
+    const int dof = dofs.dof(term.node, term.component);
+    if (dof < 0) unknown_dof(mesh, dofs, term, conditions_.back().origin());
+    coefficients[dof] += term.coefficient;
+  }
+  std::erase_if(coefficients, [](const auto& term) { return term.second == 0.0; });
+  return {coefficients.begin(), coefficients.end()};
+}
+
+void Elimination::set_transformation(const GaussJordan& reduction, int full_size) {
+  std::vector<int> reduced(full_size, 0);
+  for (const auto& row : reduction.rows) reduced[row.pivot] = -1;
+  std::vector<Triplet> entries;
+  for (int dof = 0; dof < full_size; ++dof) {
+    if (reduced[dof] < 0) continue;
+    reduced[dof] = static_cast<int>(kept_.size());
+    entries.emplace_back(dof, reduced[dof], 1.0);
+    kept_.push_back(dof);
+  }
+  std::vector<Triplet> offsets;
+  for (const auto& row : reduction.rows) {
+    for (const auto& [dof, coefficient] : row.others) entries.emplace_back(row.pivot, reduced[dof], -coefficient);
+    for (const auto& [condition, factor] : row.combination) offsets.emplace_back(row.pivot, condition, factor);
+  }
+  transformation_.resize(full_size, static_cast<int>(kept_.size()));
+  transformation_.setFromTriplets(entries.begin(), entries.end());
+  offsets_.resize(full_size, static_cast<int>(conditions_.size()));
+  offsets_.setFromTriplets(offsets.begin(), offsets.end());
+}
+
+Eigen::VectorXd Elimination::values(double time) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(conditions_.size()));
+  for (std::size_t k = 0; k < conditions_.size(); ++k) result[static_cast<Eigen::Index>(k)] = conditions_[k].value(time);
+  return result;
+}
+
+Eigen::VectorXd Elimination::offset(double time) const {
+  const Eigen::VectorXd c = values(time);
+  for (const SparseRow& dependency : dependencies_) check(dependency, c, time);
+  return offsets_ * c;
+}
+
+void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const {
+  double sum = 0.0;
+  double largest = 0.0;
+  for (const auto& [condition, factor] : dependency) {
+    sum += factor * values[condition];
+    largest = std::max(largest, std::abs(factor * values[condition]));
+  }
+  // Beside values of 1, a value of 1e-17 is a zero that carries rounding, as a cosine leaves it.
+  const double rounding = std::numeric_limits<double>::epsilon() * values.lpNorm<Eigen::Infinity>();
+  if (!(std::abs(sum) <= contradiction_tolerance * largest + rounding)) contradict(dependency, values, time);
+}
+
+void Elimination::check_constant_dependencies() const {
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(conditions_.size()));
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    if (conditions_[k].constant) c[static_cast<Eigen::Index>(k)] = conditions_[k].value(0.0);
+  }
+  for (const SparseRow& dependency : dependencies_) {
+    const bool constant =
+        std::all_of(dependency.begin(), dependency.end(), [this](const auto& term) { return conditions_[term.first].constant; });
+    if (constant) check(dependency, c, 0.0);
+  }
+}
+
+void Elimination::contradict(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const {
+  std::vector<std::string> parts;
+  bool constant = true;
+  for (const auto& term : dependency) {
+    const Condition& condition = conditions_[term.first];
+    constant = constant && condition.constant;
+    parts.push_back(fmt::format("{} = {} ({})", condition.text, values[term.first], condition.origin()));
+  }
+  const std::string when = constant ? std::string() : fmt::format(" at time {}", time);
+  if (parts.size() == 1) {
+    throw Error("contradictory-conditions", fmt::format("a condition cannot hold{}: {}", when, parts.front()),
+                "its left-hand side is zero whatever the displacements: correct its coefficients or its value");
+  }
+  if (parts.size() > most_terms_shown) {
+    const std::size_t more = parts.size() - most_terms_shown;
+    // The relation that closed the chain is among the last; the first ones are what it meets.
+    parts.erase(parts.begin() + most_terms_shown / 2, parts.end() - most_terms_shown / 2);
+    parts.push_back(fmt::format("{} more", more));
+  }
+  throw Error("contradictory-conditions", fmt::format("conditions contradict each other{}: {}", when, fmt::join(parts, "; ")),
+              "remove one of them, or give them values that agree");
+}
+
+SymmetricMatrix Elimination::reduce(const SymmetricMatrix& stiffness) const {
+  if (!plan_ || !plan_->fits(stiffness)) plan_ = std::make_unique<Congruence>(stiffness, transformation_);
+  return plan_->apply(stiffness);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,175 @@
+#include "solver/linear/cholmod_solver.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <cholmod.h>
+
+#include "solver/error.hpp"
+#include "solver/linear/refined_solver.hpp"
+#include "solver/linear/shared_library.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// What stands in for a pivot that is exactly zero, so that the factorisation goes on and finds the others.
+constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
+/// The digits by which such a pivot is recognised.
+constexpr int zero_pivot_digits = 15;
+
+struct Cholmod {
+  SharedLibrary library{COMMA_CHOLMOD_LIBRARY};
+  decltype(&cholmod_start) start = library.function<decltype(cholmod_start)>("cholmod_start");
+  decltype(&cholmod_finish) finish = library.function<decltype(cholmod_finish)>("cholmod_finish");
+  decltype(&cholmod_analyze) analyse = library.function<decltype(cholmod_analyze)>("cholmod_analyze");
+  decltype(&cholmod_factorize_p) factorise = library.function<decltype(cholmod_factorize_p)>("cholmod_factorize_p");
+  decltype(&cholmod_solve) solve = library.function<decltype(cholmod_solve)>("cholmod_solve");
+  decltype(&cholmod_free_factor) free_factor = library.function<decltype(cholmod_free_factor)>("cholmod_free_factor");
+  decltype(&cholmod_free_dense) free_dense = library.function<decltype(cholmod_free_dense)>("cholmod_free_dense");
+};
+
+/// CHOLMOD's view of a lower triangle; it copies nothing and writes nothing.
+cholmod_sparse view_of(const SymmetricMatrix& matrix) {
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
+  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  view.p = const_cast<int*>(matrix.outerIndexPtr());
+  view.i = const_cast<int*>(matrix.innerIndexPtr());
+  view.x = const_cast<double*>(matrix.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+void read_supernodal_pivots(const cholmod_factor& factor, Eigen::VectorXd& pivots) {
+  const auto* columns = static_cast<const int*>(factor.super);
+  const auto* row_starts = static_cast<const int*>(factor.pi);
+  const auto* value_starts = static_cast<const int*>(factor.px);
+  const auto* values = static_cast<const double*>(factor.x);
+  for (std::size_t node = 0; node < factor.nsuper; ++node) {
+    const int rows = row_starts[node + 1] - row_starts[node];
+    for (int k = 0; k < columns[node + 1] - columns[node]; ++k) {
+      const double diagonal = values[value_starts[node] + k + k * rows];
+      pivots[columns[node] + k] = diagonal * diagonal;
+    }
+  }
+}
+
+void read_simplicial_pivots(const cholmod_factor& factor, Eigen::VectorXd& pivots) {
+  const auto* starts = static_cast<const int*>(factor.p);
+  const auto* values = static_cast<const double*>(factor.x);
+  for (Eigen::Index k = 0; k < pivots.size(); ++k) {
+    const double diagonal = values[starts[k]];
+    pivots[k] = factor.is_ll ? diagonal * diagonal : diagonal;
+  }
+}
+
+Eigen::VectorXd pivots_by_row(const cholmod_factor& factor) {
+  Eigen::VectorXd ordered(static_cast<Eigen::Index>(factor.n));
+  if (factor.is_super) read_supernodal_pivots(factor, ordered);
+  else read_simplicial_pivots(factor, ordered);
+  const auto* order = static_cast<const int*>(factor.Perm);
+  Eigen::VectorXd pivots(ordered.size());
+  for (Eigen::Index k = 0; k < ordered.size(); ++k) pivots[order[k]] = ordered[k];
+  return pivots;
+}
+
+class CholmodSolver final : public RefinedSolver {
+ public:
+  explicit CholmodSolver(const LinearOptions& options) : RefinedSolver(options) {
+    cholmod_.start(&common_);
+    common_.print = 0;
+    common_.error_handler = nullptr;
+  }
+
+  ~CholmodSolver() override {
+    cholmod_.free_factor(&factor_, &common_);
+    cholmod_.free_factor(&indefinite_factor_, &common_);
+    cholmod_.finish(&common_);
+  }
+
+  CholmodSolver(const CholmodSolver&) = delete;
+  CholmodSolver& operator=(const CholmodSolver&) = delete;
+
+  LinearMethod method() const override { return LinearMethod::cholmod; }
+
+ protected:
+  void analyse_pattern(const SymmetricMatrix& matrix) override {
+    cholmod_.free_factor(&factor_, &common_);
+    cholmod_.free_factor(&indefinite_factor_, &common_);
+    factor_ = symbolic_factor(matrix, CHOLMOD_AUTO);
+  }
+
+  FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) override {
+    int digits = options().singular_digits;
+    current_ = factor_;
+    if (!factorised(matrix, 0.0)) {
+      if (!indefinite_factor_) indefinite_factor_ = symbolic_factor(matrix, CHOLMOD_SIMPLICIAL);
+      current_ = indefinite_factor_;
+      if (!factorised(matrix, 0.0)) {
+        factorised(matrix, zero_pivot_shift);
+        digits = digits < 0 ? zero_pivot_digits : std::min(digits, zero_pivot_digits);
+      }
+    }
+    return judge_pivots(pivots_by_row(*current_), references, digits);
+  }
+
+  void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const override {
+    cholmod_dense view{};
+    view.nrow = static_cast<std::size_t>(rhs.rows());
+    view.ncol = static_cast<std::size_t>(rhs.cols());
+    view.d = static_cast<std::size_t>(rhs.outerStride());
+    view.nzmax = view.d * view.ncol;
+    view.x = rhs.data();
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* solution = cholmod_.solve(CHOLMOD_A, current_, &view, &common_);
+    check();
+    rhs = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());
+    cholmod_.free_dense(&solution, &common_);
+  }
+
+ private:
+  cholmod_factor* symbolic_factor(const SymmetricMatrix& matrix, int kind) {
+    common_.supernodal = kind;
+    cholmod_sparse view = view_of(matrix);
+    cholmod_factor* factor = cholmod_.analyse(&view, &common_);
+    check();
+    return factor;
+  }
+
+  /// False where a pivot stopped the factorisation.
+  bool factorised(const SymmetricMatrix& matrix, double shift) {
+    cholmod_sparse view = view_of(matrix);
+    double beta[2] = {shift, 0.0};
+    cholmod_.factorise(&view, beta, nullptr, 0, current_, &common_);
+    check();
+    return common_.status != CHOLMOD_NOT_POSDEF && current_->minor == current_->n;
+  }
+
+  void check() const {
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
+      throw Error("out-of-memory", "the factors of the stiffness matrix do not fit into memory", "coarsen the mesh");
+    }
+    if (common_.status < 0) throw Error("linear-solver", "CHOLMOD refuses the matrix");
+  }
+
+  Cholmod cholmod_;
+  mutable cholmod_common common_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_factor* indefinite_factor_ = nullptr;
+  cholmod_factor* current_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_cholmod_solver(const LinearOptions& options) {
+  return std::make_unique<CholmodSolver>(options);
+}
+
+}  // namespace comma::solver
