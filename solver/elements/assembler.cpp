@@ -1,0 +1,146 @@
+#include "solver/elements/assembler.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/elements/element_block.hpp"
+#include "solver/elements/external_forces.hpp"
+#include "solver/elements/sparse_pattern.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// Cells with stiffness, gathered by what they share; each group's cells keep the order of the mesh.
+using CellGroups = std::map<std::pair<Formulation, CellType>, std::vector<int>>;
+
+std::vector<int> stiff_cells(const Model& model) {
+  std::vector<int> cells;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (model.components_of(cell) != 0 && !model.is_skin(cell)) cells.push_back(cell);
+  }
+  return cells;
+}
+
+CellGroups group_cells(const Model& model, const std::vector<int>& cells) {
+  CellGroups groups;
+  for (const int cell : cells) groups[{model.formulations[cell], model.mesh->cell_types[cell]}].push_back(cell);
+  return groups;
+}
+
+std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
+  const Formulation formulation = input.model.formulations[cells.front()];
+  if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
+  if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
+  throw_unsupported_element(input.model, cells.front());
+}
+
+/// The stresses of one block into a field whose components are those of all blocks.
+void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, ElementField& field) {
+  const auto names = block.stress_names();
+  std::vector<int> columns;
+  for (const auto name : names) columns.push_back(field.component(name));
+  std::vector<double> values(block.cells().size() * block.point_count() * names.size());
+  block.stresses(u, values);
+  const double* value = values.data();
+  for (const int cell : block.cells()) {
+    for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
+      double* target = field.values.data() + static_cast<std::size_t>(point) * field.components.size();
+      for (const int column : columns) target[column] = *value++;
+    }
+  }
+}
+
+Eigen::VectorXd rounded(const std::vector<long double>& sums) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(sums.size()));
+  std::transform(sums.begin(), sums.end(), result.data(), [](long double sum) { return static_cast<double>(sum); });
+  return result;
+}
+
+}  // namespace
+
+void throw_unsupported_element(const Model& model, int cell) {
+  throw Error("unsupported", fmt::format("there is no element of the formulation asked for on cell {} ({})",
+                                         model.mesh->cell_name(cell), name_of(model.mesh->cell_types[cell])));
+}
+
+struct Assembler::Blocks {
+  SparsePattern pattern;
+  std::vector<std::unique_ptr<ElementBlock>> list;
+};
+
+Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs)
+    : model_(model), materials_(materials), properties_(properties), dofs_(dofs) {
+  const std::vector<int> cells = stiff_cells(model);
+  blocks_.reset(new Blocks{SparsePattern(*model.mesh, cells, dofs), {}});
+  const BlockInput input{model_, materials_, properties_, dofs_, blocks_->pattern};
+  for (auto& [kind, group] : group_cells(model, cells)) blocks_->list.push_back(make_block(input, std::move(group)));
+}
+
+Assembler::~Assembler() = default;
+
+SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
+  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
+  for (const auto& block : blocks_->list) block->add_stiffness(u, blocks_->pattern.column_starts(), matrix.valuePtr());
+  return matrix;
+}
+
+Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  for (const auto& block : blocks_->list) block->add_internal_forces(u, sums);
+  return rounded(sums);
+}
+
+Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  add_external_forces(model_, dofs_, loads, time, sums);
+  return rounded(sums);
+}
+
+bool Assembler::is_linear() const {
+  return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_linear(); });
+}
+
+ElementField Assembler::stresses(const Eigen::VectorXd& u) const {
+  ElementField field;
+  field.quantity = "SIEF_R";
+  field.support = Support::gauss_point;
+  field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
+  for (const auto& block : blocks_->list) {
+    for (const auto name : block->stress_names()) {
+      if (field.component(name) < 0) field.components.emplace_back(name);
+    }
+    for (const int cell : block->cells()) field.starts[cell + 1] = block->point_count();
+  }
+  for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
+  field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
+  for (const auto& block : blocks_->list) write_stresses(*block, u, field);
+  return field;
+}
+
+NodalField to_field(const Eigen::VectorXd& values, const DofMap& dofs, std::string quantity) {
+  ComponentMask present = 0;
+  for (int node = 0; node < dofs.node_count(); ++node) present |= dofs.components(node);
+  NodalField field{std::move(quantity), {}, {}};
+  std::vector<Component> components;
+  for (int c = 0; c < component_count; ++c) {
+    const auto component = static_cast<Component>(c);
+    if (!contains(present, component)) continue;
+    components.push_back(component);
+    field.components.emplace_back(name_of(component));
+  }
+  field.values.reserve(static_cast<std::size_t>(dofs.node_count()) * components.size());
+  for (int node = 0; node < dofs.node_count(); ++node) {
+    for (const Component component : components) {
+      const int dof = dofs.dof(node, component);
+      field.values.push_back(dof < 0 ? absent : values[dof]);
+    }
+  }
+  return field;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,123 @@
+// Springs on points and segments.
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/elements/element_block.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> plane_forces = {"N", "VY"};
+constexpr std::array<std::string_view, 3> plane_forces_moment = {"N", "VY", "MFZ"};
+constexpr std::array<std::string_view, 3> space_forces = {"N", "VY", "VZ"};
+constexpr std::array<std::string_view, 6> space_forces_moments = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
+
+class DiscreteBlock final : public ElementBlock {
+ public:
+  DiscreteBlock(const BlockInput& input, std::vector<int> cells)
+      : formulation_(input.model.formulations[cells.front()]),
+        node_count_(static_cast<int>(input.model.mesh->cell(cells.front()).size())),
+        cells_(std::move(cells)),
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh)) {
+    const int size = node_count_ * map_.components();
+    for (const int cell : cells_) {
+      const auto found = input.properties.discrete.find(cell);
+      if (found == input.properties.discrete.end()) {
+        throw Error("missing-properties",
+                    fmt::format("the discrete element on cell {} has no stiffness", input.model.mesh->cell_name(cell)));
+      }
+      if (found->second.matrix.rows() != size || found->second.matrix.cols() != size) {
+        throw Error("wrong-size", fmt::format("the stiffness of the discrete element on cell {} is {} x {}, not {} x {}",
+                                              input.model.mesh->cell_name(cell), found->second.matrix.rows(),
+                                              found->second.matrix.cols(), size, size));
+      }
+      stiffnesses_.push_back(&found->second);
+    }
+  }
+
+  void add_stiffness(const Eigen::VectorXd&, std::span<const int> column_starts, double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.add(element, stiffnesses_[element]->matrix.data(), column_starts, values);
+    }
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const override {
+    std::array<int, max_size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Eigen::MatrixXd& k = stiffnesses_[element]->matrix;
+      for (int i = 0; i < k.rows(); ++i) {
+        for (int j = 0; j < k.cols(); ++j) forces[dofs[i]] += static_cast<long double>(k(i, j)) * u[dofs[j]];
+      }
+    }
+  }
+
+  std::span<const int> cells() const override { return cells_; }
+  int point_count() const override { return 1; }
+
+  std::span<const std::string_view> stress_names() const override {
+    switch (formulation_) {
+      case Formulation::spring_2d: return plane_forces;
+      case Formulation::spring_rotation_2d: return plane_forces_moment;
+      case Formulation::spring_3d: return space_forces;
+      default: return space_forces_moments;
+    }
+  }
+
+  /// The force with which the part beyond the element pulls at its last node, in the element's own axes: N > 0 in tension.
+  void stresses(const Eigen::VectorXd& u, std::span<double> out) const override {
+    const int k = map_.components();
+    const int translations = formulation_ == Formulation::spring_2d || formulation_ == Formulation::spring_rotation_2d ? 2 : 3;
+    std::array<int, max_size> dofs;
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element, target += k) {
+      map_.dofs(element, dofs.data());
+      const DiscreteStiffness& stiffness = *stiffnesses_[element];
+      std::array<double, component_count> force{};
+      for (int i = 0; i < k; ++i) {
+        for (int j = 0; j < stiffness.matrix.cols(); ++j) {
+          force[i] += stiffness.matrix((node_count_ - 1) * k + i, j) * u[dofs[j]];
+        }
+      }
+      to_local(force.data(), stiffness.axes, translations, target);
+      if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);
+      if (formulation_ == Formulation::spring_rotation_2d) target[2] = force[2];
+    }
+  }
+
+  bool is_linear() const override { return true; }
+
+ private:
+  static constexpr int max_size = 2 * component_count;
+
+  static void to_local(const double* global, const Eigen::Matrix3d& axes, int dimension, double* local) {
+    for (int i = 0; i < dimension; ++i) {
+      local[i] = 0.0;
+      for (int j = 0; j < dimension; ++j) local[i] += axes(i, j) * global[j];
+    }
+  }
+
+  std::vector<int> gather_nodes(const Mesh& mesh) const {
+    std::vector<int> nodes;
+    for (const int cell : cells_) nodes.insert(nodes.end(), mesh.cell(cell).begin(), mesh.cell(cell).end());
+    return nodes;
+  }
+
+  Formulation formulation_;
+  int node_count_;
+  std::vector<int> cells_;
+  ElementMap map_;
+  std::vector<const DiscreteStiffness*> stiffnesses_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells) {
+  return std::make_unique<DiscreteBlock>(input, std::move(cells));
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,52 @@
+// A block of like elements: the one place where calls are virtual, once a block and never an element.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "solver/elements/section.hpp"
+#include "solver/elements/sparse_pattern.hpp"
+#include "solver/fields/field.hpp"
+#include "solver/materials/material.hpp"
+
+namespace comma::solver {
+
+/// What blocks are made from.
+struct BlockInput {
+  const Model& model;
+  const MaterialField& materials;
+  const ElementProperties& properties;
+  const DofMap& dofs;
+  const SparsePattern& pattern;
+};
+
+/// Internal forces add up in extended precision (64 significant bits).
+using ForceSum = std::span<long double>;
+
+class ElementBlock {
+ public:
+  virtual ~ElementBlock() = default;
+
+  virtual void add_stiffness(const Eigen::VectorXd& u, std::span<const int> column_starts, double* values) const = 0;
+  virtual void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const = 0;
+
+  virtual std::span<const int> cells() const = 0;
+  /// Stresses have this many points a cell ...
+  virtual int point_count() const = 0;
+  /// ... and these components.
+  virtual std::span<const std::string_view> stress_names() const = 0;
+  /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
+  virtual void stresses(const Eigen::VectorXd& u, std::span<double> out) const = 0;
+  virtual bool is_linear() const = 0;
+};
+
+/// Blocks for cells that share type and formulation.
+std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
+
+/// Error for a cell that has no element: formulation and cell type do not go together.
+[[noreturn]] void throw_unsupported_element(const Model& model, int cell);
+
+}  // namespace comma::solver

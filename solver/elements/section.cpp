@@ -1,0 +1,102 @@
+#include "solver/elements/section.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+void check_count(std::size_t given, std::size_t expected, const Mesh& mesh, int cell) {
+  if (given == expected) return;
+  throw Error("wrong-size", fmt::format("the stiffness of the discrete element on {} takes {} values, not {}",
+                                        mesh.cell_name(cell), expected, given));
+}
+
+int matrix_size(const Mesh& mesh, int cell, Formulation formulation) {
+  return static_cast<int>(mesh.cell(cell).size()) * discrete_components(formulation);
+}
+
+/// Rotation from global to local components of one node: translations, then rotations.
+Eigen::MatrixXd node_rotation(Formulation formulation, const Eigen::Matrix3d& axes) {
+  const int k = discrete_components(formulation);
+  Eigen::MatrixXd rotation = Eigen::MatrixXd::Identity(k, k);
+  const int translations = formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ? 2 : 3;
+  rotation.topLeftCorner(translations, translations) = axes.topLeftCorner(translations, translations);
+  if (k == 6) rotation.bottomRightCorner<3, 3>() = axes;
+  return rotation;
+}
+
+DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame) {
+  DiscreteStiffness result{std::move(matrix), discrete_axes(mesh, cell)};
+  if (frame == DiscreteFrame::global || result.axes.isIdentity(0.0)) return result;
+  const Eigen::MatrixXd rotation = node_rotation(formulation, result.axes);
+  const auto k = rotation.rows();
+  for (Eigen::Index i = 0; i < result.matrix.rows(); i += k) {
+    for (Eigen::Index j = 0; j < result.matrix.cols(); j += k) {
+      result.matrix.block(i, j, k, k) = (rotation.transpose() * result.matrix.block(i, j, k, k) * rotation).eval();
+    }
+  }
+  result.matrix = (0.5 * (result.matrix + result.matrix.transpose())).eval();
+  return result;
+}
+
+}  // namespace
+
+Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  if (nodes.size() < 2) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d along =
+      Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[1]].data()) - Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[0]].data());
+  const double length = along.norm();
+  if (!(length > 0.0)) {
+    throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
+                "give the stiffness in global axes");
+  }
+  // Yaw about Z, then pitch about the turned Y: the second axis stays horizontal.
+  const Eigen::Vector3d x = along / length;
+  const double horizontal = std::hypot(x[0], x[1]);
+  const Eigen::Vector3d y = horizontal > 0.0 ? Eigen::Vector3d(-x[1] / horizontal, x[0] / horizontal, 0.0) : Eigen::Vector3d::UnitY();
+  Eigen::Matrix3d axes;
+  axes << x.transpose(), y.transpose(), x.cross(y).transpose();
+  return axes;
+}
+
+int discrete_components(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::spring_2d: return 2;
+    case Formulation::spring_3d:
+    case Formulation::spring_rotation_2d: return 3;
+    case Formulation::spring_rotation_3d: return 6;
+    default: return 0;
+  }
+}
+
+DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                                     DiscreteFrame frame) {
+  const int k = discrete_components(formulation);
+  check_count(values.size(), static_cast<std::size_t>(k), mesh, cell);
+  const int size = matrix_size(mesh, cell, formulation);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (int i = 0; i < size; ++i) {
+    for (int j = i % k; j < size; j += k) matrix(i, j) = i == j ? values[i % k] : -values[i % k];
+  }
+  return finish(mesh, cell, formulation, std::move(matrix), frame);
+}
+
+DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                                      DiscreteFrame frame) {
+  const int size = matrix_size(mesh, cell, formulation);
+  check_count(values.size(), static_cast<std::size_t>(size * (size + 1) / 2), mesh, cell);
+  Eigen::MatrixXd matrix(size, size);
+  auto value = values.begin();
+  for (int j = 0; j < size; ++j) {
+    for (int i = 0; i <= j; ++i) matrix(i, j) = matrix(j, i) = *value++;
+  }
+  return finish(mesh, cell, formulation, std::move(matrix), frame);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,45 @@
+#include "solver/fields/nodal_forces.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+
+
+namespace comma::solver {
+
+namespace {
+
+/// The values of a nodal field over the degrees of freedom.
+Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs) {
+  std::array<int, component_count> columns;
+  for (int c = 0; c < component_count; ++c) columns[c] = field.component(name_of(static_cast<Component>(c)));
+  Eigen::VectorXd values(dofs.size());
+  for (int dof = 0; dof < dofs.size(); ++dof) {
+    const int column = columns[static_cast<std::size_t>(dofs.component_of(dof))];
+    const double value = column < 0 ? absent : field.at(dofs.node_of(dof), column);
+    if (std::isnan(value)) {
+      throw Error("incompatible-field", fmt::format("the displacement field has no {} at a node of the model that needs it",
+                                                    name_of(dofs.component_of(dof))));
+    }
+    values[dof] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement) {
+  return to_field(assembler.internal_forces(to_dofs(displacement, dofs)), dofs, "DEPL_R");
+}
+
+NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
+                           std::span<const AppliedLoad> loads, double time) {
+  const Eigen::VectorXd internal = assembler.internal_forces(to_dofs(displacement, dofs));
+  return to_field(internal - assembler.external_forces(loads, time), dofs, "DEPL_R");
+}
+
+}  // namespace comma::solver
