@@ -1,6 +1,7 @@
 #include "solver/nonlinear/static_analysis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -29,7 +30,7 @@ class StaticAnalysis {
         counters_(counters),
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
-        elimination_(dofs_, problem.loads),
+        elimination_(mesh_, dofs_, problem.loads),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, observer),
         contact_nodes_(nodes_of_contact()) {}

@@ -28,6 +28,7 @@ class TangentSystem {
 
  private:
   void factorise(const SymmetricMatrix& reduced);
+  [[noreturn]] void throw_singular(const SymmetricMatrix& reduced, const FactorReport& report) const;
 
   const Model& model_;
   const DofMap& dofs_;
