@@ -20,7 +20,10 @@ Mesh read_med_mesh(const std::string& path, const std::string& name = "");
 /// The order inside a group is not kept: MED knows groups as sets.
 void write_med_mesh(const std::string& path, const Mesh& mesh, const std::string& name);
 
-/// The mesh and all nodal and element fields of a result, one MED field per name, one computation step per order.
+/// The mesh and all nodal and element fields of a result, one MED field per name ("RESU____DEPL" for the field DEPL of RESU,
+/// U7.05.21), one computation step per order. Nodes and cells that do not carry a field are left out by a profile; a component
+/// that a carrier lacks is written as 0. Fields at Gauss points come with the scheme of R3.01.01 that has their number of
+/// points; Error `unsupported` names a number that has none. Other errors as for write_med_mesh.
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
                       const std::string& result_name);
 
