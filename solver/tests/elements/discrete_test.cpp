@@ -1,0 +1,82 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "sample_meshes.hpp"
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+using namespace comma::solver::testing;
+
+namespace {
+
+std::shared_ptr<Mesh> segment(const Point& from, const Point& to) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {from, to};
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  return mesh;
+}
+
+Body spring(const std::shared_ptr<Mesh>& mesh, Formulation formulation, std::span<const double> values, DiscreteFrame frame) {
+  ElementProperties properties;
+  properties.discrete[0] = diagonal_stiffness(*mesh, 0, formulation, values, frame);
+  return Body(mesh, {formulation}, nullptr, properties);
+}
+
+}  // namespace
+
+TEST_CASE("a spring along a slanted segment resists along it with its first value, across it with the second", "[elements]") {
+  const auto mesh = segment({1, 1, 0}, {4, 5, 0});  // direction (0.6, 0.8)
+  const Body body = spring(mesh, Formulation::spring_2d, std::array{100.0, 7.0}, DiscreteFrame::local);
+  Eigen::Vector4d stretch(0, 0, 0.6, 0.8);
+  Eigen::Vector4d across(0, 0, -0.8, 0.6);
+  CHECK((body.assembler->internal_forces(stretch) - Eigen::Vector4d(-60, -80, 60, 80)).norm() < 1e-12);
+  CHECK((body.assembler->internal_forces(across) - Eigen::Vector4d(5.6, -4.2, -5.6, 4.2)).norm() < 1e-12);
+  const ElementField force = body.assembler->stresses(stretch);
+  CHECK(force.components == std::vector<std::string>{"N", "VY"});
+  CHECK(force.at(0, 0, 0) == Approx(100.0));  // tension is positive
+  CHECK(force.at(0, 0, 1) == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("a spring in global axes ignores the direction of its segment", "[elements]") {
+  const Body body = spring(segment({0, 0, 0}, {0, 5, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::global);
+  const Eigen::Vector4d u(0, 0, 1, 1);
+  CHECK((body.assembler->internal_forces(u) - Eigen::Vector4d(-10, -3, 10, 3)).norm() == 0.0);
+}
+
+TEST_CASE("own axes of segments are right-handed, the first along the segment, the second horizontal", "[elements]") {
+  for (const Point& to : {Point{1, 2, 3}, Point{0, 0, 2}, Point{0, 0, -1}, Point{-1, 0, 0}}) {
+    const Eigen::Matrix3d axes = discrete_axes(*segment({0, 0, 0}, to), 0);
+    CHECK((axes * axes.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-15);
+    CHECK(axes.determinant() == Approx(1.0));
+    CHECK((axes.row(0).transpose() - Eigen::Vector3d(to[0], to[1], to[2]).normalized()).norm() < 1e-15);
+    CHECK(axes(1, 2) == 0.0);
+  }
+  CHECK_THROWS_AS(discrete_axes(*segment({1, 1, 1}, {1, 1, 1}), 0), Error);
+}
+
+TEST_CASE("springs in space with rotations keep their energy under a change of frame", "[elements]") {
+  const std::array values = {11.0, 12.0, 13.0, 14.0, 15.0, 16.0};
+  const auto mesh = segment({0, 0, 0}, {1, 2, 2});
+  const Body local = spring(mesh, Formulation::spring_rotation_3d, values, DiscreteFrame::local);
+  const Body global = spring(mesh, Formulation::spring_rotation_3d, values, DiscreteFrame::global);
+  const Eigen::VectorXd a = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(local.dense_stiffness()).eigenvalues();
+  const Eigen::VectorXd b = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(global.dense_stiffness()).eigenvalues();
+  CHECK((a - b).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(a.head(6).cwiseAbs().maxCoeff() < 1e-12);  // both ends moving together cost nothing
+}
+
+TEST_CASE("a full symmetric stiffness is read by columns of its upper triangle", "[elements]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{0, 0, 0}};
+  mesh->add_cell(CellType::poi1, std::array{0});
+  const auto k = symmetric_stiffness(*mesh, 0, Formulation::spring_3d, std::array{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, DiscreteFrame::local);
+  const Eigen::Matrix3d expected = (Eigen::Matrix3d() << 1, 2, 4, 2, 3, 5, 4, 5, 6).finished();
+  CHECK(k.matrix == expected);
+}
+
+TEST_CASE("a wrong number of values says how many there should be", "[elements]") {
+  const auto mesh = segment({0, 0, 0}, {1, 0, 0});
+  CHECK_THROWS_WITH(diagonal_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::local),
+                    Catch::Contains("takes 2 values, not 3"));
+}
