@@ -5,7 +5,7 @@
 
 namespace comma::solver {
 
-ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load) const {
+ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding) const {
   Measure result;
   result.absolute = residual;
   const bool has_history = smallest_load_ > 0.0;
@@ -15,9 +15,9 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   result.converged = true;
   if (options_.absolute_residual) result.converged = residual <= *options_.absolute_residual;
   const bool tests_relative = options_.relative_residual || !options_.absolute_residual;
-  if (tests_relative && !vanished) result.converged &= result.relative <= relative_limit();
-  if (tests_relative && vanished)
-    result.converged &= residual <= (has_history ? relative_limit() * smallest_load_ : default_absolute_residual);
+  if (!tests_relative || is_rounding) return result;
+  const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
+  result.converged &= vanished ? residual <= vanished_limit : result.relative <= relative_limit();
   return result;
 }
 

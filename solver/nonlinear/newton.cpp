@@ -17,6 +17,8 @@ namespace {
 
 /// A correction below this share of the solution is rounding.
 constexpr double negligible_step = 4e-16;
+/// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
+constexpr double rounding_share = 1e-14;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: two are enough unless
 /// it has less than a third of them.
 constexpr int max_polishing = 3;
@@ -56,7 +58,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     ++counters_.newton_iterations;
     const Correction correction = correct(state, offset);
     evaluate(state, external);
-    const auto measure = criterion_.measure(largest(residual_), load_);
+    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
     history.push_back(report(time, iteration, measure, correction.changes));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -92,6 +94,13 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   load_ = std::max(largest(external), largest(unbalanced));
+}
+
+/// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
+bool NewtonSolver::is_rounding(const NewtonState& state) const {
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  return sizes.size() == residual_.size() &&
+         (residual_.array().abs() <= rounding_share * largest(state.u) * sizes.array()).all();
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {

@@ -56,6 +56,7 @@ class NewtonSolver {
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
+  bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes) const;
   std::string worst_place() const;

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two updates that differ by less than this share are the same place: what the pairings then do again is no cycle.
+/// Pairings that return within this many updates are in a cycle.
 constexpr int cycle_length_limit = 4;
 
 class StaticAnalysis {

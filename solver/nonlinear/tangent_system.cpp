@@ -1,7 +1,8 @@
 #include "solver/nonlinear/tangent_system.hpp"
 
-#include <fmt/format.h>
+#include <cmath>
 
+#include "solver/constraints/rigid_motion.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -30,19 +31,21 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced) {
     report = solver_->factorise(reduced);
     ++counters_.factorisations;
   }
-  if (report.verdict == FactorVerdict::singular) throw_singular(reduced, report);
+  if (report.verdict == FactorVerdict::singular) {
+    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, options_.linear.singular_digits);
+  }
+  measure_rows(reduced);
   factorised_ = true;
 }
 
-void TangentSystem::throw_singular(const SymmetricMatrix&, const FactorReport& report) const {
-  std::string places;
-  for (const int row : report.null_rows) {
-    const int dof = elimination_.kept()[static_cast<std::size_t>(row)];
-    places += fmt::format("{}{} at {}", places.empty() ? "" : ", ", name_of(dofs_.component_of(dof)),
-                          model_.mesh->node_name(dofs_.node_of(dof)));
-  }
-  throw Error("singular-matrix", "the stiffness is singular: nothing holds " + places,
-              "impose displacements there, or tie the body to one that is held");
+/// Bounds what rounding of u alone does to the residual: a row of |K| times the largest displacement.
+void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
+  row_sizes_ = Eigen::VectorXd::Zero(reduced.rows());
+  for (int column = 0; column < reduced.outerSize(); ++column)
+    for (SymmetricMatrix::InnerIterator it(reduced, column); it; ++it) {
+      row_sizes_[it.row()] += std::abs(it.value());
+      if (it.row() != column) row_sizes_[column] += std::abs(it.value());
+    }
 }
 
 void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) const {

@@ -26,9 +26,12 @@ class TangentSystem {
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
+  /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
+  const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
+
  private:
   void factorise(const SymmetricMatrix& reduced);
-  [[noreturn]] void throw_singular(const SymmetricMatrix& reduced, const FactorReport& report) const;
+  void measure_rows(const SymmetricMatrix& reduced);
 
   const Model& model_;
   const DofMap& dofs_;
@@ -37,6 +40,7 @@ class TangentSystem {
   const NewtonOptions& options_;
   Counters& counters_;
   std::unique_ptr<LinearSolver> solver_;
+  Eigen::VectorXd row_sizes_;
   bool analysed_ = false;
   bool factorised_ = false;
 };

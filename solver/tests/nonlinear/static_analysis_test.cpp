@@ -40,8 +40,8 @@ TEST_CASE("A block on a unilateral support: the reactions carry the load") {
   Scene scene;
   const auto block = scene.block("b", {0, 0}, {4, 2}, 8, 4, 1e7, 0.3);
   scene.impose({block.nodes[0][0]}, Component::dx, 0);
-  scene.ground_spring("k", block.nodes[0][4], 0, 1e-3);   // holds the block against lifting off,
-  scene.ground_spring("k2", block.nodes[0][8], 0, 1e-3);  // and against turning
+  scene.ground_spring("k", block.nodes[0][4], 0, 10);   // holds the block against lifting off,
+  scene.ground_spring("k2", block.nodes[0][8], 0, 10);  // and against turning
   for (const int node : block.nodes[4]) scene.force(node, Component::dy, -100);
   scene.bound(block.nodes[0], Component::dy, -1.0, constant(0.0));
   scene.solve(1);
@@ -219,7 +219,7 @@ TEST_CASE("A body that nothing holds is named") {
   scene.impose({block.nodes[1][0]}, Component::dy, 0);
   std::string message;
   CHECK(code_of(scene, 1, &message) == "singular-matrix");
-  CHECK(message.find("DX") != std::string::npos);
+  CHECK(message.find("translation along X") != std::string::npos);
 }
 
 TEST_CASE("Contradictory imposed displacements are an error, the same one twice is not") {
