@@ -56,6 +56,20 @@ std::span<const std::int8_t> whole_order(CellType type) {
   throw Error("unreadable-file", fmt::format("{}: {}", path, why), hint);
 }
 
+void check_readable(const std::string& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) throw_unreadable(path, "there is no such file");
+  if (!std::filesystem::is_regular_file(path, failure)) throw_unreadable(path, "this is not a file");
+  med_bool is_hdf = MED_FALSE;
+  med_bool is_med = MED_FALSE;
+  if (MEDfileCompatibility(path.c_str(), &is_hdf, &is_med) < 0 || !is_hdf) {
+    throw_unreadable(path, "this is not a MED file (nor any other HDF5 file), or it is cut off");
+  }
+  if (is_med) return;
+  throw_unreadable(path, fmt::format("this HDF5 file is not a MED file that the MED library {} can read", MED_VERSION_STR),
+                   "a file of MED 2.1 or 2.2 is brought up to date by medimport");
+}
+
 }  // namespace
 
 QuietHdf5::QuietHdf5() {
@@ -65,36 +79,21 @@ QuietHdf5::QuietHdf5() {
 
 QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, handler_, client_data_); }
 
-MedFile MedFile::open_for_reading(const std::string& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure)) throw_unreadable(path, "there is no such file");
-  if (!std::filesystem::is_regular_file(path, failure)) throw_unreadable(path, "this is not a file");
-  const QuietHdf5 quiet;
-  med_bool is_hdf = MED_FALSE;
-  med_bool is_med = MED_FALSE;
-  if (MEDfileCompatibility(path.c_str(), &is_hdf, &is_med) < 0 || !is_hdf) {
-    throw_unreadable(path, "this is not a MED file (nor any other HDF5 file), or it is cut off");
-  }
-  if (!is_med) {
-    throw_unreadable(path, fmt::format("this HDF5 file is not a MED file that the MED library {} can read",
-                                       MED_VERSION_STR),
-                     "a file of MED 2.1 or 2.2 is brought up to date by medimport");
-  }
-  const med_idt id = MEDfileOpen(path.c_str(), MED_ACC_RDONLY);
-  if (id < 0) throw_unreadable(path, "the MED library cannot open it");
-  return {id, path};
+MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)) {
+  if (mode == MED_ACC_RDONLY) check_readable(path_);
+  id_ = MEDfileOpen(path_.c_str(), mode);
+  if (id_ >= 0) return;
+  if (mode == MED_ACC_RDONLY) throw_unreadable(path_, "the MED library cannot open it");
+  throw Error("unwritable-file", fmt::format("{}: the MED library cannot write it", path_));
 }
+
+MedFile MedFile::open_for_reading(const std::string& path) { return {path, MED_ACC_RDONLY}; }
 
 MedFile MedFile::create(const std::string& path) {
   // The MED library writes to the screen when it cannot create a file, so we try first.
   if (!std::ofstream(path)) throw Error("unwritable-file", fmt::format("{}: the file cannot be written", path));
-  const QuietHdf5 quiet;
-  const med_idt id = MEDfileOpen(path.c_str(), MED_ACC_CREAT);
-  if (id < 0) throw Error("unwritable-file", fmt::format("{}: the file cannot be written", path));
-  return {id, path};
+  return {path, MED_ACC_CREAT};
 }
-
-MedFile::MedFile(MedFile&& other) noexcept : id_(std::exchange(other.id_, -1)), path_(std::move(other.path_)) {}
 
 MedFile::~MedFile() {
   if (id_ >= 0) MEDfileClose(id_);

@@ -40,16 +40,16 @@ class MedFile {
   /// Replaces what is there. Throws Error `unwritable-file`.
   static MedFile create(const std::string& path);
   ~MedFile();
-  MedFile(MedFile&& other) noexcept;
-  MedFile& operator=(MedFile&&) = delete;
+  MedFile(const MedFile&) = delete;
+  MedFile& operator=(const MedFile&) = delete;
 
   med_idt id() const { return id_; }
   const std::string& path() const { return path_; }
 
  private:
-  MedFile(med_idt id, std::string path) : id_(id), path_(std::move(path)) {}
+  MedFile(std::string path, med_access_mode mode);
 
-  QuietHdf5 quiet_;
+  QuietHdf5 quiet_;  ///< from before the file is opened until after it is closed
   med_idt id_ = -1;
   std::string path_;
 };

@@ -1,0 +1,22 @@
+// CONT_NOEU: the state of contact at the slave nodes.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/pairing.hpp"
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+/// Components (U2.04.04): CONT: -1 not paired, 0 open, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
+/// force on the slave node, positive in compression, and its components RNX RNY RNZ; the tangential forces of sticking RTAX..
+/// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
+/// foot on the master surface. What is not computed here stays absent: GLIX GLIY GLI (sliding, with friction), HN, and the
+/// percussions I IX IY IZ (dynamics). A node without a slave role carries nothing.
+/// `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the node is not paired.
+NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps, const Eigen::VectorXd& multipliers,
+                         int node_count, Positions positions);
+
+}  // namespace comma::solver

@@ -1,0 +1,93 @@
+#include "solver/contact/normals.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/contact/facet.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A component this small is what rounding leaves of zero. It is cleared because contact forces of 1e10 times a rounding
+/// would push a body that only weak springs hold sideways.
+constexpr double clean_normal_tolerance = 1e-14;
+
+Vector3d cleaned(Vector3d normal) {
+  for (double& component : normal)
+    if (std::abs(component) < clean_normal_tolerance) component = 0.0;
+  return normal.normalized();
+}
+
+struct FacetPoints {
+  std::array<Vector3d, max_facet_nodes> points;
+  std::size_t count = 0;
+  std::span<const Vector3d> span() const { return {points.data(), count}; }
+};
+
+FacetPoints gather(const Mesh& mesh, int cell, Positions positions) {
+  FacetPoints result;
+  for (const int node : mesh.cell(cell)) result.points[result.count++] = positions[node];
+  return result;
+}
+
+void require_plane_or_surface(const Mesh& mesh, int cell) {
+  if (mesh.dimension != 3 || dimension(mesh.cell_types[cell]) == 2) return;
+  throw Error("unsupported", fmt::format("contact facet {} is a line in space: its normal is not defined", mesh.cell_name(cell)),
+              "give the master's normal (VECT_MAIT='FIXE')");
+}
+
+}  // namespace
+
+std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions) {
+  std::unordered_map<int, Vector3d> normals;
+  for (const int cell : cells) {
+    require_plane_or_surface(mesh, cell);
+    const CellType type = mesh.cell_types[cell];
+    const FacetPoints points = gather(mesh, cell, positions);
+    const auto nodes = mesh.cell(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vector3d normal = facet_normal(type, points.span(), facet_node(type, static_cast<int>(i)));
+      normals.try_emplace(nodes[i], Vector3d::Zero()).first->second += normal;
+    }
+  }
+  for (auto& [node, normal] : normals) {
+    if (!(normal.norm() > clean_normal_tolerance))
+      throw Error("degenerate-facet", fmt::format("the contact facets around node {} face opposite ways", mesh.node_name(node)),
+                  "turn the skin cells outwards with MODI_MAILLAGE/ORIE_PEAU");
+    normal = cleaned(normal.normalized());
+  }
+  return normals;
+}
+
+Vector3d master_normal(const ContactZone& zone, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
+  switch (zone.master_normal) {
+    case NormalRule::fixed: {
+      const Vector3d given(zone.master_vector[0], zone.master_vector[1], zone.master_vector[2]);
+      if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of the master surface is null");
+      return cleaned(given.normalized());
+    }
+    case NormalRule::along_y:
+      throw Error("unsupported", "a master normal built from a given y axis (VECT_Y) is not supported",
+                  "give the normal itself (VECT_MAIT='FIXE')");
+    case NormalRule::automatic: break;
+  }
+  require_plane_or_surface(mesh, facet);
+  return cleaned(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
+}
+
+Vector3d contact_normal(NormalSide side, const Vector3d& master, const Vector3d& slave) {
+  if (side == NormalSide::master) return master;
+  if (side == NormalSide::slave) return -slave;
+  const Vector3d mean = master - slave;
+  if (!(mean.norm() > clean_normal_tolerance))
+    throw Error("degenerate-facet", "the mean of a master and a slave normal vanishes: the surfaces face the same way",
+                "turn the skin cells outwards with MODI_MAILLAGE/ORIE_PEAU");
+  return cleaned(mean.normalized());
+}
+
+}  // namespace comma::solver

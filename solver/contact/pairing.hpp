@@ -1,0 +1,41 @@
+// Which master facet each slave node faces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/definition.hpp"
+#include "solver/contact/facet.hpp"
+#include "solver/contact/normals.hpp"
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::solver {
+
+enum class PairingStatus : std::uint8_t {
+  paired,
+  excluded,  ///< by the user (SANS_GROUP_NO)
+  too_far,   ///< no master node within the pairing distance (DIST_APPA)
+  outside    ///< its projection falls outside the nearest facet by more than the tolerance (TOLE_PROJ_EXT)
+};
+
+/// A slave node and its place on the master surface.
+struct ContactPair {
+  int zone = 0;
+  int slave = -1;
+  PairingStatus status = PairingStatus::outside;
+  int facet = -1;                                 ///< master cell, when paired
+  std::array<double, max_facet_nodes> weights{};  ///< of the facet's nodes
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from master to slave
+  Eigen::Vector3d foot = Eigen::Vector3d::Zero();    ///< the place on the facet
+};
+
+/// One entry a slave node and zone, zones in order, nodes rising: node-to-facet pairing (R5.03.50, section 3). A slave node
+/// takes the facet whose nearest place is nearest; its orthogonal projection may fall outside that facet by the tolerance,
+/// in reference coordinates, and is then brought back on its border. The pairing distance is measured to the nearest master
+/// node, as Code_Aster does: a node in the middle of a long facet is far from it.
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions);
+
+}  // namespace comma::solver

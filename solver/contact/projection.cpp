@@ -1,0 +1,91 @@
+#include "solver/contact/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int max_newton_iterations = 60;
+/// Reference coordinates are of order one: a step below this no longer moves the foot.
+constexpr double step_tolerance = 1e-14;
+/// Beyond this a foot is far outside whatever tolerance a user gives, and only needs to be known as such.
+constexpr double far_outside = 50.0;
+
+struct Local {
+  Vector3d offset;  ///< foot minus node
+  Eigen::Matrix<double, 3, 2> tangents;
+};
+
+Local evaluate(const Vector3d& node, CellType type, std::span<const Vector3d> points, const Vector2d& xi) {
+  const FacetShape shape = facet_shape(type, xi);
+  Local local{-node, Eigen::Matrix<double, 3, 2>::Zero()};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    local.offset += shape.values[i] * points[i];
+    local.tangents += points[i] * shape.gradients[i].transpose();
+  }
+  return local;
+}
+
+/// offset . second derivatives of the position. Tangents are polynomials of degree two at most in each coordinate, for
+/// which a central difference is exact whatever its width.
+Matrix2d curvature(CellType type, std::span<const Vector3d> points, const Vector2d& xi, const Vector3d& offset) {
+  Matrix2d result;
+  for (int direction = 0; direction < 2; ++direction) {
+    const Vector2d half = 0.5 * Vector2d::Unit(direction);
+    result.col(direction) =
+        (facet_tangents(type, points, xi + half) - facet_tangents(type, points, xi - half)).transpose() * offset;
+  }
+  return 0.5 * (result + result.transpose());
+}
+
+Vector2d newton_step(const Local& local, const Matrix2d& bending, bool is_line) {
+  const Vector2d gradient = local.tangents.transpose() * local.offset;
+  Matrix2d metric = local.tangents.transpose() * local.tangents;
+  if (is_line) {
+    const double hessian = metric(0, 0) + bending(0, 0);
+    return {-gradient[0] / (hessian > 0.1 * metric(0, 0) ? hessian : metric(0, 0)), 0.0};
+  }
+  const Matrix2d hessian = metric + bending;
+  // Away from the foot of a curved facet the distance may not be convex: Gauss-Newton then still goes down.
+  const bool convex = hessian.trace() > 0.0 && hessian.determinant() > 0.01 * metric.determinant();
+  return -(convex ? hessian : metric).inverse() * gradient;
+}
+
+}  // namespace
+
+std::optional<Projection> project(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+  const bool is_line = dimension(type) == 1;
+  Vector2d xi = facet_centre(type);
+  bool converged = false;
+  for (int iteration = 0; iteration < max_newton_iterations && !converged; ++iteration) {
+    const Local local = evaluate(node, type, points, xi);
+    Vector2d step = newton_step(local, curvature(type, points, xi, local.offset), is_line);
+    if (!step.allFinite()) break;
+    const double before = local.offset.squaredNorm();
+    for (int halving = 0; halving < 8; ++halving) {
+      if (evaluate(node, type, points, xi + step).offset.squaredNorm() <= before * (1.0 + 1e-12)) break;
+      step *= 0.5;
+    }
+    xi += step;
+    converged = step.norm() <= step_tolerance * (1.0 + xi.norm()) || xi.norm() > far_outside;
+    // Rounding in large coordinates can keep the step from getting smaller still.
+    converged = converged || (iteration > 20 && step.norm() < 1e-9);
+  }
+  if (!converged) return std::nullopt;
+  Projection projection;
+  projection.outside = outside_distance(type, xi);
+  projection.xi = bring_back(type, xi);
+  const FacetShape shape = facet_shape(type, projection.xi);
+  projection.weights = shape.values;
+  projection.foot.setZero();
+  for (std::size_t i = 0; i < points.size(); ++i) projection.foot += shape.values[i] * points[i];
+  projection.distance = (projection.foot - node).norm();
+  return projection;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,75 @@
+#include "solver/nonlinear/condition_set.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/contact/gap.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
+  Inequalities result;
+  const Eigen::Index shift = upper.rows.rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < upper.rows.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(upper.rows, row); it; ++it) entries.emplace_back(row, it.col(), it.value());
+  for (int row = 0; row < lower.rows.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(lower.rows, row); it; ++it) entries.emplace_back(shift + row, it.col(), it.value());
+  result.rows.resize(shift + lower.rows.rows(), upper.rows.cols());
+  result.rows.setFromTriplets(entries.begin(), entries.end());
+  result.bounds.resize(result.rows.rows());
+  result.bounds << upper.bounds, lower.bounds;
+  return result;
+}
+
+bool same_matrix(const RowMatrix& a, const RowMatrix& b) {
+  if (a.rows() != b.rows() || a.nonZeros() != b.nonZeros()) return false;
+  return std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+}  // namespace
+
+ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const UnilateralCondition> unilateral,
+                             const Mesh& mesh, const DofMap& dofs, double time) {
+  ConditionSet set;
+  set.pairs = std::move(pairs);
+  const Inequalities gaps = gap_rows(set.pairs, mesh, dofs, set.row_slots);
+  const Inequalities bounds = unilateral_rows(unilateral, mesh, dofs, time);
+  set.full = stacked(gaps, bounds);
+  const int pair_count = static_cast<int>(set.pairs.size());
+  for (int row = 0; row < static_cast<int>(bounds.bounds.size()); ++row) set.row_slots.push_back(pair_count + row);
+  set.slot_count = pair_count + static_cast<int>(bounds.bounds.size());
+  return set;
+}
+
+bool same_rows(const ConditionSet& a, const ConditionSet& b) {
+  return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && same_matrix(a.full.rows, b.full.rows);
+}
+
+std::string describe(const ConditionSet& set, int row, const Mesh& mesh, const DofMap& dofs) {
+  const int slot = set.row_slots[row];
+  if (slot >= static_cast<int>(set.pairs.size()))
+    return "the unilateral condition " + describe_row(set.full, row, mesh, dofs);
+  const ContactPair& pair = set.pairs[slot];
+  return fmt::format("the contact of node {} with facet {}", mesh.node_name(pair.slave), mesh.cell_name(pair.facet));
+}
+
+void throw_contradiction(const ConditionSet& set, std::span<const int> rows, const Mesh& mesh, const DofMap& dofs) {
+  constexpr std::size_t shown = 4;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(shown, rows.size()); ++i)
+    names += (i == 0 ? "" : "; ") + describe(set, rows[i], mesh, dofs);
+  if (rows.size() > shown) names += fmt::format("; and {} more", rows.size() - shown);
+  throw Error("contradictory-conditions", "these conditions cannot hold together: " + names,
+              "loosen one of the bounds, or check the signs of coefficients and bounds");
+}
+
+}  // namespace comma::solver

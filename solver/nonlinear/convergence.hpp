@@ -1,0 +1,45 @@
+// When Newton's iterations may stop.
+#pragma once
+
+#include <vector>
+
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::solver {
+
+/// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
+/// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks
+/// |R| <= r. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
+/// the least loaded converged step would have been allowed. A residual that is all rounding also passes the relative test:
+/// a body that moves freely has no load but rounding to compare with.
+class ConvergenceCriterion {
+ public:
+  explicit ConvergenceCriterion(const NewtonOptions& options) : options_(options) {}
+
+  struct Measure {
+    double absolute = 0.0;
+    double relative = 0.0;  ///< -1 where the loads vanish
+    bool converged = false;
+  };
+
+  /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes of it.
+  Measure measure(double residual, double load, bool is_rounding) const;
+
+  /// Remembers the load of a converged step.
+  void accept(double load);
+
+ private:
+  double relative_limit() const { return options_.relative_residual.value_or(default_relative_residual); }
+
+  /// RESI_GLOB_RELA where the user gives neither criterion.
+  static constexpr double default_relative_residual = 1e-6;
+  /// Loads below this share of the smallest so far have vanished.
+  static constexpr double vanishing_load = 1e-6;
+  /// Absolute limit (force) while no loaded step is known.
+  static constexpr double default_absolute_residual = 1e-6;
+
+  NewtonOptions options_;
+  double smallest_load_ = -1.0;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,68 @@
+#include "solver/nonlinear/failure.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+std::string table(std::span<const IterationReport> history) {
+  std::string text = "\n  iteration  relative    absolute    largest at          active  changed";
+  for (const IterationReport& line : history)
+    text += fmt::format("\n  {:9}  {:<10.3e}  {:<10.3e}  {:<18}  {:6}  {:7}", line.iteration, line.relative_residual,
+                        line.absolute_residual, line.worst, line.active_conditions, line.contact_changes);
+  return text;
+}
+
+std::string likely_cause(std::span<const IterationReport> history, bool is_linear) {
+  const IterationReport& last = history.back();
+  if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
+  if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
+  if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
+  if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
+    return "the residual grows: the step is too large for Newton's method";
+  return "the residual shrinks too slowly for the iterations allowed";
+}
+
+std::string remedy(std::span<const IterationReport> history, bool is_linear) {
+  const IterationReport& last = history.back();
+  if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
+  if (is_linear) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
+}
+
+}  // namespace
+
+void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
+                          bool is_linear) {
+  const IterationReport& last = history.back();
+  throw Error("no-convergence",
+              fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}, largest residual {:.3e} ({}){}", time,
+                          history.size(), options.max_iterations, likely_cause(history, is_linear), last.absolute_residual,
+                          last.worst, table(history)),
+              remedy(history, is_linear));
+}
+
+void throw_active_set_limit(int limit) {
+  throw Error("contact-cycling", fmt::format("the contact status did not settle within {} changes", limit),
+              "raise ITER_CONT_MULT, or check that the bodies are held without contact");
+}
+
+void throw_geometry_failure(double time, const GeometryHistory& history, const ContactDefinition& contact) {
+  std::string changes;
+  for (const double change : history.changes) changes += fmt::format("{}{:.3e}", changes.empty() ? "" : ", ", change);
+  const std::string tail = fmt::format("at t = {:.6g}; change of the contact geometry at each update: {} (RESI_GEOM = {:.3g}); "
+                                       "node {} moved most",
+                                       time, changes, contact.geometry_tolerance, history.worst);
+  if (history.cycles)
+    throw Error("contact-cycling", "contact pairings return in turn without settling " + tail,
+                "take smaller steps, or fix the number of updates (REAC_GEOM='CONTROLE')");
+  throw Error("no-convergence",
+              fmt::format("the contact geometry did not settle within {} updates {}", contact.max_geometry_updates, tail),
+              "take smaller steps, raise ITER_GEOM_MAXI, or fix the number of updates (REAC_GEOM='CONTROLE')");
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,29 @@
+// Why a step failed, in words.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::solver {
+
+/// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
+[[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
+                                       bool is_linear);
+
+/// Error `contact-cycling`: the active set needed more changes than allowed.
+[[noreturn]] void throw_active_set_limit(int limit);
+
+/// How far the geometry moved at each update, relative (RESI_GEOM), and whether pairings came back.
+struct GeometryHistory {
+  std::vector<double> changes;
+  bool cycles = false;
+  std::string worst;  ///< the node that moved most
+};
+
+/// Error `contact-cycling` when pairings return in turn, else `no-convergence` of the geometry updates.
+[[noreturn]] void throw_geometry_failure(double time, const GeometryHistory& history, const ContactDefinition& contact);
+
+}  // namespace comma::solver

@@ -1,0 +1,201 @@
+#include "solver/nonlinear/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
+#include "solver/unilateral/active_set.hpp"
+
+namespace comma::solver {
+namespace {
+
+/// A correction below this share of the solution is rounding.
+constexpr double negligible_step = 4e-16;
+/// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
+constexpr double rounding_share = 1e-14;
+/// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: two are enough unless
+/// it has less than a third of them.
+constexpr int max_polishing = 3;
+
+double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+
+int count_changes(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> changed;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(changed));
+  return static_cast<int>(changed.size());
+}
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
+                           const NewtonOptions& options, Counters& counters, TangentSystem& tangent,
+                           const IterationObserver& observer)
+    : mesh_(mesh),
+      dofs_(dofs),
+      assembler_(assembler),
+      elimination_(elimination),
+      options_(options),
+      counters_(counters),
+      tangent_(tangent),
+      observer_(observer),
+      criterion_(options) {}
+
+int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
+                        const ConditionSet& conditions, int active_set_limit, NewtonState& state) {
+  active_set_limit_ = active_set_limit;
+  take_conditions(conditions, offset, state);
+  state.u = elimination_.transformation() * state.reduced + offset;
+  evaluate(state, external);
+  std::vector<IterationReport> history;
+  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
+    if (tangent_.refresh(state.u) && schur_) schur_->forget();
+    ++counters_.newton_iterations;
+    const Correction correction = correct(state, offset);
+    evaluate(state, external);
+    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
+    history.push_back(report(time, iteration, measure, correction.changes));
+    if (observer_) observer_(history.back());
+    if (measure.converged) {
+      polish(state, external, offset);
+      return iteration;
+    }
+    if (!std::isfinite(measure.absolute)) break;
+  }
+  fail(time, history);
+}
+
+void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state) {
+  conditions_ = &conditions;
+  reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
+  if (!schur_) {
+    schur_ = std::make_unique<SchurComplement>(reduced_.inequalities.rows,
+                                               [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); });
+  } else {
+    schur_->replace_rows(reduced_.inequalities.rows);
+  }
+  row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
+  active_.clear();
+  for (std::size_t row = 0; row < reduced_.origin.size(); ++row) {
+    const double multiplier = state.multipliers[conditions.row_slots[reduced_.origin[row]]];
+    row_multipliers_[static_cast<Eigen::Index>(row)] = multiplier;
+    if (multiplier > 0.0) active_.push_back(static_cast<int>(row));
+  }
+}
+
+/// Residual of the reduced unknowns and the size of the loads, reactions and contact forces included.
+void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
+  const Eigen::VectorXd unbalanced = external - assembler_.internal_forces(state.u);
+  residual_ = elimination_.transformation().transpose() * unbalanced;
+  if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
+  load_ = std::max(largest(external), largest(unbalanced));
+}
+
+/// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
+bool NewtonSolver::is_rounding(const NewtonState& state) const {
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  return sizes.size() == residual_.size() &&
+         (residual_.array().abs() <= rounding_share * largest(state.u) * sizes.array()).all();
+}
+
+NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
+  const Eigen::VectorXd before = state.reduced;
+  Eigen::MatrixXd step = residual_;
+  if (step.size()) tangent_.solve(step);
+  Correction correction;
+  if (row_multipliers_.size()) {
+    correction = correct_with_conditions(state, before + step);
+  } else {
+    state.reduced = before + step;
+  }
+  const double size = largest(state.reduced);
+  correction.step = size > 0.0 ? largest(state.reduced - before) / size : 0.0;
+  state.u = elimination_.transformation() * state.reduced + offset;
+  return correction;
+}
+
+NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free) {
+  const Inequalities& rows = reduced_.inequalities;
+  ActiveSetProblem problem;
+  problem.guess = active_;
+  problem.max_iterations = active_set_limit_;
+  schur_->require(active_);
+  // `free` is balanced by the present multipliers: taking these back gives what it would be without any.
+  Eigen::VectorXd held = Eigen::VectorXd::Zero(row_multipliers_.size());
+  for (const int row : active_) held += row_multipliers_[row] * schur_->column(row);
+  problem.excess = rows.rows * free - rows.bounds + held;
+  const double displacement = largest(free);
+  problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
+  for (int row = 0; row < schur_->size(); ++row)
+    problem.scale[row] += displacement * Eigen::VectorXd(rows.rows.row(row)).lpNorm<1>();
+  problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
+
+  ActiveSetSolution solution = solve_active_set(*schur_, problem);
+  counters_.contact_iterations += solution.iterations;
+  if (solution.verdict == ActiveSetVerdict::contradictory) {
+    std::vector<int> full;
+    for (const int row : solution.contradiction) full.push_back(reduced_.origin[row]);
+    throw_contradiction(*conditions_, full, mesh_, dofs_);
+  }
+  if (solution.verdict == ActiveSetVerdict::too_many_iterations) throw_active_set_limit(active_set_limit_);
+
+  const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
+  state.reduced = free;
+  if (change.cwiseAbs().maxCoeff() > 0.0) {
+    Eigen::MatrixXd push = rows.rows.transpose() * change;
+    tangent_.solve(push);
+    state.reduced -= push;
+  }
+  Correction correction;
+  correction.changes = count_changes(active_, solution.active);
+  row_multipliers_ = std::move(solution.multipliers);
+  active_ = std::move(solution.active);
+  state.multipliers.setZero();
+  for (const int row : active_) state.multipliers[conditions_->row_slots[reduced_.origin[row]]] = row_multipliers_[row];
+  return correction;
+}
+
+/// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put
+/// it: residuals of 1e-6 of the largest force move a body on weak springs by metres.
+void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
+  if (!assembler_.is_linear()) return;
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < max_polishing; ++k) {
+    const double step = correct(state, offset).step;
+    evaluate(state, external);
+    if (step <= negligible_step || step > 0.5 * last) return;
+    last = step;
+  }
+}
+
+IterationReport NewtonSolver::report(double time, int iteration, const ConvergenceCriterion::Measure& measure,
+                                     int changes) const {
+  IterationReport line;
+  line.instant = time;
+  line.iteration = iteration;
+  line.relative_residual = measure.relative;
+  line.absolute_residual = measure.absolute;
+  line.worst = worst_place();
+  line.active_conditions = static_cast<int>(active_.size());
+  line.contact_changes = changes;
+  return line;
+}
+
+std::string NewtonSolver::worst_place() const {
+  if (!residual_.size()) return {};
+  Eigen::Index row = 0;
+  residual_.cwiseAbs().maxCoeff(&row);
+  const int dof = elimination_.kept()[static_cast<std::size_t>(row)];
+  return fmt::format("{} at {}", name_of(dofs_.component_of(dof)), mesh_.node_name(dofs_.node_of(dof)));
+}
+
+void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {
+  throw_no_convergence(time, history, options_, assembler_.is_linear());
+}
+
+}  // namespace comma::solver

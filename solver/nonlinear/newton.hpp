@@ -1,0 +1,85 @@
+// Newton's iterations of one step, with the inequalities solved inside each of them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
+#include "solver/nonlinear/condition_set.hpp"
+#include "solver/nonlinear/convergence.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+#include "solver/nonlinear/tangent_system.hpp"
+#include "solver/unilateral/schur_complement.hpp"
+
+namespace comma::solver {
+
+/// What the iterations change. `multipliers`: one a slot of the ConditionSet.
+struct NewtonState {
+  Eigen::VectorXd reduced;      ///< q
+  Eigen::VectorXd u;            ///< T q + g
+  Eigen::VectorXd multipliers;
+};
+
+/// The unknowns of a step are q in u = T q + g(t). An iteration solves
+///
+///     K dq = T^T (f_ext - f_int(u)) - A^T lambda,   A (q + dq) <= b with multipliers lambda >= 0
+///
+/// by the active-set method on the Schur complement, warm-started by the last active set. Internal forces come in extended
+/// precision, so that with a constant tangent each further correction is a step of iterative refinement: two or three of
+/// them take a solution near the last bit even where weak springs hold a stiff body.
+class NewtonSolver {
+ public:
+  NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
+               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const IterationObserver& observer);
+
+  /// Iterates to convergence at a time. `active_set_limit`: changes of the active set allowed in one iteration.
+  /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
+  /// `singular-matrix`.
+  int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
+            int active_set_limit, NewtonState& state);
+
+  /// The step is accepted: its loads count in the criterion of later ones.
+  void accept_step() { criterion_.accept(load_); }
+
+ private:
+  struct Correction {
+    double step = 0.0;  ///< largest change of q over the largest q
+    int changes = 0;    ///< rows whose status changed
+  };
+
+  void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
+  Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
+  Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
+  void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
+  bool is_rounding(const NewtonState& state) const;
+  void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
+  IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes) const;
+  std::string worst_place() const;
+  [[noreturn]] void fail(double time, const std::vector<IterationReport>& history) const;
+
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const Assembler& assembler_;
+  const Elimination& elimination_;
+  const NewtonOptions& options_;
+  Counters& counters_;
+  TangentSystem& tangent_;
+  const IterationObserver& observer_;
+  ConvergenceCriterion criterion_;
+
+  const ConditionSet* conditions_ = nullptr;
+  int active_set_limit_ = 0;
+  ReducedInequalities reduced_;
+  std::unique_ptr<SchurComplement> schur_;
+  Eigen::VectorXd row_multipliers_;  ///< one a reduced row
+  std::vector<int> active_;          ///< reduced rows
+  Eigen::VectorXd residual_;         ///< reduced
+  double load_ = 0.0;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,234 @@
+#include "solver/nonlinear/static_analysis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/contact/contact_field.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/newton.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Pairings that return within this many updates are in a cycle.
+constexpr int cycle_length_limit = 4;
+
+class StaticAnalysis {
+ public:
+  StaticAnalysis(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
+                 const IterationObserver& observer)
+      : problem_(problem),
+        mesh_(*problem.model->mesh),
+        result_(result),
+        counters_(counters),
+        dofs_(*problem.model),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
+        elimination_(mesh_, dofs_, problem.loads),
+        tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, observer),
+        contact_nodes_(nodes_of_contact()) {}
+
+  void run(const std::vector<double>& instants) {
+    if (instants.empty()) return;
+    start(instants.front());
+    for (std::size_t k = 1; k < instants.size(); ++k) {
+      const int iterations = solve_step(instants[k]);
+      newton_.accept_step();
+      archive(instants[k], iterations);
+    }
+  }
+
+ private:
+  std::vector<int> nodes_of_contact() const {
+    std::set<int> nodes;
+    if (problem_.contact)
+      for (const ContactZone& zone : problem_.contact->zones)
+        for (const auto* cells : {&zone.master_cells, &zone.slave_cells})
+          for (const int node : mesh_.nodes_of_cells(*cells)) nodes.insert(node);
+    return {nodes.begin(), nodes.end()};
+  }
+
+  /// Unstressed and undisplaced, or where the result's last step left off.
+  void start(double instant) {
+    state_.u = Eigen::VectorXd::Zero(dofs_.size());
+    if (!result_.steps.empty()) take_last_step();
+    state_.reduced.resize(elimination_.reduced_size());
+    for (Eigen::Index i = 0; i < state_.reduced.size(); ++i) state_.reduced[i] = state_.u[elimination_.kept()[i]];
+    if (!result_.steps.empty()) return;
+    result_.model = problem_.model;
+    ResultStep step;
+    step.instant = instant;
+    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u));
+    step.parameters["ITER_GLOB"] = 0.0;
+    result_.steps.push_back(std::move(step));
+  }
+
+  void take_last_step() {
+    const auto found = result_.steps.back().fields.find("DEPL");
+    if (found == result_.steps.back().fields.end())
+      throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
+    const auto& field = std::get<NodalField>(found->second);
+    for (int dof = 0; dof < dofs_.size(); ++dof) {
+      const int column = field.component(name_of(dofs_.component_of(dof)));
+      if (column >= 0) state_.u[dof] = field.at(dofs_.node_of(dof), column);
+    }
+  }
+
+  std::vector<Vector3d> positions() const {
+    std::vector<Vector3d> result(static_cast<std::size_t>(mesh_.node_count()));
+    for (int node = 0; node < mesh_.node_count(); ++node) {
+      result[node] = Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]) + displacement(node);
+    }
+    return result;
+  }
+
+  Vector3d displacement(int node) const {
+    Vector3d result = Vector3d::Zero();
+    constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
+    for (int axis = 0; axis < 3; ++axis) {
+      const int dof = dofs_.dof(node, translations[axis]);
+      if (dof >= 0) result[axis] = state_.u[dof];
+    }
+    return result;
+  }
+
+  int solve_step(double time) {
+    const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
+    const Eigen::VectorXd offset = elimination_.offset(time);
+    const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
+    int iterations = 0;
+    GeometryHistory history;
+    std::vector<ConditionSet> visited;
+    for (int update = 0;; ++update) {
+      if (updates || !paired_) pair();
+      ConditionSet next = make_conditions(pairs_, problem_.unilateral, mesh_, dofs_, time);
+      if (update == 0 || !same_rows(next, conditions_)) {
+        resize_multipliers(next);
+        conditions_ = std::move(next);
+        const int limit = active_set_limit();
+        iterations += newton_.solve(time, external, offset, conditions_, limit, state_);
+      }
+      if (!updates || geometry_settled(update, history)) return iterations;
+      note_cycle(visited, history);
+      if (problem_.contact->geometry_update == GeometryUpdate::automatic && update + 1 >= max_updates())
+        throw_geometry_failure(time, history, *problem_.contact);
+    }
+  }
+
+  void resize_multipliers(const ConditionSet& next) {
+    if (state_.multipliers.size() != next.slot_count) state_.multipliers = Eigen::VectorXd::Zero(next.slot_count);
+    // A slot that has lost its row holds nothing any more.
+    Eigen::VectorXd kept = Eigen::VectorXd::Zero(next.slot_count);
+    for (const int slot : next.row_slots) kept[slot] = state_.multipliers[slot];
+    state_.multipliers = std::move(kept);
+  }
+
+  int max_updates() const { return std::max(1, problem_.contact->max_geometry_updates); }
+
+  /// ITER_CONT_MULT changes a condition; unilateral conditions alone need no user's word on it.
+  int active_set_limit() const {
+    constexpr int generous = 30;
+    const int factor = problem_.contact ? std::max(1, problem_.contact->active_set_factor) : generous;
+    return factor * std::max(1, conditions_.slot_count);
+  }
+
+  void pair() {
+    if (!problem_.contact) {
+      paired_ = true;
+      return;
+    }
+    const std::vector<Vector3d> now = positions();
+    pairs_ = pair_surfaces(*problem_.contact, mesh_, now);
+    ++counters_.pairings;
+    paired_ = true;
+    reference_.clear();
+    for (const int node : contact_nodes_) reference_.push_back(displacement(node));
+  }
+
+  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing (U4.44.11), or the
+  /// prescribed number of updates is done.
+  bool geometry_settled(int update, GeometryHistory& history) const {
+    double moved = 0.0;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < contact_nodes_.size(); ++k) {
+      const Vector3d now = displacement(contact_nodes_[k]);
+      const double change = (now - reference_[k]).cwiseAbs().maxCoeff();
+      if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
+      moved = std::max(moved, change);
+      largest = std::max(largest, now.cwiseAbs().maxCoeff());
+    }
+    history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
+    if (problem_.contact->geometry_update == GeometryUpdate::controlled)
+      return update + 1 >= std::max(1, problem_.contact->controlled_updates);
+    return history.changes.back() <= problem_.contact->geometry_tolerance;
+  }
+
+  /// Facets that return after others took their place, several times over, will go on returning.
+  void note_cycle(std::vector<ConditionSet>& visited, GeometryHistory& history) const {
+    const auto same_facets = [&](const ConditionSet& other) {
+      return std::equal(other.pairs.begin(), other.pairs.end(), pairs_.begin(), pairs_.end(),
+                        [](const ContactPair& a, const ContactPair& b) { return a.facet == b.facet && a.status == b.status; });
+    };
+    const std::size_t count = visited.size();
+    history.cycles = false;
+    for (std::size_t back = 2; back <= std::min<std::size_t>(cycle_length_limit, count); ++back)
+      history.cycles |= same_facets(visited[count - back]) && !same_facets(visited[count - 1]);
+    visited.push_back(conditions_);
+  }
+
+  void archive(double instant, int iterations) {
+    ResultStep step;
+    step.order = result_.steps.back().order + 1;
+    step.instant = instant;
+    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u));
+    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    step.parameters["ITER_GLOB"] = iterations;
+    result_.steps.push_back(std::move(step));
+  }
+
+  NodalField contact_state() const {
+    const Eigen::VectorXd slack = conditions_.full.bounds - conditions_.full.rows * state_.u;
+    std::vector<double> gaps(conditions_.pairs.size(), absent);
+    for (std::size_t row = 0; row < conditions_.row_slots.size(); ++row) {
+      const int slot = conditions_.row_slots[row];
+      if (slot < static_cast<int>(gaps.size())) gaps[slot] = slack[static_cast<Eigen::Index>(row)];
+    }
+    const std::vector<Vector3d> now = positions();
+    return contact_field(conditions_.pairs, gaps, state_.multipliers, mesh_.node_count(), now);
+  }
+
+  const StaticProblem& problem_;
+  const Mesh& mesh_;
+  Result& result_;
+  Counters& counters_;
+  DofMap dofs_;
+  Assembler assembler_;
+  Elimination elimination_;
+  TangentSystem tangent_;
+  NewtonSolver newton_;
+  std::vector<int> contact_nodes_;
+
+  NewtonState state_;
+  bool paired_ = false;
+  std::vector<ContactPair> pairs_;
+  std::vector<Vector3d> reference_;  ///< displacement of the contact nodes at the last pairing
+  ConditionSet conditions_;
+};
+
+}  // namespace
+
+void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
+                  Result& result, Counters& counters, const IterationObserver& observer) {
+  StaticAnalysis(problem, options, result, counters, observer).run(instants);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,48 @@
+// The reduced tangent and its factorisation, kept as long as it is the same.
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Dense>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
+#include "solver/linear/linear_solver.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::solver {
+
+/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant.
+class TangentSystem {
+ public:
+  /// Keeps references to its arguments.
+  TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
+                const NewtonOptions& options, Counters& counters);
+
+  /// Factorises the tangent at u unless it is known already. Returns whether it was factorised. Throws Error
+  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds.
+  bool refresh(const Eigen::VectorXd& u);
+
+  /// Overwrites the columns (reduced_size x k) by K^-1 times them.
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const;
+
+  /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
+  const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
+
+ private:
+  void factorise(const SymmetricMatrix& reduced);
+  void measure_rows(const SymmetricMatrix& reduced);
+
+  const Model& model_;
+  const DofMap& dofs_;
+  const Assembler& assembler_;
+  const Elimination& elimination_;
+  const NewtonOptions& options_;
+  Counters& counters_;
+  std::unique_ptr<LinearSolver> solver_;
+  Eigen::VectorXd row_sizes_;
+  bool analysed_ = false;
+  bool factorised_ = false;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,82 @@
+#include "solver/contact/pairing.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Two master edges (0,0)-(2,0)-(4,0), outward normal up, and slave nodes above.
+struct Table {
+  Mesh mesh;
+  ContactDefinition definition;
+
+  explicit Table(const std::vector<Vector3d>& slaves) {
+    mesh.dimension = 2;
+    mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}};
+    ContactZone zone;
+    zone.master_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{1, 0}),
+                         mesh.add_cell(CellType::seg2, std::vector<int>{2, 1})};
+    for (const Vector3d& at : slaves) mesh.nodes.push_back({at[0], at[1], at[2]});
+    for (int i = 3; i + 1 < mesh.node_count(); ++i)
+      zone.slave_cells.push_back(mesh.add_cell(CellType::seg2, std::vector<int>{i, i + 1}));
+    definition.zones.push_back(zone);
+  }
+
+  std::vector<ContactPair> pair() const {
+    std::vector<Vector3d> positions;
+    for (const Point& p : mesh.nodes) positions.emplace_back(p[0], p[1], p[2]);
+    return pair_surfaces(definition, mesh, positions);
+  }
+  ContactZone& zone() { return definition.zones.front(); }
+};
+
+}  // namespace
+
+TEST_CASE("Slave nodes take the facet under them") {
+  const auto pairs = Table({{0.5, 1, 0}, {3, 0.2, 0}}).pair();
+  REQUIRE(pairs.size() == 2);
+  CHECK(pairs[0].facet == 0);
+  CHECK(pairs[0].weights[1] == Approx(0.75));  // nodes 1, 0: three quarters of the way to node 0
+  CHECK(pairs[1].facet == 1);
+  CHECK((pairs[1].normal - Vector3d(0, 1, 0)).norm() == 0.0);
+  CHECK((pairs[1].foot - Vector3d(3, 0, 0)).norm() < 1e-14);
+}
+
+TEST_CASE("A projection outside the surface is brought back within the tolerance, and refused beyond") {
+  Table table({{4.4, 1, 0}, {4.6, 1, 0}});  // outside by 0.4 and 0.6 of a half edge
+  CHECK(table.pair()[0].status == PairingStatus::paired);
+  CHECK((table.pair()[0].foot - Vector3d(4, 0, 0)).norm() == 0.0);
+  CHECK(table.pair()[1].status == PairingStatus::outside);
+  table.zone().projection_tolerance = -1.0;
+  CHECK(table.pair()[0].status == PairingStatus::outside);
+}
+
+TEST_CASE("The pairing distance is measured to the nearest master node") {
+  Table table({{1, 0, 0}, {2.1, 0.3, 0}});
+  table.zone().pairing_distance = 0.5;
+  CHECK(table.pair()[0].status == PairingStatus::too_far);  // on the facet, but one unit from its ends
+  CHECK(table.pair()[1].status == PairingStatus::paired);
+}
+
+TEST_CASE("Excluded slave nodes are not paired") {
+  Table table({{1, 1, 0}, {3, 1, 0}});
+  table.zone().excluded_slave_nodes = {4};
+  CHECK(table.pair()[0].status == PairingStatus::paired);
+  CHECK(table.pair()[1].status == PairingStatus::excluded);
+}
+
+TEST_CASE("Above a node that two facets share the choice does not depend on their order") {
+  Table table({{2, 1, 0}, {9, 1, 0}});
+  CHECK(table.pair()[0].facet == 0);
+  std::swap(table.zone().master_cells[0], table.zone().master_cells[1]);
+  CHECK(table.pair()[0].facet == 0);
+}
+
+TEST_CASE("A slave node that belongs to a master facet is not paired with itself") {
+  Table table({{1, 1, 0}, {3, 1, 0}});
+  table.zone().slave_cells = {table.mesh.add_cell(CellType::seg2, std::vector<int>{0, 3})};
+  for (const ContactPair& pair : table.pair())
+    if (pair.slave == 0) CHECK(pair.facet != 0);
+}

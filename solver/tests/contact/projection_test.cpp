@@ -1,0 +1,62 @@
+#include "solver/contact/projection.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+TEST_CASE("On a segment: foot, weights, distance, and how far outside") {
+  const std::vector<Vector3d> segment = {{0, 0, 0}, {4, 0, 0}};
+  const auto inside = project({1, 3, 0}, CellType::seg2, segment);
+  REQUIRE(inside);
+  CHECK(inside->xi[0] == Approx(-0.5));
+  CHECK(inside->weights[0] == Approx(0.75));
+  CHECK(inside->distance == Approx(3.0));
+  CHECK(inside->outside == 0.0);
+  const auto beyond = project({5, 3, 0}, CellType::seg2, segment);
+  REQUIRE(beyond);
+  CHECK(beyond->outside == Approx(0.5));
+  CHECK(beyond->weights[1] == 1.0);
+  CHECK((beyond->foot - Vector3d(4, 0, 0)).norm() == 0.0);
+  CHECK(beyond->distance == Approx(std::sqrt(10.0)));
+}
+
+TEST_CASE("On a parabola the offset is orthogonal to the tangent") {
+  const std::vector<Vector3d> arc = {{-1, 0, 0}, {1, 0, 0}, {0, 0.4, 0}};
+  for (const double x : {-0.8, -0.3, 0.0, 0.5, 0.9}) {
+    const Vector3d node(x, 1.0, 0);
+    const auto projection = project(node, CellType::seg3, arc);
+    REQUIRE(projection);
+    const auto tangents = facet_tangents(CellType::seg3, arc, projection->xi);
+    CHECK(std::abs(tangents.col(0).dot(projection->foot - node)) < 1e-12);
+  }
+}
+
+TEST_CASE("On warped and curved faces a lifted point comes back to where it was lifted") {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> noise(-0.08, 0.08);
+  for (const CellType type :
+       {CellType::tria3, CellType::tria6, CellType::tria7, CellType::quad4, CellType::quad8, CellType::quad9}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      std::vector<Vector3d> points;
+      for (int i = 0; i < node_count(type); ++i) {
+        const Vector2d xi = facet_node(type, i);
+        points.emplace_back(100 + xi[0] + noise(generator), -50 + xi[1] + noise(generator), noise(generator));
+      }
+      const Vector2d at(0.21 + noise(generator), 0.33 + noise(generator));
+      const FacetShape shape = facet_shape(type, at);
+      Vector3d foot = Vector3d::Zero();
+      for (std::size_t i = 0; i < points.size(); ++i) foot += shape.values[i] * points[i];
+      const auto projection = project(foot + 0.2 * facet_normal(type, points, at), type, points);
+      REQUIRE(projection);
+      // Coordinates of 100 leave twelve digits of a unit.
+      CHECK((projection->xi - at).norm() < 1e-10);
+      CHECK(projection->distance == Approx(0.2).epsilon(1e-10));
+    }
+  }
+}

@@ -1,0 +1,43 @@
+#include "solver/nonlinear/convergence.hpp"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+
+TEST_CASE("By default a millionth of the load is asked") {
+  const ConvergenceCriterion criterion(NewtonOptions{});
+  CHECK(criterion.measure(0.9e-3, 1000.0, false).converged);
+  CHECK_FALSE(criterion.measure(1.1e-3, 1000.0, false).converged);
+  CHECK(criterion.measure(1.1e-3, 1000.0, false).relative == Approx(1.1e-6));
+}
+
+TEST_CASE("Both criteria are asked when both are given, one when one is") {
+  NewtonOptions options;
+  options.absolute_residual = 1e-5;
+  CHECK_FALSE(ConvergenceCriterion(options).measure(1e-4, 1000.0, false).converged);
+  CHECK_FALSE(ConvergenceCriterion(options).measure(1e-5, 1.0, false).converged);
+  options.relative_residual.reset();
+  CHECK(ConvergenceCriterion(options).measure(1e-5, 1.0, false).converged);
+  // Rounding is no excuse for an absolute limit, which the user chose in newtons.
+  CHECK_FALSE(ConvergenceCriterion(options).measure(1e-4, 1000.0, true).converged);
+}
+
+TEST_CASE("Where the loads vanish the residual of the least loaded step is asked") {
+  ConvergenceCriterion criterion(NewtonOptions{});
+  criterion.accept(5000.0);
+  criterion.accept(2000.0);
+  const auto unloaded = criterion.measure(1e-3, 1e-9, false);
+  CHECK(unloaded.converged);
+  CHECK(unloaded.relative == -1.0);
+  CHECK_FALSE(criterion.measure(3e-3, 1e-9, false).converged);
+  CHECK_FALSE(criterion.measure(1e-3, 10.0, false).converged);  // a small load is a load
+}
+
+TEST_CASE("Rounding passes the relative test, what is not a number passes none") {
+  const ConvergenceCriterion criterion(NewtonOptions{});
+  CHECK(criterion.measure(1e-13, 1e-13, true).converged);
+  CHECK_FALSE(criterion.measure(1e-13, 1e-13, false).converged);
+  CHECK_FALSE(criterion.measure(std::numeric_limits<double>::quiet_NaN(), 1.0, true).converged);
+}

@@ -1,0 +1,247 @@
+#include "solver/unilateral/active_set.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "solver/unilateral/active_cholesky.hpp"
+
+namespace comma::solver {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Rounds of the packet phase: it either settles in a few or circles.
+constexpr int packet_rounds = 12;
+
+class ActiveSetSolver {
+ public:
+  ActiveSetSolver(SchurComplement& schur, const ActiveSetProblem& problem)
+      : schur_(schur),
+        problem_(problem),
+        is_active_(problem.excess.size(), 0),
+        redundant_(problem.excess.size(), 0),
+        violation_(problem.excess) {}
+
+  ActiveSetSolution run() {
+    start_from_guess();
+    if (!settle_in_packets()) {
+      make_dual_feasible();
+      settle_one_by_one();
+    }
+    return finish();
+  }
+
+ private:
+  double tolerance(int row) const { return violation_tolerance * problem_.scale[row]; }
+
+  Eigen::VectorXd coupling(int row) const {
+    const Eigen::VectorXd& column = schur_.column(row);
+    Eigen::VectorXd values(static_cast<Eigen::Index>(active_.size()));
+    for (std::size_t i = 0; i < active_.size(); ++i) values[static_cast<Eigen::Index>(i)] = column[active_[i]];
+    return values;
+  }
+
+  bool enter(int row) {
+    if (!factor_.append(coupling(row), schur_.column(row)[row])) return false;
+    active_.push_back(row);
+    is_active_[row] = 1;
+    return true;
+  }
+
+  void leave(int position) {
+    is_active_[active_[position]] = 0;
+    active_.erase(active_.begin() + position);
+    factor_.remove(position);
+  }
+
+  /// Multipliers that close the active rows exactly.
+  void solve_equalities() {
+    Eigen::VectorXd rhs(static_cast<Eigen::Index>(active_.size()));
+    for (std::size_t i = 0; i < active_.size(); ++i) rhs[static_cast<Eigen::Index>(i)] = problem_.excess[active_[i]];
+    multipliers_ = factor_.solve(rhs);
+    update_violation();
+    // One step of refinement: the couplings of a soft body can be many times larger than what remains of them.
+    for (std::size_t i = 0; i < active_.size(); ++i) rhs[static_cast<Eigen::Index>(i)] = violation_[active_[i]];
+    multipliers_ += factor_.solve(rhs);
+    update_violation();
+  }
+
+  void update_violation() {
+    violation_ = problem_.excess;
+    for (std::size_t i = 0; i < active_.size(); ++i)
+      violation_ -= multipliers_[static_cast<Eigen::Index>(i)] * schur_.column(active_[i]);
+  }
+
+  std::vector<int> violated_rows() const {
+    std::vector<int> rows;
+    for (int row = 0; row < schur_.size(); ++row)
+      if (!is_active_[row] && !redundant_[row] && violation_[row] > tolerance(row)) rows.push_back(row);
+    return rows;
+  }
+
+  void start_from_guess() {
+    schur_.require(problem_.guess);
+    for (const int row : problem_.guess)
+      if (!is_active_[row]) enter(row);
+    solve_equalities();
+  }
+
+  bool drop_pulling_rows() {
+    bool dropped = false;
+    for (int i = static_cast<int>(active_.size()) - 1; i >= 0; --i)
+      if (multipliers_[i] < 0.0) {
+        leave(i);
+        dropped = true;
+      }
+    if (dropped) solve_equalities();
+    return dropped;
+  }
+
+  bool settle_in_packets() {
+    for (int round = 0; round < packet_rounds; ++round) {
+      const bool dropped = drop_pulling_rows();
+      const std::vector<int> violated = violated_rows();
+      if (!dropped && violated.empty()) return true;
+      ++iterations_;
+      schur_.require(violated);
+      bool entered = false;
+      for (const int row : violated) entered |= enter(row);
+      if (entered) solve_equalities();
+      if (!entered && !violated.empty()) return false;
+    }
+    return false;
+  }
+
+  /// Ends because each round shortens the active set.
+  void make_dual_feasible() {
+    while (drop_pulling_rows()) ++iterations_;
+  }
+
+  int most_violated() const {
+    int worst = -1;
+    double largest = violation_tolerance;
+    for (int row = 0; row < schur_.size(); ++row) {
+      if (is_active_[row] || redundant_[row]) continue;
+      const double relative = violation_[row] / problem_.scale[row];
+      if (relative > largest) {
+        largest = relative;
+        worst = row;
+      }
+    }
+    return worst;
+  }
+
+  void settle_one_by_one() {
+    for (int row = most_violated(); row >= 0; row = most_violated()) {
+      schur_.require(std::span<const int>(&row, 1));
+      if (!bring_in(row)) return;
+    }
+  }
+
+  /// Raises the multiplier of a violated row, dropping the active rows that begin to pull, until its violation is gone.
+  bool bring_in(int row) {
+    const double own = schur_.column(row)[row];
+    double multiplier = 0.0;
+    while (true) {
+      if (++iterations_ > problem_.max_iterations) {
+        verdict_ = ActiveSetVerdict::too_many_iterations;
+        return false;
+      }
+      const Eigen::VectorXd coupled = coupling(row);
+      const Eigen::VectorXd direction = factor_.solve(coupled);
+      const bool dependent = factor_.depends(coupled, own);
+      const double full_step = dependent ? infinite : violation_[row] / factor_.remaining_pivot(coupled, own);
+      const auto [partial_step, leaving] = longest_step(direction);
+      if (dependent && leaving < 0) return leave_out(row);
+      const double step = std::max(0.0, std::min(full_step, partial_step));
+      multipliers_ -= step * direction;
+      multiplier += step;
+      if (full_step <= partial_step) {
+        enter(row);
+        solve_equalities();
+        clear_rounding();
+        return true;
+      }
+      remove_multiplier(leaving);
+      update_violation();
+      violation_ -= multiplier * schur_.column(row);
+    }
+  }
+
+  /// How far the multipliers can follow before one of them vanishes, and which.
+  std::pair<double, int> longest_step(const Eigen::VectorXd& direction) const {
+    double step = infinite;
+    int leaving = -1;
+    const double threshold = dependence_tolerance * (direction.size() ? direction.cwiseAbs().maxCoeff() : 0.0);
+    for (Eigen::Index i = 0; i < direction.size(); ++i) {
+      if (direction[i] <= threshold) continue;
+      const double ratio = std::max(0.0, multipliers_[i]) / direction[i];
+      if (ratio < step) {
+        step = ratio;
+        leaving = static_cast<int>(i);
+      }
+    }
+    return {step, leaving};
+  }
+
+  void remove_multiplier(int position) {
+    const Eigen::Index rest = multipliers_.size() - position - 1;
+    multipliers_.segment(position, rest) = multipliers_.tail(rest).eval();
+    multipliers_.conservativeResize(multipliers_.size() - 1);
+    leave(position);
+  }
+
+  /// A row that depends on active ones of which none can leave: either it repeats them, or it contradicts them.
+  bool leave_out(int row) {
+    if (violation_[row] <= contradiction_tolerance * problem_.scale[row]) {
+      redundant_[row] = 1;
+      solve_equalities();
+      clear_rounding();
+      return true;
+    }
+    verdict_ = ActiveSetVerdict::contradictory;
+    contradiction_.push_back(row);
+    const Eigen::VectorXd direction = factor_.solve(coupling(row));
+    for (std::size_t i = 0; i < active_.size(); ++i)
+      if (std::abs(direction[static_cast<Eigen::Index>(i)]) > contradiction_tolerance) contradiction_.push_back(active_[i]);
+    return false;
+  }
+
+  /// The exact equalities may leave a multiplier at minus a rounding: it counts as zero.
+  void clear_rounding() { multipliers_ = multipliers_.cwiseMax(0.0); }
+
+  ActiveSetSolution finish() {
+    ActiveSetSolution solution;
+    solution.verdict = verdict_;
+    solution.iterations = iterations_;
+    solution.contradiction = std::move(contradiction_);
+    solution.multipliers = Eigen::VectorXd::Zero(problem_.excess.size());
+    for (std::size_t i = 0; i < active_.size(); ++i)
+      solution.multipliers[active_[i]] = std::max(0.0, multipliers_[static_cast<Eigen::Index>(i)]);
+    std::sort(active_.begin(), active_.end());
+    solution.active = std::move(active_);
+    return solution;
+  }
+
+  SchurComplement& schur_;
+  const ActiveSetProblem& problem_;
+  std::vector<char> is_active_;
+  std::vector<char> redundant_;
+  std::vector<int> active_;
+  Eigen::VectorXd multipliers_;
+  Eigen::VectorXd violation_;
+  ActiveCholesky factor_;
+  ActiveSetVerdict verdict_ = ActiveSetVerdict::solved;
+  int iterations_ = 0;
+  std::vector<int> contradiction_;
+};
+
+}  // namespace
+
+ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem) {
+  assert(problem.excess.size() == schur.size() && problem.scale.size() == schur.size());
+  return ActiveSetSolver(schur, problem).run();
+}
+
+}  // namespace comma::solver
