@@ -8,7 +8,9 @@ find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
 
 find_path(MED_INCLUDE_DIR med.h REQUIRED)
-find_library(MED_LIBRARY medC REQUIRED)
+# The shared MED library of Debian hangs on the HDF5 built with Open MPI, which costs every start of the program the loading
+# of MPI. The archive leaves its one parallel function out of the link and works with the serial HDF5 of the same version.
+find_library(MED_LIBRARY NAMES libmedC.a REQUIRED)
 find_path(HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(HDF5_LIBRARY NAMES hdf5_serial hdf5 REQUIRED)
 add_library(comma_med INTERFACE)

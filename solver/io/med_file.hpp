@@ -8,15 +8,22 @@
 
 namespace comma::solver {
 
-/// Reads a mesh: the named one, or the file's only / first mesh when `name` is empty. Families become groups.
+/// Reads a mesh: the named one, or the file's only / first mesh when `name` is empty. Files of MED 2.3 to 4.1. Families become
+/// groups, their members by rising index; a group without members does not come up. Cells are numbered type by type in the
+/// order of med_library's numbering_order(). Names and numbers that the file gives to nodes and cells are not kept, as in
+/// today's Code_Aster: N<i> and M<i> count them in the order of the mesh.
 /// Throws Error `unreadable-file`, `damaged-mesh` (what and where), `unknown-mesh` (with the names in the file),
 /// `unsupported-cell` naming the type.
 Mesh read_med_mesh(const std::string& path, const std::string& name = "");
 
-/// Names longer than MED's limits are an Error `name-too-long`.
+/// Groups become families. Names longer than MED's limits are an Error `name-too-long`, those that MED cannot hold `invalid-name`.
+/// The order inside a group is not kept: MED knows groups as sets.
 void write_med_mesh(const std::string& path, const Mesh& mesh, const std::string& name);
 
-/// The mesh and all nodal and element fields of a result, one MED field per name, one computation step per order.
+/// The mesh and all nodal and element fields of a result, one MED field per name ("RESU____DEPL" for the field DEPL of RESU,
+/// U7.05.21), one computation step per order. Nodes and cells that do not carry a field are left out by a profile; a component
+/// that a carrier lacks is written as 0. Fields at Gauss points come with the scheme of R3.01.01 that has their number of
+/// points; Error `unsupported` names a number that has none. Other errors as for write_med_mesh.
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
                       const std::string& result_name);
 

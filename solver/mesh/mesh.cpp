@@ -15,11 +15,12 @@ namespace {
 
 using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
-/// The index behind a default name such as "M12"; -1 for anything that default_name would not write.
+/// The index behind a default name such as "M12", or "12"; -1 for anything else.
 int default_index(char prefix, std::string_view name, int count) {
-  if (name.size() < 2 || name[0] != prefix || name[1] == '0') return -1;
+  if (name.starts_with(prefix)) name.remove_prefix(1);
+  if (name.starts_with('0')) return -1;
   int number = 0;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (error != std::errc{} || end != name.data() + name.size() || number < 1 || number > count) return -1;
   return number - 1;
 }

@@ -35,7 +35,8 @@ struct Mesh {
   }
   std::string node_name(int index) const;
   std::string cell_name(int index) const;
-  /// Index of a named node or cell; -1 if there is none.
+  /// Index of a named node or cell; -1 if there is none. Where they have no names of their own, the bare number does too:
+  /// "12" is "M12".
   int find_node(std::string_view name) const;
   int find_cell(std::string_view name) const;
 

@@ -34,6 +34,7 @@ TEST_CASE("nameless nodes and cells are called N1, M1 and so on") {
   CHECK(mesh.node_name(0) == "N1");
   CHECK(mesh.cell_name(1) == "M2");
   CHECK(mesh.find_node("N6") == 5);
+  CHECK(mesh.find_node("6") == 5);
   for (const char* wrong : {"N7", "N0", "N01", "N", "M1", "N1x", "", "N-1", "N99999999999999"}) {
     INFO(wrong);
     CHECK(mesh.find_node(wrong) == -1);

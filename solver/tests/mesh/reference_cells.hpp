@@ -7,6 +7,7 @@
 
 #include "solver/mesh/cell_type.hpp"
 #include "solver/mesh/mesh.hpp"
+#include "solver/mesh/reference_cell.hpp"
 
 namespace comma::solver::tests {
 

@@ -1,0 +1,114 @@
+#include "solver/mesh/orientation.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <numeric>
+
+#include "solver/error.hpp"
+#include "solver/mesh/boundary.hpp"
+
+namespace comma::solver {
+namespace {
+
+/// Below this part of the cube of its longest edge (of the square, for a face) a cell counts as flat: its two sides are
+/// then a matter of rounding. Far below any cell that an element could use.
+constexpr double flatness = 1e-12;
+
+std::string described(const Mesh& mesh, int cell) {
+  return fmt::format("{} {}", name_of(mesh.cell_types[cell]), mesh.cell_name(cell));
+}
+
+double longest_edge(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  const int corners = corner_count(mesh.cell_types[cell]);
+  double longest = 0.0;
+  for (int i = 0; i < corners; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Eigen::Vector3d a(mesh.nodes[nodes[i]].data());
+      const Eigen::Vector3d b(mesh.nodes[nodes[j]].data());
+      longest = std::max(longest, (a - b).norm());
+    }
+  }
+  return longest;
+}
+
+/// Whether the facets of the cell, as boundary_facets() lists them, really point outwards: they do not when the nodes of the
+/// cell run in the other sense, as meshers write them now and then.
+bool runs_in_reference_sense(const Mesh& mesh, int cell) {
+  const double size = signed_size(mesh, cell);
+  const double length = longest_edge(mesh, cell);
+  const bool solid = dimension(mesh.cell_types[cell]) == 3;
+  if (std::abs(size) > flatness * (solid ? length * length * length : length * length)) return size > 0.0;
+  throw Error("flat-cell", fmt::format("{} is flat{}, so the skin on it has no outer side", described(mesh, cell),
+                                       solid ? "" : " or stands upright on the xy plane"));
+}
+
+/// Whether `nodes`, the corners of a skin cell, run round the facet in the facet's own sense.
+bool same_sense(std::span<const int> nodes, std::span<const int> facet_nodes, int corners) {
+  if (corners == 2) return nodes[0] == facet_nodes[0];
+  const auto first = std::ranges::find(facet_nodes.first(static_cast<std::size_t>(corners)), nodes[0]);
+  const auto next = (first - facet_nodes.begin() + 1) % corners;
+  return facet_nodes[static_cast<std::size_t>(next)] == nodes[1];
+}
+
+/// Turns a line or face cell round: its first node stays first on a face.
+void reverse(std::span<int> nodes, CellType type) {
+  const int corners = corner_count(type);
+  if (dimension(type) == 1) {
+    std::swap(nodes[0], nodes[1]);
+    if (type == CellType::seg4) std::swap(nodes[2], nodes[3]);
+    return;
+  }
+  std::reverse(nodes.begin() + 1, nodes.begin() + corners);
+  const bool quadratic = node_count(type) >= 2 * corners;
+  if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners);
+}
+
+std::vector<int> default_support(const Mesh& mesh, std::span<const int> skin) {
+  std::array<bool, 4> wanted{};
+  for (const int cell : skin) wanted[static_cast<std::size_t>(dimension(mesh.cell_types[cell]))] = true;
+  std::vector<int> support;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const int below = dimension(mesh.cell_types[cell]) - 1;
+    if (below >= 1 && wanted[static_cast<std::size_t>(below)]) support.push_back(cell);
+  }
+  return support;
+}
+
+CellFacet support_of(const Mesh& mesh, int cell, const FacetMap& facets) {
+  const auto found = facets.find(facet_key(mesh, cell));
+  if (found == facets.end()) {
+    throw Error("skin-without-support", fmt::format("{} bounds no cell", described(mesh, cell)),
+                "the skin's nodes must be those of a face of a volume cell, or of an edge of a plane cell");
+  }
+  if (found->second.size() > 1) {
+    throw Error("skin-inside-body",
+                fmt::format("{} lies between {} and {}, so it has no outer side", described(mesh, cell),
+                            described(mesh, found->second[0].cell), described(mesh, found->second[1].cell)),
+                "say which of the bodies the skin belongs to");
+  }
+  return found->second.front();
+}
+
+}  // namespace
+
+int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
+  const std::vector<int> all = support.empty() ? default_support(mesh, skin) : std::vector<int>{};
+  const FacetMap facets = map_facets(mesh, support.empty() ? std::span<const int>(all) : support);
+  int turned = 0;
+  for (const int cell : skin) {
+    const CellFacet behind = support_of(mesh, cell, facets);
+    const CellType type = mesh.cell_types[cell];
+    const bool as_listed = same_sense(mesh.cell(cell), nodes_of_facet(mesh, behind), corner_count(type));
+    if (as_listed == runs_in_reference_sense(mesh, behind.cell)) continue;
+    const auto nodes = std::span(mesh.connectivity).subspan(static_cast<std::size_t>(mesh.cell_starts[cell]),
+                                                            static_cast<std::size_t>(node_count(type)));
+    reverse(nodes, type);
+    ++turned;
+  }
+  return turned;
+}
+
+}  // namespace comma::solver

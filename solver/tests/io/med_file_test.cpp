@@ -1,0 +1,215 @@
+#include "solver/io/med_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "../mesh/reference_cells.hpp"
+#include "solver/error.hpp"
+#include "solver/io/med_library.hpp"
+#include "solver/io/med_localization.hpp"
+#include "temporary_file.hpp"
+
+using namespace comma::solver;
+using comma::solver::tests::TemporaryFile;
+
+namespace {
+
+std::string code_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    CHECK_FALSE(std::string(error.what()).empty());
+    return error.code();
+  }
+  return "no error";
+}
+
+/// Two squares side by side, a bar and a point, with groups that overlap.
+Mesh small_mesh() {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  mesh.add_cell(CellType::poi1, std::vector{2});
+  mesh.add_cell(CellType::seg2, std::vector{0, 1});
+  mesh.add_cell(CellType::quad4, std::vector{0, 1, 4, 3});
+  mesh.add_cell(CellType::quad4, std::vector{1, 2, 5, 4});
+  mesh.cell_groups["LEFT"] = {2};
+  mesh.cell_groups["SQUARES"] = {2, 3};
+  mesh.cell_groups["A group with a name of some length, up to the limit of MED, eighty characters !!"] = {1};
+  mesh.node_groups["CORNERS"] = {0, 2, 3, 5};
+  mesh.node_groups["ORIGIN"] = {0};
+  return mesh;
+}
+
+void check_same(const Mesh& a, const Mesh& b) {
+  CHECK(a.dimension == b.dimension);
+  CHECK(a.nodes == b.nodes);
+  CHECK(a.cell_types == b.cell_types);
+  CHECK(a.cell_starts == b.cell_starts);
+  CHECK(a.connectivity == b.connectivity);
+  CHECK(a.node_groups == b.node_groups);
+  CHECK(a.cell_groups == b.cell_groups);
+}
+
+Mesh rewritten(const Mesh& mesh) {
+  const TemporaryFile file;
+  write_med_mesh(file.path(), mesh, "MESH");
+  return read_med_mesh(file.path());
+}
+
+}  // namespace
+
+TEST_CASE("MED node orders are permutations that turn solids inside out") {
+  for (int i = 0; i < cell_type_count; ++i) {
+    const auto type = static_cast<CellType>(i);
+    const auto order = med_node_order(type);
+    INFO(name_of(type));
+    if (dimension(type) < 3) {
+      CHECK(order.empty());
+      continue;
+    }
+    std::vector<int> sorted(order.begin(), order.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (int j = 0; j < node_count(type); ++j) CHECK(sorted[j] == j);
+    // A MED cell read without the permutation has the opposite volume.
+    Mesh mesh;
+    std::vector<int> straight;
+    const auto points = tests::reference_nodes(type);
+    mesh.nodes.resize(points.size());
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const auto& point = points[j];
+      mesh.nodes[static_cast<std::size_t>(order[j])] = {point.x(), point.y(), point.z()};
+      straight.push_back(static_cast<int>(j));
+    }
+    mesh.add_cell(type, straight);
+    CHECK(tests::solid_volume(mesh, 0) == Approx(-tests::reference_volume(type)).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a mesh with every cell type comes back from a MED file") {
+  const Mesh mesh = tests::mesh_of_reference_cells();
+  const Mesh read = rewritten(mesh);
+  REQUIRE(read.cell_count() == mesh.cell_count());
+  CHECK(read.nodes == mesh.nodes);
+  for (int cell = 0; cell < read.cell_count(); ++cell) {
+    const CellType type = read.cell_types[cell];
+    CHECK(type == numbering_order()[static_cast<std::size_t>(cell)]);
+    const int original = static_cast<int>(type);
+    CHECK(std::equal(read.cell(cell).begin(), read.cell(cell).end(), mesh.cell(original).begin()));
+    if (dimension(type) == 3) CHECK(tests::solid_volume(read, cell) == Approx(tests::reference_volume(type)));
+  }
+}
+
+TEST_CASE("groups come back from a MED file") {
+  const Mesh mesh = small_mesh();
+  check_same(rewritten(mesh), mesh);
+}
+
+TEST_CASE("a mesh is chosen by its name") {
+  const TemporaryFile file;
+  write_med_mesh(file.path(), small_mesh(), "THIS");
+  check_same(read_med_mesh(file.path(), "THIS"), small_mesh());
+  try {
+    read_med_mesh(file.path(), "THAT");
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.code() == "unknown-mesh");
+    CHECK(error.hint() == "its meshes are: THIS");
+  }
+}
+
+TEST_CASE("names that MED cannot hold are refused") {
+  const TemporaryFile file;
+  Mesh mesh = small_mesh();
+  CHECK(code_of([&] { write_med_mesh(file.path(), mesh, std::string(65, 'M')); }) == "name-too-long");
+  CHECK(code_of([&] { write_med_mesh(file.path(), mesh, "a/b"); }) == "invalid-name");
+  CHECK(code_of([&] { write_med_mesh("/no/such/folder/x.med", mesh, "M"); }) == "unwritable-file");
+  mesh.cell_groups[std::string(81, 'G')] = {0};
+  CHECK(code_of([&] { write_med_mesh(file.path(), mesh, "M"); }) == "name-too-long");
+}
+
+TEST_CASE("what is not a MED file is an error") {
+  const TemporaryFile file;
+  CHECK(code_of([&] { read_med_mesh(file.path()); }) == "unreadable-file");
+  for (const char* content : {"", "COOR_2D\n", "\x89HDF\r\n\x1a\n"}) {
+    file.fill(content);
+    CHECK(code_of([&] { read_med_mesh(file.path()); }) == "unreadable-file");
+  }
+  CHECK(code_of([&] { read_med_mesh(std::filesystem::temp_directory_path().string()); }) == "unreadable-file");
+}
+
+TEST_CASE("a MED file cut off anywhere is an error") {
+  const TemporaryFile file;
+  write_med_mesh(file.path(), small_mesh(), "M");
+  const std::string whole = file.bytes();
+  const std::size_t step = whole.size() / 97;
+  for (std::size_t length = 0; length < whole.size(); length += step) {
+    file.fill(std::string_view(whole).substr(0, length));
+    INFO(length);
+    const std::string code = code_of([&] { read_med_mesh(file.path()); });
+    CHECK((code == "unreadable-file" || code == "damaged-mesh"));
+  }
+}
+
+TEST_CASE("results are written with profiles and localisations") {
+  const auto mesh = small_mesh();
+  NodalField displacement{"DEPL_R", {"DX", "DY"}, std::vector<double>(12, 1.0)};
+  displacement.values[10] = displacement.values[11] = absent;
+  displacement.values[9] = absent;
+  ElementField stress{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 1, 5, 9}, std::vector<double>(9, 2.0)};
+  ElementField corner{"SIEF_R", Support::element_node, {"SIXX"}, {0, 0, 0, 4, 4}, {1, 2, 3, 4}};
+  ElementField mean{"ENER_R", Support::cell, {"TOTALE"}, {0, 0, 0, 1, 2}, {1, 2}};
+  Result result;
+  for (int order = 0; order < 2; ++order) {
+    ResultStep step;
+    step.order = order;
+    step.instant = 0.5 * order;
+    step.fields = {{"DEPL", displacement}, {"SIEF_ELGA", stress}, {"SIEF_ELNO", corner}, {"ENEL_ELEM", mean}};
+    result.steps.push_back(step);
+  }
+  const TemporaryFile file;
+  write_med_result(file.path(), mesh, "MESH", result, "RESU");
+  check_same(read_med_mesh(file.path()), mesh);
+
+  const MedFile med = MedFile::open_for_reading(file.path());
+  CHECK(MEDnField(med.id()) == 4);
+  CHECK(MEDnProfile(med.id()) == 2);  // nodes 1 to 5, and the first quadrangle
+  CHECK(MEDnLocalization(med.id()) == 2);
+  std::vector<double> values(10, -1.0);
+  const med_err failed = MEDfieldValueWithProfileRd(
+      med.id(), "RESU____DEPL", 1, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE, MED_COMPACT_STMODE, "PROFILE_1",
+      MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data()));
+  REQUIRE(failed >= 0);
+  CHECK(values == std::vector<double>{1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
+}
+
+TEST_CASE("a field that MED files cannot place is refused by name") {
+  Result result;
+  ResultStep step;
+  step.fields["SIEF_ELGA"] = ElementField{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 0, 7, 7}, std::vector<double>(7)};
+  result.steps.push_back(step);
+  const TemporaryFile file;
+  CHECK(code_of([&] { write_med_result(file.path(), small_mesh(), "M", result, "R"); }) == "unsupported");
+}
+
+TEST_CASE("integration schemes sum up to the reference cell and lie inside it") {
+  int found = 0;
+  for (int i = 0; i < cell_type_count; ++i) {
+    const auto type = static_cast<CellType>(i);
+    for (int points = 1; points <= 27; ++points) {
+      const auto scheme = gauss_scheme(type, points);
+      if (!scheme) continue;
+      ++found;
+      INFO(name_of(type) << " " << points);
+      REQUIRE(static_cast<int>(scheme->points.size()) == points);
+      REQUIRE(static_cast<int>(scheme->weights.size()) == points);
+      double sum = 0.0;
+      for (const double weight : scheme->weights) sum += weight;
+      const double size = type == CellType::poi1 ? 1.0 : tests::reference_volume(type);
+      CHECK(sum == Approx(size).epsilon(1e-14));
+    }
+  }
+  CHECK(found >= cell_type_count);
+}

@@ -1,0 +1,165 @@
+#include "solver/mesh/orientation.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <random>
+
+#include "reference_cells.hpp"
+#include "solver/error.hpp"
+#include "solver/mesh/boundary.hpp"
+
+using namespace comma::solver;
+using comma::solver::tests::Vector;
+
+namespace {
+
+/// A block of nx * ny * nz unit cubes.
+Mesh block(int nx, int ny, int nz) {
+  Mesh mesh;
+  for (int k = 0; k <= nz; ++k) {
+    for (int j = 0; j <= ny; ++j) {
+      for (int i = 0; i <= nx; ++i) mesh.nodes.push_back({1.0 * i, 1.0 * j, 1.0 * k});
+    }
+  }
+  const auto node = [&](int i, int j, int k) { return i + (nx + 1) * (j + (ny + 1) * k); };
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        mesh.add_cell(CellType::hexa8, std::vector{node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+                                                   node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                                                   node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+      }
+    }
+  }
+  return mesh;
+}
+
+std::vector<int> all_cells(const Mesh& mesh) {
+  std::vector<int> cells;
+  for (int i = 0; i < mesh.cell_count(); ++i) cells.push_back(i);
+  return cells;
+}
+
+/// Adds a skin cell on each boundary facet, with its nodes turned either way at random; returns the cells.
+std::vector<int> add_random_skin(Mesh& mesh, std::mt19937& random) {
+  std::vector<int> skin;
+  for (const CellFacet facet : boundary_of(mesh, all_cells(mesh))) {
+    const CellType type = boundary_facets(mesh.cell_types[facet.cell])[static_cast<std::size_t>(facet.facet)].type;
+    std::vector<int> nodes = nodes_of_facet(mesh, facet);
+    const int corners = corner_count(type);
+    if (random() % 2 == 0) {
+      std::reverse(nodes.begin(), nodes.begin() + corners);
+      if (dimension(type) == 2 && node_count(type) >= 2 * corners) {
+        std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners - 1);
+      }
+    }
+    skin.push_back(mesh.add_cell(type, nodes));
+  }
+  return skin;
+}
+
+/// The volume that a skin of faces encloses, by the divergence theorem over the corners, and the sum of its area vectors.
+std::pair<double, Vector> enclosed(const Mesh& mesh, const std::vector<int>& skin) {
+  double volume = 0.0;
+  Vector closed = Vector::Zero();
+  for (const int cell : skin) {
+    std::vector<Vector> points;
+    for (const int node : mesh.cell(cell)) points.push_back(Vector(mesh.nodes[node].data()));
+    const BoundaryFacet itself{mesh.cell_types[cell], {0, 1, 2, 3, 4, 5, 6, 7, 8}};
+    const Vector area = tests::area_vector(points, itself);
+    closed += area;
+    volume += area.dot(tests::corner_mean(points, itself)) / 3.0;
+  }
+  return {volume, closed};
+}
+
+std::string code_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("the turned skin of a block encloses its volume") {
+  std::mt19937 random(1);
+  Mesh mesh = block(3, 2, 2);
+  const auto skin = add_random_skin(mesh, random);
+  REQUIRE(skin.size() == 2 * (3 * 2 + 3 * 2 + 2 * 2));
+  const int turned = orient_skin(mesh, skin);
+  CHECK(turned > 0);
+  const auto [volume, closed] = enclosed(mesh, skin);
+  CHECK(volume == Approx(12.0).epsilon(1e-14));
+  CHECK(closed.norm() == Approx(0.0).margin(1e-13));
+  CHECK(orient_skin(mesh, skin) == 0);
+}
+
+TEST_CASE("every solid gets its skin turned outwards, middle nodes kept between their corners") {
+  std::mt19937 random(2);
+  for (int i = 0; i < cell_type_count; ++i) {
+    const auto type = static_cast<CellType>(i);
+    if (dimension(type) != 3) continue;
+    INFO(name_of(type));
+    Mesh mesh;
+    std::vector<int> nodes;
+    for (const Vector& point : tests::reference_nodes(type)) {
+      nodes.push_back(mesh.node_count());
+      mesh.nodes.push_back({point.x(), point.y(), point.z()});
+    }
+    mesh.add_cell(type, nodes);
+    const auto skin = add_random_skin(mesh, random);
+    orient_skin(mesh, skin);
+    CHECK(enclosed(mesh, skin).first == Approx(tests::reference_volume(type)).epsilon(1e-14));
+    for (const int cell : skin) {
+      const auto face = mesh.cell(cell);
+      const int corners = corner_count(mesh.cell_types[cell]);
+      if (node_count(mesh.cell_types[cell]) < 2 * corners) continue;
+      for (int j = 0; j < corners; ++j) {
+        const Vector a(mesh.nodes[face[j]].data());
+        const Vector b(mesh.nodes[face[(j + 1) % corners]].data());
+        const Vector middle(mesh.nodes[face[corners + j]].data());
+        CHECK((middle - 0.5 * (a + b)).norm() == Approx(0.0).margin(1e-15));
+      }
+    }
+  }
+}
+
+TEST_CASE("edges of plane cells run with the cell on their left, whichever way the cell itself runs") {
+  for (const bool clockwise : {false, true}) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.add_cell(CellType::quad4, clockwise ? std::vector{0, 3, 2, 1} : std::vector{0, 1, 2, 3});
+    const int down = mesh.add_cell(CellType::seg2, std::vector{1, 0});
+    const int up = mesh.add_cell(CellType::seg2, std::vector{2, 3});
+    CHECK(orient_skin(mesh, std::vector{down, up}) == 1);
+    CHECK(mesh.cell(down)[0] == 0);
+    CHECK(mesh.cell(up)[0] == 2);
+  }
+}
+
+TEST_CASE("a solid whose nodes run inside out gets its skin outside all the same") {
+  std::mt19937 random(3);
+  Mesh mesh = block(1, 1, 1);
+  std::reverse(mesh.connectivity.begin(), mesh.connectivity.begin() + 4);
+  std::reverse(mesh.connectivity.begin() + 4, mesh.connectivity.end());
+  REQUIRE(signed_size(mesh, 0) == Approx(-1.0));
+  const auto skin = add_random_skin(mesh, random);
+  orient_skin(mesh, skin);
+  CHECK(enclosed(mesh, skin).first == Approx(1.0));
+}
+
+TEST_CASE("a skin without one clear side is an error") {
+  Mesh mesh = block(2, 1, 1);
+  const int inside = mesh.add_cell(CellType::quad4, std::vector{1, 4, 10, 7});
+  const int loose = mesh.add_cell(CellType::quad4, std::vector{0, 1, 10, 9});
+  CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}); }) == "skin-inside-body");
+  CHECK(code_of([&] { orient_skin(mesh, std::vector{loose}); }) == "skin-without-support");
+  CHECK(orient_skin(mesh, std::vector{inside}, std::vector{0}) + orient_skin(mesh, std::vector{inside}, std::vector{1}) >= 1);
+  mesh.nodes[0] = mesh.nodes[3] = {1, 0, 0};
+  for (auto& point : mesh.nodes) point[0] = 0.0;
+  CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}, std::vector{0}); }) == "flat-cell");
+}
