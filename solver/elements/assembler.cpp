@@ -10,6 +10,7 @@
 #include "solver/elements/external_forces.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
+#include "solver/materials/elasticity.hpp"
 
 namespace comma::solver {
 
@@ -36,7 +37,7 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
-  throw_unsupported_element(input.model, cells.front());
+  return make_slender_block(input, std::move(cells));
 }
 
 /// The stresses of one block into a field whose components are those of all blocks.
@@ -66,6 +67,26 @@ Eigen::VectorXd rounded(const std::vector<long double>& sums) {
 void throw_unsupported_element(const Model& model, int cell) {
   throw Error("unsupported", fmt::format("there is no element of the formulation asked for on cell {} ({})",
                                          model.mesh->cell_name(cell), name_of(model.mesh->cell_types[cell])));
+}
+
+const IsotropicElasticity& elasticity_of(const BlockInput& input, int cell) {
+  const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
+  if (material == nullptr || !material->elasticity) {
+    throw Error("missing-material",
+                fmt::format("cell {} carries an element but has no elastic material", input.model.mesh->cell_name(cell)));
+  }
+  check_elasticity(*material->elasticity);
+  return *material->elasticity;
+}
+
+std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
+  std::vector<int> nodes;
+  nodes.reserve(cells.size() * mesh.cell(cells.front()).size());
+  for (const int cell : cells) {
+    const auto of_cell = mesh.cell(cell);
+    nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
+  }
+  return nodes;
 }
 
 struct Assembler::Blocks {

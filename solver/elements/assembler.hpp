@@ -19,11 +19,15 @@ namespace comma::solver {
 /// sorted once, in the constructor, and nothing is allocated inside an element loop. Keeps references to its arguments.
 class Assembler {
  public:
-  /// Throws Error `missing-material` / `missing-properties` naming a cell that lacks what its element needs.
+  /// Throws Error `missing-material` / `missing-properties` naming a cell that lacks what its element needs, `wrong-size` for a
+  /// spring's matrix, `invalid-material`, `invalid-properties`, `distorted-cell`, `unsupported` for a formulation on a cell type
+  /// without such an element.
   Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs);
   ~Assembler();
 
-  /// Lower triangle of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls.
+  /// Lower triangle of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls. Rows of
+  /// continua, bars and beams add up to exactly zero over each translation (see translation.hpp), so that a residual b - K x taken in
+  /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
 
   /// Internal forces at u (n), accumulated in extended precision so that the equilibrium of a stiff body held by weak
@@ -36,7 +40,8 @@ class Assembler {
   /// Whether the tangent is the same for every u.
   bool is_linear() const;
 
-  /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), N VY ... for discrete elements.
+  /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), with SIXZ SIYZ in 3D; N for bars; N VY VZ MT MFY MFZ in own
+  /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node). N > 0 in tension.
   ElementField stresses(const Eigen::VectorXd& u) const;
 
  private:

@@ -103,33 +103,19 @@ class ContinuumBlock final : public ElementBlock {
     Eigen::Matrix<double, Nodes, 1> radial;
   };
 
-  static std::vector<int> gather_nodes(const Mesh& mesh, const std::vector<int>& cells) {
-    std::vector<int> nodes;
-    nodes.reserve(cells.size() * Nodes);
-    for (const int cell : cells) {
-      const auto of_cell = mesh.cell(cell);
-      nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
-    }
-    return nodes;
-  }
-
   /// Hooke's law once for each distinct material.
   void collect_laws(const BlockInput& input) {
-    std::unordered_map<const Material*, int> known;
+    std::unordered_map<const IsotropicElasticity*, int> known;
     const Formulation formulation = input.model.formulations[cells_.front()];
     for (const int cell : cells_) {
-      const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
-      if (material == nullptr || !material->elasticity) {
-        throw Error("missing-material", fmt::format("cell {} carries an element but has no elastic material", mesh_.cell_name(cell)));
-      }
-      const auto [entry, is_new] = known.try_emplace(material, static_cast<int>(laws_.size()));
-      if (is_new) laws_.push_back(make_law(*material->elasticity, formulation));
+      const IsotropicElasticity& elasticity = elasticity_of(input, cell);
+      const auto [entry, is_new] = known.try_emplace(&elasticity, static_cast<int>(laws_.size()));
+      if (is_new) laws_.push_back(make_law(elasticity, formulation));
       law_of_element_.push_back(entry->second);
     }
   }
 
   static Law make_law(const IsotropicElasticity& elasticity, Formulation formulation) {
-    check_elasticity(elasticity);
     if constexpr (Dim == 3) return solid_stiffness(elasticity);
     else if (formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced)
       return plane_stress_stiffness(elasticity);

@@ -22,7 +22,7 @@ class DiscreteBlock final : public ElementBlock {
       : formulation_(input.model.formulations[cells.front()]),
         node_count_(static_cast<int>(input.model.mesh->cell(cells.front()).size())),
         cells_(std::move(cells)),
-        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh)) {
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh, cells_)) {
     const int size = node_count_ * map_.components();
     for (const int cell : cells_) {
       const auto found = input.properties.discrete.find(cell);
@@ -99,12 +99,6 @@ class DiscreteBlock final : public ElementBlock {
       local[i] = 0.0;
       for (int j = 0; j < dimension; ++j) local[i] += axes(i, j) * global[j];
     }
-  }
-
-  std::vector<int> gather_nodes(const Mesh& mesh) const {
-    std::vector<int> nodes;
-    for (const int cell : cells_) nodes.insert(nodes.end(), mesh.cell(cell).begin(), mesh.cell(cell).end());
-    return nodes;
   }
 
   Formulation formulation_;

@@ -45,6 +45,13 @@ class ElementBlock {
 /// Blocks for cells that share type and formulation.
 std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
+
+/// The elastic constants of a cell, checked. Throws Error `missing-material` naming the cell, `invalid-material`.
+const IsotropicElasticity& elasticity_of(const BlockInput& input, int cell);
+
+/// The nodes of cells of one type, one cell after the other.
+std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells);
 
 /// Error for a cell that has no element: formulation and cell type do not go together.
 [[noreturn]] void throw_unsupported_element(const Model& model, int cell);

@@ -31,8 +31,10 @@ Eigen::MatrixXd node_rotation(Formulation formulation, const Eigen::Matrix3d& ax
 }
 
 DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame) {
-  DiscreteStiffness result{std::move(matrix), discrete_axes(mesh, cell)};
-  if (frame == DiscreteFrame::global || result.axes.isIdentity(0.0)) return result;
+  DiscreteStiffness result{std::move(matrix)};
+  if (frame == DiscreteFrame::global) return result;
+  result.axes = own_axes(mesh, cell);
+  if (result.axes.isIdentity(0.0)) return result;
   const Eigen::MatrixXd rotation = node_rotation(formulation, result.axes);
   const auto k = rotation.rows();
   for (Eigen::Index i = 0; i < result.matrix.rows(); i += k) {
@@ -46,23 +48,24 @@ DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Ei
 
 }  // namespace
 
-Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell) {
+Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
   const auto nodes = mesh.cell(cell);
-  if (nodes.size() < 2) return Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d along =
-      Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[1]].data()) - Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[0]].data());
-  const double length = along.norm();
-  if (!(length > 0.0)) {
-    throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
-                "give the stiffness in global axes");
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (nodes.size() > 1) {
+    const Eigen::Vector3d along = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[1]].data()) -
+                                  Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[0]].data());
+    const double length = along.norm();
+    if (!(length > 0.0)) {
+      throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
+                  "give the stiffness of a spring in global axes");
+    }
+    const Eigen::Vector3d x = along / length;
+    const double level = std::hypot(x[0], x[1]);
+    const Eigen::Vector3d y = level > 0.0 ? Eigen::Vector3d(-x[1] / level, x[0] / level, 0.0) : Eigen::Vector3d::UnitY();
+    axes << x.transpose(), y.transpose(), x.cross(y).transpose();
   }
-  // Yaw about Z, then pitch about the turned Y: the second axis stays horizontal.
-  const Eigen::Vector3d x = along / length;
-  const double horizontal = std::hypot(x[0], x[1]);
-  const Eigen::Vector3d y = horizontal > 0.0 ? Eigen::Vector3d(-x[1] / horizontal, x[0] / horizontal, 0.0) : Eigen::Vector3d::UnitY();
-  Eigen::Matrix3d axes;
-  axes << x.transpose(), y.transpose(), x.cross(y).transpose();
-  return axes;
+  if (roll == 0.0) return axes;
+  return (Eigen::AngleAxisd(roll, axes.row(0).transpose()).toRotationMatrix() * axes.transpose()).transpose();
 }
 
 int discrete_components(Formulation formulation) {

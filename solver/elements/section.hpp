@@ -21,10 +21,11 @@ struct DiscreteStiffness {
 /// In which axes the values of a discrete stiffness are given.
 enum class DiscreteFrame : std::uint8_t { global, local };
 
-/// Own axes (rows) of a cell: a segment's first axis runs from its first node to its second, its second axis lies in the plane of
-/// the first and the global Y, or X where the segment is parallel to Z (nautical angles without a roll, U4.42.01); a point has
-/// the global axes. Throws Error `distorted-cell` for a segment without length.
-Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell);
+/// Own axes (rows) of a cell. A segment's first axis runs from its first node to its second; without a roll its second axis is
+/// horizontal (in the plane of the global X and Y), and is Y for a segment along Z: yaw and pitch of U4.42.01, ORIENTATION. `roll`
+/// then turns the second and third axes about the first, in radians. A point has the global axes, turned by `roll` about X.
+/// Throws Error `distorted-cell` for a segment without length.
+Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll = 0.0);
 
 /// Components that the element of a discrete formulation has at each node.
 int discrete_components(Formulation formulation);
@@ -39,9 +40,21 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                                       DiscreteFrame frame);
 
+/// The cross-section of a bar or beam, in its own axes. Bars use the area alone.
+struct BeamSection {
+  double area = 0.0;
+  double inertia_y = 0.0;  ///< second moment about the own y axis: bending in the plane (x, z)
+  double inertia_z = 0.0;
+  double torsion = 0.0;    ///< torsion constant
+  double shear_y = 1.0;    ///< A over the reduced section along y, >= 1 (A_Y of U4.42.01); used by Timoshenko beams
+  double shear_z = 1.0;
+  double roll = 0.0;       ///< see own_axes
+};
+
 /// Characteristics by cell index.
 struct ElementProperties {
   std::unordered_map<int, DiscreteStiffness> discrete;
+  std::unordered_map<int, BeamSection> sections;
 };
 
 }  // namespace comma::solver

@@ -46,13 +46,13 @@ TEST_CASE("a spring in global axes ignores the direction of its segment", "[elem
 
 TEST_CASE("own axes of segments are right-handed, the first along the segment, the second horizontal", "[elements]") {
   for (const Point& to : {Point{1, 2, 3}, Point{0, 0, 2}, Point{0, 0, -1}, Point{-1, 0, 0}}) {
-    const Eigen::Matrix3d axes = discrete_axes(*segment({0, 0, 0}, to), 0);
+    const Eigen::Matrix3d axes = own_axes(*segment({0, 0, 0}, to), 0);
     CHECK((axes * axes.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-15);
     CHECK(axes.determinant() == Approx(1.0));
     CHECK((axes.row(0).transpose() - Eigen::Vector3d(to[0], to[1], to[2]).normalized()).norm() < 1e-15);
     CHECK(axes(1, 2) == 0.0);
   }
-  CHECK_THROWS_AS(discrete_axes(*segment({1, 1, 1}, {1, 1, 1}), 0), Error);
+  CHECK_THROWS_AS(own_axes(*segment({1, 1, 1}, {1, 1, 1}), 0), Error);
 }
 
 TEST_CASE("springs in space with rotations keep their energy under a change of frame", "[elements]") {
