@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <compare>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -56,23 +57,59 @@ std::span<const std::int8_t> whole_order(CellType type) {
   throw Error("unreadable-file", fmt::format("{}: {}", path, why), hint);
 }
 
+struct MedVersion {
+  int major = -1;
+  int minor = -1;
+  auto operator<=>(const MedVersion&) const = default;
+};
+
+int attribute(hid_t group, const char* name) {
+  if (H5Aexists(group, name) <= 0) return -1;
+  int value = -1;
+  const hid_t id = H5Aopen(group, name, H5P_DEFAULT);
+  if (id < 0) return -1;
+  const hid_t space = H5Aget_space(id);
+  if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(id, H5T_NATIVE_INT, &value) < 0) value = -1;
+  H5Sclose(space);
+  H5Aclose(id);
+  return value;
+}
+
+/// The version is looked up here rather than by MEDfileCompatibility, which writes to the screen about files that are not MED
+/// and leaves them open.
+MedVersion version_in(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) throw_unreadable(path, "this is not a MED file (nor any other HDF5 file), or it is cut off");
+  MedVersion version;
+  const hid_t group = H5Lexists(file, "INFOS_GENERALES", H5P_DEFAULT) > 0 ? H5Gopen2(file, "INFOS_GENERALES", H5P_DEFAULT) : -1;
+  if (group >= 0) {
+    version = {attribute(group, "MAJ"), attribute(group, "MIN")};
+    H5Gclose(group);
+  }
+  H5Fclose(file);
+  if (version.major < 0 || version.minor < 0) throw_unreadable(path, "this HDF5 file is not a MED file, or it is damaged");
+  return version;
+}
+
 void check_readable(const std::string& path) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) throw_unreadable(path, "there is no such file");
   if (!std::filesystem::is_regular_file(path, failure)) throw_unreadable(path, "this is not a file");
-  med_bool is_hdf = MED_FALSE;
-  med_bool is_med = MED_FALSE;
-  if (MEDfileCompatibility(path.c_str(), &is_hdf, &is_med) < 0 || !is_hdf) {
-    throw_unreadable(path, "this is not a MED file (nor any other HDF5 file), or it is cut off");
-  }
-  if (is_med) return;
-  throw_unreadable(path, fmt::format("this HDF5 file is not a MED file that the MED library {} can read", MED_VERSION_STR),
-                   "a file of MED 2.1 or 2.2 is brought up to date by medimport");
+  const MedVersion version = version_in(path);
+  const bool too_old = version < MedVersion{2, 2};
+  if (!too_old && version.major <= MED_MAJOR_NUM) return;
+  throw_unreadable(path,
+                   fmt::format("the file is of MED version {}.{}, which the MED library {} cannot read", version.major,
+                               version.minor, MED_VERSION_STR),
+                   too_old ? "medimport brings an old file up to date" : "");
 }
 
 }  // namespace
 
 QuietHdf5::QuietHdf5() {
+  // Files are closed when their reader or writer ends, so the library has nothing left to do at exit; after a damaged file its
+  // clean-up would write about memory that it lost. Only the first call, before the library starts, has an effect.
+  H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &handler_, &client_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -1,0 +1,190 @@
+#include "solver/mesh/groups.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <unordered_set>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+Vector vector(const Point& point) { return Vector(point.data()); }
+
+Vector unit(const Point& direction) {
+  const Vector result = vector(direction);
+  const double length = result.norm();
+  if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
+  return result / length;
+}
+
+template <typename Predicate>
+std::vector<int> nodes_where(const Mesh& mesh, Predicate predicate) {
+  std::vector<int> result;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (predicate(vector(mesh.nodes[node]))) result.push_back(node);
+  }
+  return result;
+}
+
+template <typename Predicate>
+std::vector<int> filtered(std::span<const int> members, Predicate predicate) {
+  std::vector<int> result;
+  std::ranges::copy_if(members, std::back_inserter(result), predicate);
+  return result;
+}
+
+/// Distance from the axis through `point` along the unit vector `axis`.
+double distance_from_axis(const Vector& position, const Vector& point, const Vector& axis) {
+  return axis.cross(position - point).norm();
+}
+
+bool plays(CellType type, int local, NodeRole role) {
+  const int corners = corner_count(type);
+  if (local < corners) return role == NodeRole::corner;
+  const int edges = dimension(type) < 2 ? node_count(type) - corners
+                    : dimension(type) == 2 ? corners
+                                           : static_cast<int>(boundary_facets(type).size()) + corners - 2;  // Euler
+  return role == (local < corners + edges ? NodeRole::mid_edge : NodeRole::centre);
+}
+
+}  // namespace
+
+std::vector<int> union_of(std::span<const std::vector<int>> groups) {
+  std::vector<int> result;
+  std::unordered_set<int> seen;
+  for (const auto& group : groups) {
+    std::ranges::copy_if(group, std::back_inserter(result), [&](int member) { return seen.insert(member).second; });
+  }
+  return result;
+}
+
+std::vector<int> intersection_of(std::span<const std::vector<int>> groups) {
+  if (groups.empty()) return {};
+  std::vector<int> result = groups.front();
+  for (const auto& group : groups.subspan(1)) {
+    const std::unordered_set<int> other(group.begin(), group.end());
+    result = filtered(result, [&](int member) { return other.contains(member); });
+  }
+  return result;
+}
+
+std::vector<int> difference_of(std::span<const std::vector<int>> groups) {
+  if (groups.empty()) return {};
+  std::unordered_set<int> others;
+  for (const auto& group : groups.subspan(1)) others.insert(group.begin(), group.end());
+  return filtered(groups.front(), [&](int member) { return !others.contains(member); });
+}
+
+std::vector<std::string> add_node_groups_of_all_cell_groups(Mesh& mesh) {
+  std::vector<std::string> kept;
+  for (const auto& [name, cells] : mesh.cell_groups) {
+    const std::vector<int> nodes = mesh.nodes_of_cells(cells);
+    const auto [group, is_new] = mesh.node_groups.try_emplace(name, nodes);
+    if (is_new) continue;
+    std::vector<int> existing = group->second;
+    std::ranges::sort(existing);
+    if (existing != nodes) kept.push_back(name);
+  }
+  return kept;
+}
+
+std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, NodeRole role) {
+  std::vector<bool> chosen(mesh.nodes.size(), false);
+  for (const int cell : cells) {
+    const auto nodes = mesh.cell(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (plays(mesh.cell_types[cell], static_cast<int>(i), role)) chosen[static_cast<std::size_t>(nodes[i])] = true;
+    }
+  }
+  std::vector<int> result;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    if (chosen[static_cast<std::size_t>(node)]) result.push_back(node);
+  }
+  return result;
+}
+
+std::vector<int> cells_of_type(const Mesh& mesh, std::span<const int> cells, CellType type) {
+  return filtered(cells, [&](int cell) { return mesh.cell_types[cell] == type; });
+}
+
+std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, NodeCriterion criterion) {
+  std::vector<bool> chosen(mesh.nodes.size(), false);
+  for (const int node : nodes) chosen[static_cast<std::size_t>(node)] = true;
+  std::vector<int> result;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto own = mesh.cell(cell);
+    const auto hits = std::ranges::count_if(own, [&](int node) { return chosen[static_cast<std::size_t>(node)]; });
+    const auto size = static_cast<std::ptrdiff_t>(own.size());
+    const bool wanted = criterion == NodeCriterion::all ? hits == size
+                        : criterion == NodeCriterion::any ? hits > 0
+                                                          : 2 * hits > size;
+    if (wanted) result.push_back(cell);
+  }
+  return result;
+}
+
+std::vector<int> nodes_in_box(const Mesh& mesh, const Point& lower, const Point& upper, double tolerance) {
+  const Eigen::Array3d low = vector(lower).array() - tolerance;
+  const Eigen::Array3d high = vector(upper).array() + tolerance;
+  return nodes_where(mesh, [&](const Vector& position) {
+    return (position.array() >= low).all() && (position.array() <= high).all();
+  });
+}
+
+std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double radius) {
+  return nodes_where(mesh, [&](const Vector& position) { return (position - vector(centre)).norm() <= radius; });
+}
+
+std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double radius, double tolerance) {
+  return nodes_where(mesh, [&](const Vector& position) {
+    return std::abs((position - vector(centre)).norm() - radius) <= tolerance;
+  });
+}
+
+std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius) {
+  const Vector direction = unit(axis);
+  return nodes_where(mesh, [&](const Vector& position) {
+    return distance_from_axis(position, vector(point), direction) <= radius;
+  });
+}
+
+std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius, double tolerance) {
+  const Vector direction = unit(axis);
+  return nodes_where(mesh, [&](const Vector& position) {
+    return std::abs(distance_from_axis(position, vector(point), direction) - radius) <= tolerance;
+  });
+}
+
+std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Point& normal, double tolerance) {
+  const Vector direction = unit(normal);
+  return nodes_where(mesh, [&](const Vector& position) {
+    return std::abs(direction.dot(position - vector(point))) <= tolerance;
+  });
+}
+
+std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end, double tolerance) {
+  const Vector origin = vector(mesh.nodes[start]);
+  const Vector chord = vector(mesh.nodes[end]) - origin;
+  const Vector direction = unit({chord.x(), chord.y(), chord.z()});
+  std::vector<std::pair<double, int>> places;
+  for (const int node : nodes) {
+    const Vector position = vector(mesh.nodes[node]);
+    const double off = distance_from_axis(position, origin, direction);
+    if (off > tolerance) {
+      throw Error("not-a-line", fmt::format("node {} is {:g} off the line from {} to {}, more than the tolerance {:g}",
+                                            mesh.node_name(node), off, mesh.node_name(start), mesh.node_name(end), tolerance));
+    }
+    places.emplace_back(direction.dot(position - origin), node);
+  }
+  std::ranges::sort(places);
+  std::vector<int> result;
+  for (const auto& [distance, node] : places) result.push_back(node);
+  return result;
+}
+
+}  // namespace comma::solver

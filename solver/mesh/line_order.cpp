@@ -1,0 +1,126 @@
+// The nodes of a line of segments in the order of a walk along it.
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+
+#include "solver/error.hpp"
+#include "solver/mesh/groups.hpp"
+
+namespace comma::solver {
+namespace {
+
+class Line {
+ public:
+  Line(const Mesh& mesh, std::span<const int> cells) : mesh_(mesh), cells_(cells) { connect(); }
+
+  std::vector<int> walk(std::optional<int> start, std::optional<int> end, std::optional<Point> direction) const;
+
+ private:
+  [[noreturn]] static void fail(const std::string& what) { throw Error("not-a-line", what); }
+
+  void connect();
+  int first_open_end() const;
+  int choose_start(std::optional<int> start, std::optional<int> end) const;
+  int first_cell(int start, std::optional<Point> direction) const;
+  bool is_end(int node) const { return cells_at_.at(node).size() == 1; }
+
+  const Mesh& mesh_;
+  std::span<const int> cells_;
+  std::map<int, std::vector<int>> cells_at_;  ///< the cells that end at a node
+  bool closed_ = false;
+};
+
+void Line::connect() {
+  if (cells_.empty()) fail("there are no cells to make a line of");
+  for (const int cell : cells_) {
+    if (dimension(mesh_.cell_types[cell]) != 1) {
+      fail(fmt::format("{} {} is not a line cell", name_of(mesh_.cell_types[cell]), mesh_.cell_name(cell)));
+    }
+    for (const int node : mesh_.cell(cell).first(2)) {
+      auto& cells = cells_at_[node];
+      cells.push_back(cell);
+      if (cells.size() > 2) fail(fmt::format("the line forks at node {}", mesh_.node_name(node)));
+    }
+  }
+  const auto ends = std::ranges::count_if(cells_at_, [](const auto& entry) { return entry.second.size() == 1; });
+  if (ends > 2) fail(fmt::format("the line has several pieces: {} of its nodes are ends", ends));
+  closed_ = ends == 0;
+}
+
+int Line::first_open_end() const {
+  for (const int cell : cells_) {
+    for (const int node : mesh_.cell(cell).first(2)) {
+      if (is_end(node)) return node;
+    }
+  }
+  return -1;
+}
+
+int Line::choose_start(std::optional<int> start, std::optional<int> end) const {
+  for (const auto& node : {start, end}) {
+    if (node && !cells_at_.contains(*node)) fail(fmt::format("node {} is not on the line", mesh_.node_name(*node)));
+    if (node && !closed_ && !is_end(*node)) fail(fmt::format("node {} is not an end of the line", mesh_.node_name(*node)));
+  }
+  if (closed_) {
+    if (start && end && *start != *end) fail("the line is closed: it ends where it starts");
+    return start ? *start : end ? *end : mesh_.cell(cells_.front())[0];
+  }
+  if (start && end && *start == *end) fail("the line is open, so it cannot end where it starts");
+  if (start) return *start;
+  const int first = first_open_end();
+  if (!end || first != *end) return first;
+  for (const auto& [node, cells] : cells_at_) {
+    if (cells.size() == 1 && node != *end) return node;
+  }
+  return first;
+}
+
+int Line::first_cell(int start, std::optional<Point> direction) const {
+  const auto& cells = cells_at_.at(start);
+  if (cells.size() == 1 || !direction) {
+    const bool leads_off = mesh_.cell(cells.front())[0] == start;
+    return leads_off || cells.size() == 1 ? cells.front() : cells.back();
+  }
+  const auto along = [&](int cell) {
+    const auto nodes = mesh_.cell(cell);
+    const int other = nodes[0] == start ? nodes[1] : nodes[0];
+    const Eigen::Vector3d step = Eigen::Vector3d(mesh_.nodes[other].data()) - Eigen::Vector3d(mesh_.nodes[start].data());
+    return step.normalized().dot(Eigen::Vector3d(direction->data()));
+  };
+  return along(cells[0]) >= along(cells[1]) ? cells[0] : cells[1];
+}
+
+std::vector<int> Line::walk(std::optional<int> start, std::optional<int> end, std::optional<Point> direction) const {
+  const int origin = choose_start(start, end);
+  std::vector<int> path = {origin};
+  int cell = first_cell(origin, direction);
+  int node = origin;
+  std::size_t passed = 0;
+  while (true) {
+    const auto nodes = mesh_.cell(cell);
+    ++passed;
+    std::vector<int> middle(nodes.begin() + 2, nodes.end());
+    if (nodes[0] != node) std::ranges::reverse(middle);
+    path.insert(path.end(), middle.begin(), middle.end());
+    node = nodes[0] == node ? nodes[1] : nodes[0];
+    if (node == origin) break;
+    path.push_back(node);
+    const auto& here = cells_at_.at(node);
+    if (here.size() == 1) break;
+    cell = here[0] == cell ? here[1] : here[0];
+  }
+  if (passed != cells_.size()) fail(fmt::format("the line has several pieces: {} of its {} cells are reached from node {}",
+                                                passed, cells_.size(), mesh_.node_name(origin)));
+  return path;
+}
+
+}  // namespace
+
+std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start,
+                                  std::optional<int> end, std::optional<Point> direction) {
+  return Line(mesh, cells).walk(start, end, direction);
+}
+
+}  // namespace comma::solver
