@@ -27,12 +27,13 @@ enum class FactorVerdict : std::uint8_t { ok, indefinite, singular };
 struct FactorReport {
   FactorVerdict verdict = FactorVerdict::ok;
   std::vector<int> null_rows;     ///< rows without a usable pivot (verdict singular), rising
-  int lost_digits = 0;            ///< decimal digits lost on the worst pivot, relative to its initial diagonal (at most 17);
-                                  ///< MUMPS keeps its pivots to itself: there, an estimate of log10 of the inverse's norm
+  int lost_digits = 0;            ///< whole decimal digits lost on the worst pivot, relative to its initial diagonal (at
+                                  ///< most 17). MUMPS keeps its pivots to itself: there it is an estimate by inverse iteration
 };
 
 struct LinearOptions {
-  /// A pivot that loses more decimal digits than this is null (Code_Aster's NPREC); negative: never tested.
+  /// A pivot that loses more whole decimal digits than this is null (Code_Aster's NPREC, U4.50.01); negative: never tested,
+  /// only a pivot of exactly zero is null then.
   int singular_digits = 8;
   /// Steps of iterative refinement at most, the residual in doubled precision. They end as soon as a correction no longer
   /// changes the solution: one step is usual, a matrix of condition 1e15 needs a dozen. 0: none.
@@ -70,6 +71,6 @@ std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const Line
 LinearMethod choose_method(const SymmetricMatrix& matrix);
 
 /// Below this CHOLMOD's gain is less than the few milliseconds that it takes to load it together with its BLAS.
-inline constexpr int small_system = 2000;
+inline constexpr int small_system = 1000;
 
 }  // namespace comma::solver

@@ -108,7 +108,7 @@ class MumpsSolver final : public RefinedSolver {
   double null_threshold(const Eigen::VectorXd& references) const {
     const double least = std::numeric_limits<double>::min();
     if (options().singular_digits < 0) return least;
-    return std::max(least, references.minCoeff() * std::pow(10.0, -options().singular_digits));
+    return std::max(least, references.minCoeff() * std::pow(10.0, -options().singular_digits - 1));
   }
 
   FactorReport report() {
@@ -120,27 +120,31 @@ class MumpsSolver final : public RefinedSolver {
       result.null_rows.assign(data_.pivnul_list, data_.pivnul_list + null_pivots);
       for (int& row : result.null_rows) --row;
       std::sort(result.null_rows.begin(), result.null_rows.end());
-      result.lost_digits = std::max(options().singular_digits, 0);
+      result.lost_digits = std::max(options().singular_digits, 0) + 1;
       return result;
     }
     if (negative_pivots > 0) result.verdict = FactorVerdict::indefinite;
-    result.lost_digits = digits_of_inverse();
+    result.lost_digits = estimated_digits();
     return result;
   }
 
-  /// log10 of the inverse's norm, from below: two steps of inverse iteration from an irregular vector.
-  int digits_of_inverse() const {
+  /// The largest diagonal entry of the scaled inverse is one over the pivot of a row eliminated last. Two steps of inverse
+  /// iteration from an irregular vector give the eigenvector v that dominates it, so the entry is about v_i^2 / (lambda v.v).
+  int estimated_digits() const {
     constexpr double golden_section = 0.6180339887498949;  // its multiples fill the unit interval without a pattern
+    constexpr int all = std::numeric_limits<double>::max_digits10;
     Eigen::MatrixXd probe(data_.n, 1);
     for (int row = 0; row < data_.n; ++row) probe(row, 0) = std::fmod(golden_section * (row + 1), 1.0) - 0.3;
-    solve_scaled(probe);
-    const double first = probe.lpNorm<Eigen::Infinity>();
-    constexpr int all = std::numeric_limits<double>::max_digits10;
-    if (!(first > 0.0 && std::isfinite(first))) return all;
-    probe /= first;
-    solve_scaled(probe);
-    const double growth = probe.lpNorm<Eigen::Infinity>();
-    return std::isfinite(growth) && growth > 0.0 ? std::clamp(static_cast<int>(std::floor(std::log10(growth))), 0, all) : all;
+    double entry = 0.0;
+    for (int step = 0; step < 2; ++step) {
+      const double size = probe.lpNorm<Eigen::Infinity>();
+      if (!(size > 0.0 && std::isfinite(size))) return all;
+      probe /= size;
+      const double length = probe.squaredNorm();
+      solve_scaled(probe);
+      entry = probe.lpNorm<Eigen::Infinity>() / length;
+    }
+    return std::isfinite(entry) && entry > 0.0 ? std::clamp(static_cast<int>(std::floor(std::log10(entry))), 0, all) : all;
   }
 
   void run(int job) const {

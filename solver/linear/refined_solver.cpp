@@ -104,14 +104,14 @@ struct Iterate {
 
 FactorReport judge_pivots(const Eigen::VectorXd& pivots, const Eigen::VectorXd& references, int singular_digits) {
   FactorReport report;
-  const double factor = std::pow(10.0, singular_digits);
   bool negative = false;
   double largest = 0.0;
   for (Eigen::Index row = 0; row < pivots.size(); ++row) {
     const double pivot = pivots[row];
     largest = std::max(largest, std::abs(pivot) / references[row]);
-    report.lost_digits = std::max(report.lost_digits, digits_lost(pivot, references[row]));
-    const bool lost = singular_digits >= 0 && std::abs(pivot) * factor < references[row];
+    const int digits = digits_lost(pivot, references[row]);
+    report.lost_digits = std::max(report.lost_digits, digits);
+    const bool lost = singular_digits >= 0 && digits > singular_digits;
     if (!std::isfinite(pivot) || pivot == 0.0 || lost) report.null_rows.push_back(static_cast<int>(row));
     else if (pivot < 0.0) negative = true;
   }

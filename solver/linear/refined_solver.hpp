@@ -38,8 +38,8 @@ class RefinedSolver : public LinearSolver {
   FactorReport report_;
 };
 
-/// The verdict on pivots (n, by row of the matrix): null where a pivot is zero, not finite, or more than `singular_digits`
-/// decades below its reference; else indefinite where one is negative. Pivots much larger than anything in the scaled matrix show
+/// The verdict on pivots (n, by row of the matrix): null where a pivot is zero, not finite, or has lost more than `singular_digits`
+/// whole decimal digits of its reference; else indefinite where one is negative. Pivots much larger than anything in the scaled matrix show
 /// an indefinite matrix factorised without interchanges, on which a small pivot says nothing.
 FactorReport judge_pivots(const Eigen::VectorXd& pivots, const Eigen::VectorXd& references, int singular_digits);
 
