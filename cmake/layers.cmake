@@ -25,3 +25,13 @@ function(comma_layer_tests name)
   target_compile_definitions(${name}_tests PRIVATE COMMA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME unit.${name} COMMAND ${name}_tests)
 endfunction()
+
+# Proves that a header of layer `to` is not found from layer `from`, and that one of its own is.
+function(comma_forbidden_arrow from to header own_header)
+  set(compile ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -I${CMAKE_BINARY_DIR}/layers/${from} -x c++)
+  add_test(NAME layers.${from}_to_${to} COMMAND ${compile} -include ${header} /dev/null)
+  set_tests_properties(layers.${from}_to_${to} PROPERTIES PASS_REGULAR_EXPRESSION "${header}: No such file")
+  if(NOT TEST layers.${from}_itself)
+    add_test(NAME layers.${from}_itself COMMAND ${compile} -include ${own_header} /dev/null)
+  endif()
+endfunction()
