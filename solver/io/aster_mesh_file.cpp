@@ -1,6 +1,6 @@
 // A .mail file is a row of sub-files: a keyword with an optional header, free-format words, FINSF; and FIN at the end
-// (U3.01.00). It is read in three strides: words, sub-files, and then the names in them, since a sub-file may use names that
-// a later one defines.
+// (U3.01.00). It is read in three strides: words, sub-files, and then the names in them, since a sub-file may use names
+// that a later one defines.
 #include "solver/io/aster_mesh_file.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +49,9 @@ class Source {
   const std::string& path_;
 };
 
-bool is_separator(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f'; }
+bool is_separator(char c) {
+  return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f';
+}
 
 std::string upper(std::string_view text) {
   std::string result(text);
@@ -127,7 +129,9 @@ struct Subfile {
   std::size_t last = 0;  ///< words [first, last) are its content
 };
 
-bool ends_subfile(const Word& word) { return upper(word.text) == "FINSF"; }
+bool ends_subfile(const Word& word) {
+  return upper(word.text) == "FINSF";
+}
 
 /// Whether the line that holds words[i] has a "=" in it: then it belongs to the header.
 bool is_header_line(const std::vector<Word>& words, std::size_t i) {
@@ -160,8 +164,8 @@ std::vector<Subfile> find_subfiles(const std::vector<Word>& words, const Source&
     i = subfile.first;
     while (i < words.size() && !ends_subfile(words[i])) ++i;
     if (i == words.size()) {
-      source.fail(subfile.keyword, fmt::format("{} has no FINSF: the file is cut off, or the line is missing",
-                                               subfile.keyword.text));
+      source.fail(subfile.keyword,
+                  fmt::format("{} has no FINSF: the file is cut off, or the line is missing", subfile.keyword.text));
     }
     subfile.last = i++;
     subfiles.push_back(std::move(subfile));
@@ -171,11 +175,13 @@ std::vector<Subfile> find_subfiles(const std::vector<Word>& words, const Source&
 
 double parse_number(const Word& word, const Source& source) {
   std::string text(word.text);
-  std::ranges::replace_if(text, [](char c) { return c == 'D' || c == 'd'; }, 'e');  // Fortran's double precision
+  std::ranges::replace_if(
+      text, [](char c) { return c == 'D' || c == 'd'; }, 'e');  // Fortran's double precision
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) source.fail(word, fmt::format("the number {} is out of range", word.text));
+  if (error == std::errc::result_out_of_range)
+    source.fail(word, fmt::format("the number {} is out of range", word.text));
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
     source.fail(word, fmt::format("a coordinate is expected here, not {}", word.text));
   }
@@ -249,7 +255,8 @@ void Parser::sort_subfile(const Subfile& subfile) {
   if (keyword == "GROUP_NO") return groups_.push_back({true, &subfile});
   if (keyword == "GROUP_MA") return groups_.push_back({false, &subfile});
   if (const auto type = cell_type_named(keyword)) return cells_.push_back({*type, &subfile});
-  static constexpr std::array<std::string_view, 8> shapes = {"POI", "SEG", "TRIA", "QUAD", "TETRA", "PYRAM", "PENTA", "HEXA"};
+  static constexpr std::array<std::string_view, 8> shapes = {"POI",   "SEG",   "TRIA",  "QUAD",
+                                                             "TETRA", "PYRAM", "PENTA", "HEXA"};
   if (std::ranges::any_of(shapes, [&](std::string_view shape) { return keyword.starts_with(shape); })) {
     source_.fail(subfile.keyword, fmt::format("cells of type {} are not supported", subfile.keyword.text),
                  "unsupported-cell");
@@ -322,7 +329,9 @@ Mesh Parser::parse() {
 
 }  // namespace
 
-Mesh parse_aster_mesh(std::string_view text, const std::string& path) { return Parser(text, path).parse(); }
+Mesh parse_aster_mesh(std::string_view text, const std::string& path) {
+  return Parser(text, path).parse();
+}
 
 Mesh read_aster_mesh(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -52,7 +52,8 @@ const std::string& checked(const std::string& name) {
   if (name.empty() || breaks || name == "FINSF") {
     throw Error("invalid-name", fmt::format("the name \"{}\" cannot be written in the ASTER format", name));
   }
-  if (name.size() > line_width) throw Error("name-too-long", fmt::format("{} has more than {} characters", name, line_width));
+  if (name.size() > line_width)
+    throw Error("name-too-long", fmt::format("{} has more than {} characters", name, line_width));
   return name;
 }
 

@@ -22,14 +22,14 @@ struct Geometry {
 };
 
 constexpr std::array<Geometry, cell_type_count> geometries = {
-    {{poi1, MED_POINT1},     {seg2, MED_SEG2},       {seg3, MED_SEG3},       {seg4, MED_SEG4},       {tria3, MED_TRIA3},
-     {tria6, MED_TRIA6},     {tria7, MED_TRIA7},     {quad4, MED_QUAD4},     {quad8, MED_QUAD8},     {quad9, MED_QUAD9},
-     {tetra4, MED_TETRA4},   {tetra10, MED_TETRA10}, {pyram5, MED_PYRA5},    {pyram13, MED_PYRA13},  {penta6, MED_PENTA6},
-     {penta15, MED_PENTA15}, {penta18, MED_PENTA18}, {hexa8, MED_HEXA8},     {hexa20, MED_HEXA20},   {hexa27, MED_HEXA27}}};
+    {{poi1, MED_POINT1},     {seg2, MED_SEG2},       {seg3, MED_SEG3},    {seg4, MED_SEG4},      {tria3, MED_TRIA3},
+     {tria6, MED_TRIA6},     {tria7, MED_TRIA7},     {quad4, MED_QUAD4},  {quad8, MED_QUAD8},    {quad9, MED_QUAD9},
+     {tetra4, MED_TETRA4},   {tetra10, MED_TETRA10}, {pyram5, MED_PYRA5}, {pyram13, MED_PYRA13}, {penta6, MED_PENTA6},
+     {penta15, MED_PENTA15}, {penta18, MED_PENTA18}, {hexa8, MED_HEXA8},  {hexa20, MED_HEXA20},  {hexa27, MED_HEXA27}}};
 
-constexpr std::array<CellType, cell_type_count> numbering = {
-    poi1,   seg2,    seg3,   seg4,    tria3,   tria6,  tria7,   quad4, quad8,  quad9,
-    tetra4, tetra10, penta6, penta15, penta18, pyram5, pyram13, hexa8, hexa20, hexa27};
+constexpr std::array<CellType, cell_type_count> numbering = {poi1,    seg2,   seg3,    seg4,   tria3,   tria6,  tria7,
+                                                             quad4,   quad8,  quad9,   tetra4, tetra10, penta6, penta15,
+                                                             penta18, pyram5, pyram13, hexa8,  hexa20,  hexa27};
 
 constexpr std::array<std::int8_t, 10> tetra_order = {0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
 constexpr std::array<std::int8_t, 13> pyram_order = {0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10};
@@ -40,16 +40,21 @@ constexpr std::array<std::int8_t, 27> hexa_order = {0,  3,  2,  1,  4,  7,  6,  
 std::span<const std::int8_t> whole_order(CellType type) {
   switch (type) {
     case tetra4:
-    case tetra10: return tetra_order;
+    case tetra10:
+      return tetra_order;
     case pyram5:
-    case pyram13: return pyram_order;
+    case pyram13:
+      return pyram_order;
     case penta6:
     case penta15:
-    case penta18: return penta_order;
+    case penta18:
+      return penta_order;
     case hexa8:
     case hexa20:
-    case hexa27: return hexa_order;
-    default: return {};
+    case hexa27:
+      return hexa_order;
+    default:
+      return {};
   }
 }
 
@@ -75,19 +80,21 @@ int attribute(hid_t group, const char* name) {
   return value;
 }
 
-/// The version is looked up here rather than by MEDfileCompatibility, which writes to the screen about files that are not MED
-/// and leaves them open.
+/// The version is looked up here rather than by MEDfileCompatibility, which writes to the screen about files that are
+/// not MED and leaves them open.
 MedVersion version_in(const std::string& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) throw_unreadable(path, "this is not a MED file (nor any other HDF5 file), or it is cut off");
   MedVersion version;
-  const hid_t group = H5Lexists(file, "INFOS_GENERALES", H5P_DEFAULT) > 0 ? H5Gopen2(file, "INFOS_GENERALES", H5P_DEFAULT) : -1;
+  const hid_t group =
+      H5Lexists(file, "INFOS_GENERALES", H5P_DEFAULT) > 0 ? H5Gopen2(file, "INFOS_GENERALES", H5P_DEFAULT) : -1;
   if (group >= 0) {
     version = {attribute(group, "MAJ"), attribute(group, "MIN")};
     H5Gclose(group);
   }
   H5Fclose(file);
-  if (version.major < 0 || version.minor < 0) throw_unreadable(path, "this HDF5 file is not a MED file, or it is damaged");
+  if (version.major < 0 || version.minor < 0)
+    throw_unreadable(path, "this HDF5 file is not a MED file, or it is damaged");
   return version;
 }
 
@@ -107,14 +114,17 @@ void check_readable(const std::string& path) {
 }  // namespace
 
 QuietHdf5::QuietHdf5() {
-  // Files are closed when their reader or writer ends, so the library has nothing left to do at exit; after a damaged file its
-  // clean-up would write about memory that it lost. Only the first call, before the library starts, has an effect.
+  // Files are closed when their reader or writer ends, so the library has nothing left to do at exit; after a damaged
+  // file its clean-up would write about memory that it lost. Only the first call, before the library starts, has an
+  // effect.
   H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &handler_, &client_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, handler_, client_data_); }
+QuietHdf5::~QuietHdf5() {
+  H5Eset_auto2(H5E_DEFAULT, handler_, client_data_);
+}
 
 MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)) {
   if (mode == MED_ACC_RDONLY) check_readable(path_);
@@ -124,7 +134,9 @@ MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)
   throw Error("unwritable-file", fmt::format("{}: the MED library cannot write it", path_));
 }
 
-MedFile MedFile::open_for_reading(const std::string& path) { return {path, MED_ACC_RDONLY}; }
+MedFile MedFile::open_for_reading(const std::string& path) {
+  return {path, MED_ACC_RDONLY};
+}
 
 MedFile MedFile::create(const std::string& path) {
   // The MED library writes to the screen when it cannot create a file, so we try first.
@@ -153,7 +165,9 @@ std::span<const std::int8_t> med_node_order(CellType type) {
   return whole.empty() ? whole : whole.first(static_cast<std::size_t>(node_count(type)));
 }
 
-std::span<const CellType> numbering_order() { return numbering; }
+std::span<const CellType> numbering_order() {
+  return numbering;
+}
 
 std::string trimmed(std::string_view padded) {
   padded = padded.substr(0, padded.find('\0'));

@@ -1,7 +1,8 @@
 // The little that the MED reader and writers share: an open file, cell types, node orders, padded names.
 #pragma once
 
-// The MED header of a parallel build mentions two types of MPI (Open MPI's definitions) for a function that we do not call.
+// The MED header of a parallel build mentions two types of MPI (Open MPI's definitions) for a function that we do not
+// call.
 using MPI_Comm = struct ompi_communicator_t*;
 using MPI_Info = struct ompi_info_t*;
 
@@ -58,14 +59,14 @@ med_geometry_type med_geometry(CellType type);
 /// Nothing for the types that the mesh does not know (polygons, polyhedra, OCTA12, structural elements).
 std::optional<CellType> cell_type_of(med_geometry_type geometry);
 
-/// Entry i: the place in a MED cell of what Code_Aster's order has at place i. MED sees solids from the other side, so their
-/// bases run the other way round, and it lists the middles of the edges of both bases before those of the upright edges.
-/// Empty where the two orders are the same (points, lines, faces). Source: the reference elements of the MED manual and of
-/// R3.01.01.
+/// Entry i: the place in a MED cell of what Code_Aster's order has at place i. MED sees solids from the other side, so
+/// their bases run the other way round, and it lists the middles of the edges of both bases before those of the upright
+/// edges. Empty where the two orders are the same (points, lines, faces). Source: the reference elements of the MED
+/// manual and of R3.01.01.
 std::span<const std::int8_t> med_node_order(CellType type);
 
-/// Cell types in the order in which Code_Aster numbers the cells of a MED file: M1 is the first point if there are points,
-/// else the first line, and so on; quadrangles follow triangles, wedges come before pyramids and hexahedra.
+/// Cell types in the order in which Code_Aster numbers the cells of a MED file: M1 is the first point if there are
+/// points, else the first line, and so on; quadrangles follow triangles, wedges come before pyramids and hexahedra.
 std::span<const CellType> numbering_order();
 
 /// The text of a fixed-width field, without the blanks and zeros that pad it.

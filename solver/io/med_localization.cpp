@@ -13,13 +13,20 @@ enum class Shape { point, line, triangle, quadrangle, tetrahedron, pyramid, wedg
 
 Shape shape_of(CellType type) {
   switch (corner_count(type)) {
-    case 1: return Shape::point;
-    case 2: return Shape::line;
-    case 3: return Shape::triangle;
-    case 4: return dimension(type) == 2 ? Shape::quadrangle : Shape::tetrahedron;
-    case 5: return Shape::pyramid;
-    case 6: return Shape::wedge;
-    default: return Shape::hexahedron;
+    case 1:
+      return Shape::point;
+    case 2:
+      return Shape::line;
+    case 3:
+      return Shape::triangle;
+    case 4:
+      return dimension(type) == 2 ? Shape::quadrangle : Shape::tetrahedron;
+    case 5:
+      return Shape::pyramid;
+    case 6:
+      return Shape::wedge;
+    default:
+      return Shape::hexahedron;
   }
 }
 
@@ -118,7 +125,8 @@ GaussScheme wedge() {
 GaussScheme pyramid() {
   const double low = 0.1531754163448146;
   const double high = 0.6372983346207416;
-  return {{{0.5, 0, low}, {0, 0.5, low}, {-0.5, 0, low}, {0, -0.5, low}, {0, 0, high}}, std::vector<double>(5, 2.0 / 15.0)};
+  return {{{0.5, 0, low}, {0, 0.5, low}, {-0.5, 0, low}, {0, -0.5, low}, {0, 0, high}},
+          std::vector<double>(5, 2.0 / 15.0)};
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ med_int Reader::count(med_entity_type entity, med_geometry_type geometry, med_da
   med_bool changed = MED_FALSE;
   med_bool transformed = MED_FALSE;
   const med_connectivity_mode mode = data == MED_CONNECTIVITY ? MED_NODAL : MED_NO_CMODE;
-  return MEDmeshnEntity(file_.id(), header_.name.c_str(), dt_, it_, entity, geometry, data, mode, &changed, &transformed);
+  return MEDmeshnEntity(file_.id(), header_.name.c_str(), dt_, it_, entity, geometry, data, mode, &changed,
+                        &transformed);
 }
 
 std::vector<CellType> Reader::types_present() const {
@@ -161,8 +162,8 @@ std::map<med_int, std::vector<std::string>> Reader::read_family_groups() const {
     std::vector<med_int> values(static_cast<std::size_t>(attributes) + 1);
     std::vector<char> descriptions(static_cast<std::size_t>(attributes) * MED_COMMENT_SIZE + 1);
     med_int number = 0;
-    const med_err failed = major < 3 ? MEDfamily23Info(file_.id(), mesh, i, name.data(), identifiers.data(), values.data(),
-                                                       descriptions.data(), &number, names.data())
+    const med_err failed = major < 3 ? MEDfamily23Info(file_.id(), mesh, i, name.data(), identifiers.data(),
+                                                       values.data(), descriptions.data(), &number, names.data())
                                      : MEDfamilyInfo(file_.id(), mesh, i, name.data(), &number, names.data());
     if (failed < 0) damaged(fmt::format("family {} cannot be read", i));
     for (med_int group = 0; group < groups; ++group) {
@@ -191,8 +192,8 @@ void Reader::fill_groups(Mesh& mesh) const {
 
 Mesh Reader::read() {
   if (header_.type != MED_UNSTRUCTURED_MESH) {
-    throw Error("unsupported", fmt::format("{}: mesh {} is a structured grid, which is not supported", file_.path(),
-                                           header_.name));
+    throw Error("unsupported",
+                fmt::format("{}: mesh {} is a structured grid, which is not supported", file_.path(), header_.name));
   }
   if (header_.space_dimension < 1 || header_.space_dimension > 3) {
     damaged(fmt::format("its dimension is {}", header_.space_dimension));
@@ -227,12 +228,13 @@ std::vector<MeshHeader> read_headers(const MedFile& file) {
     med_sorting_type sorting = MED_SORT_UNDEF;
     med_axis_type axis = MED_UNDEF_AXIS_TYPE;
     MeshHeader header;
-    if (MEDmeshInfo(file.id(), i, name.data(), &header.space_dimension, &mesh_dimension, &header.type, description.data(),
-                    time_unit.data(), &sorting, &header.step_count, &axis, axis_names.data(), axis_units.data()) < 0) {
+    if (MEDmeshInfo(file.id(), i, name.data(), &header.space_dimension, &mesh_dimension, &header.type,
+                    description.data(), time_unit.data(), &sorting, &header.step_count, &axis, axis_names.data(),
+                    axis_units.data()) < 0) {
       damaged(fmt::format("the header of mesh {} cannot be read", i));
     }
-    if (axes != header.space_dimension) damaged(fmt::format("mesh {} has {} axes but dimension {}", i, axes,
-                                                            header.space_dimension));
+    if (axes != header.space_dimension)
+      damaged(fmt::format("mesh {} has {} axes but dimension {}", i, axes, header.space_dimension));
     header.name = trimmed(name.data());
     headers.push_back(std::move(header));
   }

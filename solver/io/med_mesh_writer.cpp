@@ -11,8 +11,8 @@
 namespace comma::solver {
 namespace {
 
-/// MED's partition of the nodes (or cells) by the groups they are in: a family is a set of groups, and each node is in one
-/// family. Nodes have positive family numbers, cells negative ones, and 0 stands for no group.
+/// MED's partition of the nodes (or cells) by the groups they are in: a family is a set of groups, and each node is in
+/// one family. Nodes have positive family numbers, cells negative ones, and 0 stands for no group.
 struct Families {
   std::vector<med_int> of_entity;
   std::vector<std::vector<std::string>> groups;  ///< of family i+1, or -(i+1)
@@ -120,16 +120,18 @@ std::vector<MedBlock> med_blocks(const Mesh& mesh) {
 
 void check_med_name(const std::string& name, std::size_t limit, std::string_view what) {
   // HDF5 keeps meshes and fields under their names as paths, and a trailing blank would be padding.
-  if (name.empty() || name.find('/') != std::string::npos || name.find('\0') != std::string::npos || name.ends_with(' ')) {
+  if (name.empty() || name.find('/') != std::string::npos || name.find('\0') != std::string::npos ||
+      name.ends_with(' ')) {
     throw Error("invalid-name", fmt::format("\"{}\" cannot be the name of a {} in a MED file", name, what));
   }
   if (name.size() <= limit) return;
-  throw Error("name-too-long", fmt::format("the {} name {} has {} characters, and MED allows {}", what, name, name.size(),
-                                           limit));
+  throw Error("name-too-long",
+              fmt::format("the {} name {} has {} characters, and MED allows {}", what, name, name.size(), limit));
 }
 
 void check_written(med_err result, const MedFile& file, std::string_view what) {
-  if (result < 0) throw Error("unwritable-file", fmt::format("{}: the MED library could not write {}", file.path(), what));
+  if (result < 0)
+    throw Error("unwritable-file", fmt::format("{}: the MED library could not write {}", file.path(), what));
 }
 
 void check_writable(const Mesh& mesh, const std::string& name) {

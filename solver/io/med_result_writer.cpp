@@ -1,5 +1,5 @@
-// Writing results as MED fields. A field's values are written type by type; where only some of the nodes or cells carry it, a
-// profile lists them.
+// Writing results as MED fields. A field's values are written type by type; where only some of the nodes or cells carry
+// it, a profile lists them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,9 @@ const std::vector<std::string>& components_of(const Field& field) {
 }
 
 /// MED has no word for a component that some of the nodes lack: it is written as 0, as Code_Aster does.
-double written_value(double value) { return std::isnan(value) ? 0.0 : value; }
+double written_value(double value) {
+  return std::isnan(value) ? 0.0 : value;
+}
 
 bool carries_any(std::span<const double> values) {
   return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
@@ -90,8 +92,8 @@ std::string Writer::profile(const std::vector<med_int>& chosen, std::size_t all)
   if (chosen.size() == all) return MED_NO_PROFILE;
   const auto [entry, is_new] = profiles_.try_emplace(chosen, fmt::format("PROFILE_{}", profiles_.size() + 1));
   if (is_new) {
-    check_written(MEDprofileWr(file_.id(), entry->second.c_str(), static_cast<med_int>(chosen.size()), chosen.data()), file_,
-                  "a profile");
+    check_written(MEDprofileWr(file_.id(), entry->second.c_str(), static_cast<med_int>(chosen.size()), chosen.data()),
+                  file_, "a profile");
   }
   return entry->second;
 }
@@ -101,12 +103,14 @@ std::string Writer::localization(CellType type, int points) {
   if (!localizations_.insert(name).second) return name;
   const auto scheme = gauss_scheme(type, points);
   if (!scheme) {
-    throw Error("unsupported", fmt::format("a field with {} Gauss points on {} cells cannot be written to a MED file yet",
-                                           points, name_of(type)));
+    throw Error("unsupported",
+                fmt::format("a field with {} Gauss points on {} cells cannot be written to a MED file yet", points,
+                            name_of(type)));
   }
   const auto flatten = [&](const std::vector<Point>& from) {
     std::vector<med_float> flat;
-    for (const Point& point : from) flat.insert(flat.end(), point.begin(), point.begin() + std::max(dimension(type), 1));
+    for (const Point& point : from)
+      flat.insert(flat.end(), point.begin(), point.begin() + std::max(dimension(type), 1));
     return flat;
   };
   auto nodes = reference_points(type);
@@ -140,7 +144,8 @@ void Writer::write_nodal(const std::string& name, const ResultStep& step, const 
 void Writer::write_block(const std::string& name, const ResultStep& step, const ElementField& field,
                          const MedBlock& block) {
   const std::size_t width = field.components.size();
-  const auto order = field.support == Support::element_node ? med_node_order(block.type) : std::span<const std::int8_t>{};
+  const auto order =
+      field.support == Support::element_node ? med_node_order(block.type) : std::span<const std::int8_t>{};
   struct Part {
     std::vector<med_int> cells;
     std::vector<double> values;
@@ -151,8 +156,8 @@ void Writer::write_block(const std::string& name, const ResultStep& step, const 
     const int points = field.points(cell);
     if (points == 0) continue;
     if (field.support == Support::element_node && points != node_count(block.type)) {
-      throw Error("unsupported", fmt::format("field {}: {} has values at {} of its {} nodes", name, mesh_.cell_name(cell),
-                                             points, node_count(block.type)));
+      throw Error("unsupported", fmt::format("field {}: {} has values at {} of its {} nodes", name,
+                                             mesh_.cell_name(cell), points, node_count(block.type)));
     }
     Part& part = parts[points];
     part.cells.push_back(static_cast<med_int>(i) + 1);

@@ -56,9 +56,9 @@ long long nodes_of_code(std::string_view code) {
     long long nodes;
   };
   static constexpr std::array<Entry, 21> entries = {
-      {{"PO1", 1},  {"SE2", 2},  {"SE3", 3},  {"SE4", 4},  {"TR3", 3},  {"TR6", 6},  {"TR7", 7},
-       {"QU4", 4},  {"QU8", 8},  {"QU9", 9},  {"TE4", 4},  {"T10", 10}, {"PY5", 5},  {"P13", 13},
-       {"PE6", 6},  {"P15", 15}, {"P18", 18}, {"HE8", 8},  {"H20", 20}, {"H27", 27}, {"OCT", 12}}};
+      {{"PO1", 1}, {"SE2", 2},  {"SE3", 3},  {"SE4", 4}, {"TR3", 3},  {"TR6", 6},  {"TR7", 7},
+       {"QU4", 4}, {"QU8", 8},  {"QU9", 9},  {"TE4", 4}, {"T10", 10}, {"PY5", 5},  {"P13", 13},
+       {"PE6", 6}, {"P15", 15}, {"P18", 18}, {"HE8", 8}, {"H20", 20}, {"H27", 27}, {"OCT", 12}}};
   for (const Entry& entry : entries) {
     if (entry.code == code) return entry.nodes;
   }
@@ -69,7 +69,8 @@ struct Visit {
   std::string damage;  ///< what is wrong, empty as long as nothing is
 };
 
-/// The number of values that an array must have so that the MED library fills the caller's buffer exactly; -1: not checked.
+/// The number of values that an array must have so that the MED library fills the caller's buffer exactly; -1: not
+/// checked.
 long long expected_values(hid_t root, std::string_view path, hid_t dataset) {
   const std::string name = last_word(path);
   const std::string parent(path.substr(0, path.size() - name.size() - 1));

@@ -17,8 +17,8 @@ Vector relative(const Mesh& mesh, int node, int origin) {
   return Vector(mesh.nodes[node].data()) - Vector(mesh.nodes[origin].data());
 }
 
-/// Six times the volume between a facet and the origin: the facet is cut into triangles from the mean of its corners, so that
-/// neighbours cut a warped face alike.
+/// Six times the volume between a facet and the origin: the facet is cut into triangles from the mean of its corners,
+/// so that neighbours cut a warped face alike.
 double six_cone_volumes(const Mesh& mesh, std::span<const int> nodes, const BoundaryFacet& facet) {
   const int corners = corner_count(facet.type);
   std::array<Vector, 4> points;
@@ -92,7 +92,8 @@ std::vector<CellFacet> boundary_of(const Mesh& mesh, std::span<const int> cells)
   for (const auto& [key, owners] : map) {
     if (owners.size() == 1) result.push_back(owners.front());
   }
-  std::ranges::sort(result, [](CellFacet a, CellFacet b) { return a.cell != b.cell ? a.cell < b.cell : a.facet < b.facet; });
+  std::ranges::sort(result,
+                    [](CellFacet a, CellFacet b) { return a.cell != b.cell ? a.cell < b.cell : a.facet < b.facet; });
   return result;
 }
 

@@ -33,11 +33,12 @@ std::vector<int> nodes_of_facet(const Mesh& mesh, CellFacet facet);
 using FacetMap = std::unordered_map<FacetKey, std::vector<CellFacet>, FacetKeyHash>;
 FacetMap map_facets(const Mesh& mesh, std::span<const int> cells);
 
-/// The facets of the cells that just one of them has, cell by cell. Cells without facets (points, lines) have no part in it.
+/// The facets of the cells that just one of them has, cell by cell. Cells without facets (points, lines) have no part
+/// in it.
 std::vector<CellFacet> boundary_of(const Mesh& mesh, std::span<const int> cells);
 
-/// Positive if the nodes of the cell run in the sense of the reference cell, negative if they run in the other sense: the
-/// signed volume of a solid (from its corners), the signed area of a face seen from +z; 0 for points and lines.
+/// Positive if the nodes of the cell run in the sense of the reference cell, negative if they run in the other sense:
+/// the signed volume of a solid (from its corners), the signed area of a face seen from +z; 0 for points and lines.
 double signed_size(const Mesh& mesh, int cell);
 
 }  // namespace comma::solver

@@ -13,7 +13,9 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-Vector vector(const Point& point) { return Vector(point.data()); }
+Vector vector(const Point& point) {
+  return Vector(point.data());
+}
 
 Vector unit(const Point& direction) {
   const Vector result = vector(direction);
@@ -46,7 +48,7 @@ double distance_from_axis(const Vector& position, const Vector& point, const Vec
 bool plays(CellType type, int local, NodeRole role) {
   const int corners = corner_count(type);
   if (local < corners) return role == NodeRole::corner;
-  const int edges = dimension(type) < 2 ? node_count(type) - corners
+  const int edges = dimension(type) < 2    ? node_count(type) - corners
                     : dimension(type) == 2 ? corners
                                            : static_cast<int>(boundary_facets(type).size()) + corners - 2;  // Euler
   return role == (local < corners + edges ? NodeRole::mid_edge : NodeRole::centre);
@@ -120,7 +122,7 @@ std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, No
     const auto own = mesh.cell(cell);
     const auto hits = std::ranges::count_if(own, [&](int node) { return chosen[static_cast<std::size_t>(node)]; });
     const auto size = static_cast<std::ptrdiff_t>(own.size());
-    const bool wanted = criterion == NodeCriterion::all ? hits == size
+    const bool wanted = criterion == NodeCriterion::all   ? hits == size
                         : criterion == NodeCriterion::any ? hits > 0
                                                           : 2 * hits > size;
     if (wanted) result.push_back(cell);
@@ -141,19 +143,18 @@ std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double rad
 }
 
 std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double radius, double tolerance) {
-  return nodes_where(mesh, [&](const Vector& position) {
-    return std::abs((position - vector(centre)).norm() - radius) <= tolerance;
-  });
+  return nodes_where(
+      mesh, [&](const Vector& position) { return std::abs((position - vector(centre)).norm() - radius) <= tolerance; });
 }
 
 std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius) {
   const Vector direction = unit(axis);
-  return nodes_where(mesh, [&](const Vector& position) {
-    return distance_from_axis(position, vector(point), direction) <= radius;
-  });
+  return nodes_where(
+      mesh, [&](const Vector& position) { return distance_from_axis(position, vector(point), direction) <= radius; });
 }
 
-std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius, double tolerance) {
+std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius,
+                                   double tolerance) {
   const Vector direction = unit(axis);
   return nodes_where(mesh, [&](const Vector& position) {
     return std::abs(distance_from_axis(position, vector(point), direction) - radius) <= tolerance;
@@ -162,12 +163,12 @@ std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const P
 
 std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Point& normal, double tolerance) {
   const Vector direction = unit(normal);
-  return nodes_where(mesh, [&](const Vector& position) {
-    return std::abs(direction.dot(position - vector(point))) <= tolerance;
-  });
+  return nodes_where(
+      mesh, [&](const Vector& position) { return std::abs(direction.dot(position - vector(point))) <= tolerance; });
 }
 
-std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end, double tolerance) {
+std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end,
+                                     double tolerance) {
   const Vector origin = vector(mesh.nodes[start]);
   const Vector chord = vector(mesh.nodes[end]) - origin;
   const Vector direction = unit({chord.x(), chord.y(), chord.z()});
@@ -176,8 +177,9 @@ std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> node
     const Vector position = vector(mesh.nodes[node]);
     const double off = distance_from_axis(position, origin, direction);
     if (off > tolerance) {
-      throw Error("not-a-line", fmt::format("node {} is {:g} off the line from {} to {}, more than the tolerance {:g}",
-                                            mesh.node_name(node), off, mesh.node_name(start), mesh.node_name(end), tolerance));
+      throw Error("not-a-line",
+                  fmt::format("node {} is {:g} off the line from {} to {}, more than the tolerance {:g}",
+                              mesh.node_name(node), off, mesh.node_name(start), mesh.node_name(end), tolerance));
     }
     places.emplace_back(direction.dot(position - origin), node);
   }

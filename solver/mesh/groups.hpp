@@ -18,13 +18,14 @@ std::vector<int> intersection_of(std::span<const std::vector<int>> groups);
 /// The members of the first group that are in none of the others, in the first's order; empty without groups.
 std::vector<int> difference_of(std::span<const std::vector<int>> groups);
 
-/// Gives each cell group's nodes, rising, as a node group of the same name. A node group that exists already is left as it
-/// is; returns the names of those whose members differ from what they would have become.
+/// Gives each cell group's nodes, rising, as a node group of the same name. A node group that exists already is left as
+/// it is; returns the names of those whose members differ from what they would have become.
 std::vector<std::string> add_node_groups_of_all_cell_groups(Mesh& mesh);
 
 /// What a node is to its cells.
 enum class NodeRole { corner, mid_edge, centre };
-/// The nodes of the cells, rising, that play the role in at least one of them; `centre` is the middle of a face or a solid.
+/// The nodes of the cells, rising, that play the role in at least one of them; `centre` is the middle of a face or a
+/// solid.
 std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, NodeRole role);
 
 std::vector<int> cells_of_type(const Mesh& mesh, std::span<const int> cells, CellType type);
@@ -44,19 +45,22 @@ std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double r
 /// At most `radius` from the axis through `point`.
 std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius);
 /// At most `tolerance` from the cylinder's surface.
-std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius, double tolerance);
+std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius,
+                                   double tolerance);
 /// At most `tolerance` from the plane through `point`.
 std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Point& normal, double tolerance);
 
-/// The nodes of line cells in the order in which one passes them, middle nodes between their ends. An open line is walked from
-/// `start` to `end`, either of which may be left out; a closed one from `start` (else the first node of the first cell) round,
-/// its first step the one closer to `direction` (else along the first cell), each node once. Throws Error `not-a-line`: no
-/// cells, a cell that is not a line, a fork, several pieces, or a start or end that is not an end of the line.
+/// The nodes of line cells in the order in which one passes them, middle nodes between their ends. An open line is
+/// walked from `start` to `end`, either of which may be left out; a closed one from `start` (else the first node of the
+/// first cell) round, its first step the one closer to `direction` (else along the first cell), each node once. Throws
+/// Error `not-a-line`: no cells, a cell that is not a line, a fork, several pieces, or a start or end that is not an
+/// end of the line.
 std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start = {},
                                   std::optional<int> end = {}, std::optional<Point> direction = {});
 
-/// The nodes sorted by their distance from `start` along the straight line to `end`. Throws Error `not-a-line` naming a node
-/// that is more than `tolerance` off that line, `zero-vector` if the two ends coincide.
-std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end, double tolerance);
+/// The nodes sorted by their distance from `start` along the straight line to `end`. Throws Error `not-a-line` naming a
+/// node that is more than `tolerance` off that line, `zero-vector` if the two ends coincide.
+std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end,
+                                     double tolerance);
 
 }  // namespace comma::solver

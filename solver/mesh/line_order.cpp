@@ -61,7 +61,8 @@ int Line::first_open_end() const {
 int Line::choose_start(std::optional<int> start, std::optional<int> end) const {
   for (const auto& node : {start, end}) {
     if (node && !cells_at_.contains(*node)) fail(fmt::format("node {} is not on the line", mesh_.node_name(*node)));
-    if (node && !closed_ && !is_end(*node)) fail(fmt::format("node {} is not an end of the line", mesh_.node_name(*node)));
+    if (node && !closed_ && !is_end(*node))
+      fail(fmt::format("node {} is not an end of the line", mesh_.node_name(*node)));
   }
   if (closed_) {
     if (start && end && *start != *end) fail("the line is closed: it ends where it starts");
@@ -86,7 +87,8 @@ int Line::first_cell(int start, std::optional<Point> direction) const {
   const auto along = [&](int cell) {
     const auto nodes = mesh_.cell(cell);
     const int other = nodes[0] == start ? nodes[1] : nodes[0];
-    const Eigen::Vector3d step = Eigen::Vector3d(mesh_.nodes[other].data()) - Eigen::Vector3d(mesh_.nodes[start].data());
+    const Eigen::Vector3d step =
+        Eigen::Vector3d(mesh_.nodes[other].data()) - Eigen::Vector3d(mesh_.nodes[start].data());
     return step.normalized().dot(Eigen::Vector3d(direction->data()));
   };
   return along(cells[0]) >= along(cells[1]) ? cells[0] : cells[1];
@@ -111,8 +113,9 @@ std::vector<int> Line::walk(std::optional<int> start, std::optional<int> end, st
     if (here.size() == 1) break;
     cell = here[0] == cell ? here[1] : here[0];
   }
-  if (passed != cells_.size()) fail(fmt::format("the line has several pieces: {} of its {} cells are reached from node {}",
-                                                passed, cells_.size(), mesh_.node_name(origin)));
+  if (passed != cells_.size())
+    fail(fmt::format("the line has several pieces: {} of its {} cells are reached from node {}", passed, cells_.size(),
+                     mesh_.node_name(origin)));
   return path;
 }
 

@@ -7,8 +7,8 @@
 
 namespace comma::solver {
 
-/// The name at the smallest edit distance (Levenshtein) from `wanted`, letter case ignored; empty when none comes closer
-/// than half of the letters.
+/// The name at the smallest edit distance (Levenshtein) from `wanted`, letter case ignored; empty when none comes
+/// closer than half of the letters.
 std::string nearest_name(std::string_view wanted, std::span<const std::string> known);
 
 }  // namespace comma::solver

@@ -34,8 +34,8 @@ double longest_edge(const Mesh& mesh, int cell) {
   return longest;
 }
 
-/// Whether the facets of the cell, as boundary_facets() lists them, really point outwards: they do not when the nodes of the
-/// cell run in the other sense, as meshers write them now and then.
+/// Whether the facets of the cell, as boundary_facets() lists them, really point outwards: they do not when the nodes
+/// of the cell run in the other sense, as meshers write them now and then.
 bool runs_in_reference_sense(const Mesh& mesh, int cell) {
   const double size = signed_size(mesh, cell);
   const double length = longest_edge(mesh, cell);
@@ -103,8 +103,9 @@ int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> supp
     const CellType type = mesh.cell_types[cell];
     const bool as_listed = same_sense(mesh.cell(cell), nodes_of_facet(mesh, behind), corner_count(type));
     if (as_listed == runs_in_reference_sense(mesh, behind.cell)) continue;
-    const auto nodes = std::span(mesh.connectivity).subspan(static_cast<std::size_t>(mesh.cell_starts[cell]),
-                                                            static_cast<std::size_t>(node_count(type)));
+    const auto nodes =
+        std::span(mesh.connectivity)
+            .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]), static_cast<std::size_t>(node_count(type)));
     reverse(nodes, type);
     ++turned;
   }

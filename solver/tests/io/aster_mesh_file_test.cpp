@@ -99,15 +99,20 @@ TEST_CASE("errors in a mesh file say where they are") {
         "damaged-mesh | x.mail:5:1: SEG2 has no FINSF: the file is cut off, or the line is missing");
   CHECK(error_of("COOR_2D\n N1 0. 0.\n  N2 1.\nFINSF\nFIN\n") ==
         "damaged-mesh | x.mail:3:3: node N2 lacks some of its 2 coordinates");
-  CHECK(error_of("COOR_2D\n N1 0. 0,5x\nFINSF\nFIN\n") == "damaged-mesh | x.mail:2:10: node 5x lacks some of its 2 coordinates");
-  CHECK(error_of("COOR_2D\n N1 0. N2\nFINSF\nFIN\n") == "damaged-mesh | x.mail:2:8: a coordinate is expected here, not N2");
-  CHECK(error_of("COOR_2D\n N1 0. 1e999\nFINSF\nFIN\n") == "damaged-mesh | x.mail:2:8: the number 1e999 is out of range");
+  CHECK(error_of("COOR_2D\n N1 0. 0,5x\nFINSF\nFIN\n") ==
+        "damaged-mesh | x.mail:2:10: node 5x lacks some of its 2 coordinates");
+  CHECK(error_of("COOR_2D\n N1 0. N2\nFINSF\nFIN\n") ==
+        "damaged-mesh | x.mail:2:8: a coordinate is expected here, not N2");
+  CHECK(error_of("COOR_2D\n N1 0. 1e999\nFINSF\nFIN\n") ==
+        "damaged-mesh | x.mail:2:8: the number 1e999 is out of range");
   CHECK(error_of("COOR_2D\n N1 0. nan\nFINSF\nFIN\n") ==
         "damaged-mesh | x.mail:2:8: a coordinate is expected here, not nan");
-  CHECK(error_of("COOR_2D\n N1 0. 1.\n N1 1. 1.\nFINSF\nFIN\n") == "damaged-mesh | x.mail:3:2: node N1 is defined twice");
+  CHECK(error_of("COOR_2D\n N1 0. 1.\n N1 1. 1.\nFINSF\nFIN\n") ==
+        "damaged-mesh | x.mail:3:2: node N1 is defined twice");
   CHECK(error_of(nodes + "SEG2\n M1 N1 N3\nFINSF\nFIN\n") ==
         "unknown-node | x.mail:6:8: there is no node N3 | did you mean N1?");
-  CHECK(error_of(nodes + "SEG2\n M1 N1\nFINSF\nFIN\n") == "damaged-mesh | x.mail:6:2: cell M1 lacks some of its 2 nodes");
+  CHECK(error_of(nodes + "SEG2\n M1 N1\nFINSF\nFIN\n") ==
+        "damaged-mesh | x.mail:6:2: cell M1 lacks some of its 2 nodes");
   CHECK(error_of(nodes + "GROUP_MA\n G1 M7\nFINSF\nFIN\n") == "unknown-cell | x.mail:6:5: there is no cell M7");
   CHECK(error_of(nodes + "GROUP_NO\nFINSF\nFIN\n") == "damaged-mesh | x.mail:5:1: GROUP_NO lacks its name");
   CHECK(error_of(nodes + "GROUP_NO NOM=\n N1\nFINSF\nFIN\n") == "damaged-mesh | x.mail:5:13: NOM= lacks its name");
@@ -119,8 +124,9 @@ TEST_CASE("errors in a mesh file say where they are") {
         "damaged-mesh | x.mail:5:1: GROUPE_NO is not a keyword of a mesh file | did you mean GROUP_NO?");
   CHECK(error_of(nodes + "COOR_3D\n N3 1 2 3\nFINSF\nFIN\n") ==
         "damaged-mesh | x.mail:5:1: COOR_2D and COOR_3D cannot both be in one mesh");
-  CHECK(error_of("COOR_2D\n" + std::string(70, ' ') + "N1 0.0 1.0 2.0\n") ==
-        "damaged-mesh | x.mail:2:82: the line goes on beyond column 80, where Code_Aster stops reading | break the line");
+  CHECK(
+      error_of("COOR_2D\n" + std::string(70, ' ') + "N1 0.0 1.0 2.0\n") ==
+      "damaged-mesh | x.mail:2:82: the line goes on beyond column 80, where Code_Aster stops reading | break the line");
   CHECK(error_of(std::string("COOR_2D\n N1 \0 0\nFINSF\nFIN\n", 27)) ==
         "damaged-mesh | x.mail:2:5: this is not a text file: there is a control character here");
 }
@@ -160,10 +166,18 @@ TEST_CASE("a damaged mesh file gives a mesh or an error, never worse") {
     for (std::size_t changes = 1 + pick(4); changes > 0; --changes) {
       const std::size_t at = pick(text.size());
       switch (pick(4)) {
-        case 0: text[at] = pieces[pick(pieces.size())]; break;
-        case 1: text.erase(at, 1 + pick(20)); break;
-        case 2: text.insert(at, 1, pieces[pick(pieces.size())]); break;
-        default: text.insert(at, whole.substr(pick(whole.size()), pick(30))); break;
+        case 0:
+          text[at] = pieces[pick(pieces.size())];
+          break;
+        case 1:
+          text.erase(at, 1 + pick(20));
+          break;
+        case 2:
+          text.insert(at, 1, pieces[pick(pieces.size())]);
+          break;
+        default:
+          text.insert(at, whole.substr(pick(whole.size()), pick(30)));
+          break;
       }
       if (text.empty()) text = "F";
     }

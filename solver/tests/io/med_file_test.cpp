@@ -161,7 +161,8 @@ TEST_CASE("a MED file with changed bytes gives a mesh or an error, never worse")
   std::mt19937 random(11);  // fixed: a failure can be looked at
   for (int round = 0; round < 300; ++round) {
     std::string bytes = whole;
-    for (int change = 0; change < 3; ++change) bytes[random() % bytes.size()] ^= static_cast<char>(1u << (random() % 8));
+    for (int change = 0; change < 3; ++change)
+      bytes[random() % bytes.size()] ^= static_cast<char>(1u << (random() % 8));
     file.fill(bytes);
     try {
       const Mesh mesh = read_med_mesh(file.path());
@@ -208,7 +209,8 @@ TEST_CASE("results are written with profiles and localisations") {
 TEST_CASE("a field that MED files cannot place is refused by name") {
   Result result;
   ResultStep step;
-  step.fields["SIEF_ELGA"] = ElementField{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 0, 7, 7}, std::vector<double>(7)};
+  step.fields["SIEF_ELGA"] =
+      ElementField{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 0, 7, 7}, std::vector<double>(7)};
   result.steps.push_back(step);
   const TemporaryFile file;
   CHECK(code_of([&] { write_med_result(file.path(), small_mesh(), "M", result, "R"); }) == "unsupported");

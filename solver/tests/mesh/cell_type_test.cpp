@@ -73,10 +73,10 @@ TEST_CASE("middle nodes of facets lie in the middle of their edges and faces") {
       const int corners = corner_count(facet.type);
       const int edges = dimension(facet.type) == 1 ? 1 : corners;
       for (int i = corners; i < node_count(facet.type); ++i) {
-        const Vector expected = i - corners < edges
-                                    ? Vector(0.5 * (points[facet.nodes[i - corners]] +
-                                                    points[facet.nodes[(i - corners + 1) % corners]]))
-                                    : tests::corner_mean(points, facet);
+        const Vector expected =
+            i - corners < edges
+                ? Vector(0.5 * (points[facet.nodes[i - corners]] + points[facet.nodes[(i - corners + 1) % corners]]))
+                : tests::corner_mean(points, facet);
         CHECK((points[facet.nodes[i]] - expected).norm() == Approx(0.0).margin(1e-14));
       }
     }

@@ -58,7 +58,8 @@ std::vector<int> add_random_skin(Mesh& mesh, std::mt19937& random) {
   return skin;
 }
 
-/// The volume that a skin of faces encloses, by the divergence theorem over the corners, and the sum of its area vectors.
+/// The volume that a skin of faces encloses, by the divergence theorem over the corners, and the sum of its area
+/// vectors.
 std::pair<double, Vector> enclosed(const Mesh& mesh, const std::vector<int>& skin) {
   double volume = 0.0;
   Vector closed = Vector::Zero();
@@ -158,7 +159,9 @@ TEST_CASE("a skin without one clear side is an error") {
   const int loose = mesh.add_cell(CellType::quad4, std::vector{0, 1, 10, 9});
   CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}); }) == "skin-inside-body");
   CHECK(code_of([&] { orient_skin(mesh, std::vector{loose}); }) == "skin-without-support");
-  CHECK(orient_skin(mesh, std::vector{inside}, std::vector{0}) + orient_skin(mesh, std::vector{inside}, std::vector{1}) >= 1);
+  CHECK(orient_skin(mesh, std::vector{inside}, std::vector{0}) +
+            orient_skin(mesh, std::vector{inside}, std::vector{1}) >=
+        1);
   mesh.nodes[0] = mesh.nodes[3] = {1, 0, 0};
   for (auto& point : mesh.nodes) point[0] = 0.0;
   CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}, std::vector{0}); }) == "flat-cell");

@@ -10,14 +10,22 @@ std::vector<Vector> reference_nodes(CellType type) {
 
 double reference_volume(CellType type) {
   switch (corner_count(type) * 10 + dimension(type)) {
-    case 10: return 0.0;
-    case 21: return 2.0;
-    case 32: return 0.5;
-    case 42: return 4.0;
-    case 43: return 1.0 / 6.0;
-    case 53: return 2.0 / 3.0;
-    case 63: return 1.0;
-    default: return 8.0;
+    case 10:
+      return 0.0;
+    case 21:
+      return 2.0;
+    case 32:
+      return 0.5;
+    case 42:
+      return 4.0;
+    case 43:
+      return 1.0 / 6.0;
+    case 53:
+      return 2.0 / 3.0;
+    case 63:
+      return 1.0;
+    default:
+      return 8.0;
   }
 }
 
