@@ -35,7 +35,7 @@ int count_changes(const std::vector<int>& a, const std::vector<int>& b) {
 
 NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                            const NewtonOptions& options, Counters& counters, TangentSystem& tangent,
-                           const IterationObserver& observer)
+                           std::vector<int> support, const IterationObserver& observer)
     : mesh_(mesh),
       dofs_(dofs),
       assembler_(assembler),
@@ -43,6 +43,7 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       options_(options),
       counters_(counters),
       tangent_(tangent),
+      support_(std::move(support)),
       observer_(observer),
       criterion_(options) {}
 
@@ -74,8 +75,8 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   conditions_ = &conditions;
   reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
   if (!schur_) {
-    schur_ = std::make_unique<SchurComplement>(reduced_.inequalities.rows,
-                                               [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); });
+    schur_ = std::make_unique<SchurComplement>(
+        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); }, support_);
   } else {
     schur_->replace_rows(reduced_.inequalities.rows);
   }

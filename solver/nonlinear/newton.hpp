@@ -34,8 +34,10 @@ struct NewtonState {
 /// them take a solution near the last bit even where weak springs hold a stiff body.
 class NewtonSolver {
  public:
+  /// Keeps references to its arguments. `support`: the reduced unknowns that conditions can touch, rising.
   NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const IterationObserver& observer);
+               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, std::vector<int> support,
+               const IterationObserver& observer);
 
   /// Iterates to convergence at a time. `active_set_limit`: changes of the active set allowed in one iteration.
   /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
@@ -69,6 +71,7 @@ class NewtonSolver {
   const NewtonOptions& options_;
   Counters& counters_;
   TangentSystem& tangent_;
+  const std::vector<int> support_;
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
 

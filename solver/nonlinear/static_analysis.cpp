@@ -32,8 +32,8 @@ class StaticAnalysis {
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
         elimination_(mesh_, dofs_, problem.loads),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
-        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, observer),
-        contact_nodes_(nodes_of_contact()) {}
+        contact_nodes_(nodes_of_contact()),
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {}
 
   void run(const std::vector<double>& instants) {
     if (instants.empty()) return;
@@ -53,6 +53,22 @@ class StaticAnalysis {
         for (const auto* cells : {&zone.master_cells, &zone.slave_cells})
           for (const int node : mesh_.nodes_of_cells(*cells)) nodes.insert(node);
     return {nodes.begin(), nodes.end()};
+  }
+
+  /// The reduced unknowns behind the nodes that conditions speak of.
+  std::vector<int> support() const {
+    std::set<int> nodes(contact_nodes_.begin(), contact_nodes_.end());
+    for (const UnilateralCondition& condition : problem_.unilateral) nodes.insert(condition.nodes.begin(), condition.nodes.end());
+    std::set<int> unknowns;
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> transformation = elimination_.transformation();
+    for (const int node : nodes)
+      for (int component = 0; component < component_count; ++component) {
+        const int dof = dofs_.dof(node, static_cast<Component>(component));
+        if (dof < 0) continue;
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(transformation, dof); it; ++it)
+          unknowns.insert(static_cast<int>(it.col()));
+      }
+    return {unknowns.begin(), unknowns.end()};
   }
 
   /// Unstressed and undisplaced, or where the result's last step left off.
@@ -214,8 +230,8 @@ class StaticAnalysis {
   Assembler assembler_;
   Elimination elimination_;
   TangentSystem tangent_;
-  NewtonSolver newton_;
   std::vector<int> contact_nodes_;
+  NewtonSolver newton_;
 
   NewtonState state_;
   bool paired_ = false;

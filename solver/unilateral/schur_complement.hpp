@@ -13,14 +13,16 @@ namespace comma::solver {
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that is
-/// active again is free. S is in unknown / multiplier (a length a force, for contact).
+/// active again is free. Once rows have changed (geometry updates turn normals and shift weights), what is kept is the
+/// compliance C = K^-1 between the unknowns that rows can touch, the support: S = A C A^T then follows for any rows without
+/// another solve. S is in unknown / multiplier (a length a force, for contact).
 class SchurComplement {
  public:
   /// Overwrites the columns (n x k) by K^-1 times them.
   using ApplyInverse = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 
-  /// `rows`: A, m x n.
-  SchurComplement(RowMatrix rows, ApplyInverse inverse);
+  /// `rows`: A, m x n. `support`: unknowns, rising; rows on others are taken, but cost a solve whenever they change.
+  SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support = {});
 
   int size() const { return static_cast<int>(rows_.rows()); }
   const RowMatrix& rows() const { return rows_; }
@@ -34,16 +36,25 @@ class SchurComplement {
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
   void replace_rows(RowMatrix rows);
-  /// Forgets the columns, as after a new factorisation.
+  /// Forgets columns and compliance, as after a new factorisation.
   void forget();
 
   /// Memory held while columns are computed: this many right-hand sides at once.
   static constexpr int batch_size = 32;
+  /// The compliance is kept up to this many unknowns (128 MB); beyond, changed rows are solved for again.
+  static constexpr std::size_t largest_support = 4000;
 
  private:
+  void solve_rows(const std::vector<int>& missing);
+  bool build_from_compliance(const std::vector<int>& missing);
+  int support_index(int unknown) const;
+
   RowMatrix rows_;
   ApplyInverse inverse_;
   std::vector<Eigen::VectorXd> columns_;
+  std::vector<int> support_;
+  std::vector<Eigen::VectorXd> compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
+  bool rows_change_ = false;
 };
 
 }  // namespace comma::solver

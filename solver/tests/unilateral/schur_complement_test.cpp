@@ -43,3 +43,43 @@ TEST_CASE("Columns are A K^-1 A^T, solved for once each and in batches") {
     CHECK_FALSE(schur.known(3));
   }
 }
+
+TEST_CASE("Rows that change are served by the compliance of their unknowns without a solve") {
+  std::mt19937 generator(2);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(generator); };
+  const int n = 50, m = 12;
+  const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(n, n, draw);
+  const Eigen::LLT<Eigen::MatrixXd> factor(half * half.transpose() + Eigen::MatrixXd::Identity(n, n));
+  const std::vector<int> support = {3, 4, 10, 11, 12, 30, 41, 49};
+  const auto random_rows = [&] {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(m, n);
+    for (const int unknown : support) rows.col(unknown) = Eigen::VectorXd::NullaryExpr(m, draw);
+    return rows;
+  };
+  long solves = 0;
+  SchurComplement schur(random_rows().sparseView(),
+                        [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
+                          solves += rhs.cols();
+                          rhs = factor.solve(rhs).eval();
+                        },
+                        support);
+  std::vector<int> all(m);
+  for (int i = 0; i < m; ++i) all[i] = i;
+  schur.require(all);
+  CHECK(solves == m);
+  for (int change = 0; change < 5; ++change) {
+    const Eigen::MatrixXd rows = random_rows();
+    schur.replace_rows(rows.sparseView());
+    schur.require(all);
+    const Eigen::MatrixXd expected = rows * factor.solve(rows.transpose());
+    for (int i = 0; i < m; ++i) CHECK((schur.column(i) - expected.col(i)).norm() < 1e-11 * expected.norm());
+  }
+  CHECK(solves == m + static_cast<long>(support.size()));
+
+  Eigen::MatrixXd elsewhere = random_rows();
+  elsewhere(0, 20) = 1.0;  // off the support: solved for, and right all the same
+  schur.replace_rows(elsewhere.sparseView());
+  schur.require(std::vector<int>{0});
+  CHECK((schur.column(0) - elsewhere * factor.solve(elsewhere.row(0).transpose())).norm() < 1e-10);
+}

@@ -1,0 +1,59 @@
+#include "solver/contact/contact_field.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+using Eigen::Vector3d;
+
+namespace {
+
+ContactPair pair(int slave, PairingStatus status) {
+  ContactPair result;
+  result.slave = slave;
+  result.status = status;
+  result.normal = {0.6, 0.8, 0};
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Contact, open, not paired and foreign nodes") {
+  const std::vector<Vector3d> places(4, Vector3d(1, 2, 3));
+  const std::vector<ContactPair> pairs = {pair(0, PairingStatus::paired), pair(1, PairingStatus::paired),
+                                          pair(2, PairingStatus::too_far)};
+  const std::vector<double> gaps = {0.0, 0.25, absent};
+  const NodalField field = contact_field(pairs, gaps, Eigen::Vector3d(10, 0, 0), 4, places);
+  const auto at = [&](int node, const char* name) { return field.at(node, field.component(name)); };
+  CHECK(at(0, "CONT") == 2.0);
+  CHECK(at(0, "RN") == 10.0);
+  CHECK(at(0, "RNX") == Approx(6.0));
+  CHECK(at(0, "RY") == Approx(8.0));
+  CHECK(at(0, "RTGX") == 0.0);
+  CHECK(std::isnan(at(0, "GLI")));
+  CHECK(at(1, "CONT") == 0.0);
+  CHECK(at(1, "JEU") == 0.25);
+  CHECK(at(1, "RN") == 0.0);
+  CHECK(at(2, "CONT") == -1.0);
+  CHECK(std::isnan(at(2, "JEU")));
+  CHECK(std::isnan(at(3, "CONT")));
+}
+
+TEST_CASE("A node that one zone holds is not unpaired because another zone does not see it") {
+  const std::vector<Vector3d> places(1, Vector3d::Zero());
+  const std::vector<double> gaps = {0.0, absent};
+  for (const bool swapped : {false, true}) {
+    std::vector<ContactPair> pairs = {pair(0, PairingStatus::paired), pair(0, PairingStatus::outside)};
+    Eigen::Vector2d multipliers(5, 0);
+    std::vector<double> these = gaps;
+    if (swapped) {
+      std::swap(pairs[0], pairs[1]);
+      std::swap(these[0], these[1]);
+      multipliers = {0, 5};
+    }
+    const NodalField field = contact_field(pairs, these, multipliers, 1, places);
+    CHECK(field.at(0, field.component("CONT")) == 2.0);
+    CHECK(field.at(0, field.component("RN")) == 5.0);
+  }
+}
