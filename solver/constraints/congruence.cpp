@@ -74,8 +74,8 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
   }
   if (all_ones) weights_ = {};
   const std::vector<double> zeros(inner.size(), 0.0);
-  product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(), inner.data(),
-                                               zeros.data());
+  product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(),
+                                               inner.data(), zeros.data());
 }
 
 bool Congruence::fits(const SymmetricMatrix& matrix) const {

@@ -7,7 +7,8 @@
 
 namespace comma::solver {
 
-/// Where each entry of K goes in T^T K T, and with which weight: found once, then each product is one pass over K's values.
+/// Where each entry of K goes in T^T K T, and with which weight: found once, then each product is one pass over K's
+/// values.
 class Congruence {
  public:
   /// `pattern`: lower triangle (n x n); `transformation`: T (n x m).

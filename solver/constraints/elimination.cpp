@@ -33,15 +33,18 @@ std::string describe(const LinearRelation& relation, const Mesh& mesh) {
   return text.empty() ? "0" : text;
 }
 
-[[noreturn]] void unknown_dof(const Mesh& mesh, const DofMap& dofs, const LinearRelation::Term& term, const std::string& origin) {
+[[noreturn]] void unknown_dof(const Mesh& mesh, const DofMap& dofs, const LinearRelation::Term& term,
+                              const std::string& origin) {
   std::vector<std::string_view> carried;
   for (int k = 0; k < component_count; ++k) {
     const auto component = static_cast<Component>(k);
     if (contains(dofs.components(term.node), component)) carried.push_back(name_of(component));
   }
-  throw Error("unknown-dof", fmt::format("node {} has no component {} ({})", mesh.node_name(term.node), name_of(term.component), origin),
-              carried.empty() ? "the node belongs to no finite element of the model"
-                              : fmt::format("the components of this node are {}", fmt::join(carried, ", ")));
+  throw Error(
+      "unknown-dof",
+      fmt::format("node {} has no component {} ({})", mesh.node_name(term.node), name_of(term.component), origin),
+      carried.empty() ? "the node belongs to no finite element of the model"
+                      : fmt::format("the components of this node are {}", fmt::join(carried, ", ")));
 }
 
 }  // namespace
@@ -51,12 +54,15 @@ double Elimination::Condition::value(double time) const {
   return multiplier ? multiplier(time) * prescribed : prescribed;
 }
 
-std::string Elimination::Condition::origin() const { return relation->origin ? *relation->origin : "origin unknown"; }
+std::string Elimination::Condition::origin() const {
+  return relation->origin ? *relation->origin : "origin unknown";
+}
 
 Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads) {
   std::vector<SparseRow> rows;
   for (const AppliedLoad& applied : loads) {
-    for (const LinearRelation& relation : applied.load->relations) rows.push_back(add_condition(mesh, dofs, applied, relation));
+    for (const LinearRelation& relation : applied.load->relations)
+      rows.push_back(add_condition(mesh, dofs, applied, relation));
   }
   GaussJordan reduction = gauss_jordan(rows, dofs.size());
   dependencies_ = std::move(reduction.dependencies);
@@ -102,7 +108,8 @@ void Elimination::set_transformation(const GaussJordan& reduction, int full_size
 
 Eigen::VectorXd Elimination::values(double time) const {
   Eigen::VectorXd result(static_cast<Eigen::Index>(conditions_.size()));
-  for (std::size_t k = 0; k < conditions_.size(); ++k) result[static_cast<Eigen::Index>(k)] = conditions_[k].value(time);
+  for (std::size_t k = 0; k < conditions_.size(); ++k)
+    result[static_cast<Eigen::Index>(k)] = conditions_[k].value(time);
   return result;
 }
 
@@ -130,8 +137,8 @@ void Elimination::check_constant_dependencies() const {
     if (conditions_[k].constant) c[static_cast<Eigen::Index>(k)] = conditions_[k].value(0.0);
   }
   for (const SparseRow& dependency : dependencies_) {
-    const bool constant =
-        std::all_of(dependency.begin(), dependency.end(), [this](const auto& term) { return conditions_[term.first].constant; });
+    const bool constant = std::all_of(dependency.begin(), dependency.end(),
+                                      [this](const auto& term) { return conditions_[term.first].constant; });
     if (constant) check(dependency, c, 0.0);
   }
 }
@@ -155,7 +162,8 @@ void Elimination::contradict(const SparseRow& dependency, const Eigen::VectorXd&
     parts.erase(parts.begin() + most_terms_shown / 2, parts.end() - most_terms_shown / 2);
     parts.push_back(fmt::format("{} more", more));
   }
-  throw Error("contradictory-conditions", fmt::format("conditions contradict each other{}: {}", when, fmt::join(parts, "; ")),
+  throw Error("contradictory-conditions",
+              fmt::format("conditions contradict each other{}: {}", when, fmt::join(parts, "; ")),
               "remove one of them, or give them values that agree");
 }
 

@@ -18,14 +18,15 @@
 namespace comma::solver {
 
 /// Sparse Gauss-Jordan elimination with pivoting on the largest coefficient. Coefficients do not change with time; the
-/// right-hand sides c(t) do, so g(t) = G c(t). Redundant relations are found and dropped; a contradictory pair is an error that
-/// names both origins. Keeps the loads alive, nothing else of its arguments. Not for use from several threads at once (reduce
-/// caches its plan).
+/// right-hand sides c(t) do, so g(t) = G c(t). Redundant relations are found and dropped; a contradictory pair is an
+/// error that names both origins. Keeps the loads alive, nothing else of its arguments. Not for use from several
+/// threads at once (reduce caches its plan).
 class Elimination {
  public:
   /// `mesh`: for the points at which functions are evaluated and for the names of nodes in messages.
-  /// Throws Error `unknown-dof` when a relation uses a component that its node does not carry, naming node, component, origin;
-  /// Error `contradictory-conditions` when a relation reads 0 = c, or when conditions that do not change with time disagree.
+  /// Throws Error `unknown-dof` when a relation uses a component that its node does not carry, naming node, component,
+  /// origin; Error `contradictory-conditions` when a relation reads 0 = c, or when conditions that do not change with
+  /// time disagree.
   Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads);
 
   int full_size() const { return static_cast<int>(transformation_.rows()); }
@@ -58,7 +59,8 @@ class Elimination {
     std::string origin() const;
   };
 
-  SparseRow add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied, const LinearRelation& relation);
+  SparseRow add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
+                          const LinearRelation& relation);
   void set_transformation(const GaussJordan& reduction, int full_size);
   Eigen::VectorXd values(double time) const;
   void check(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const;

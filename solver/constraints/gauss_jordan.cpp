@@ -62,7 +62,8 @@ double smallest_of(const SparseRow& row) {
 }
 
 double coefficient_of(const SparseRow& row, int index) {
-  const auto at = std::lower_bound(row.begin(), row.end(), index, [](const auto& term, int i) { return term.first < i; });
+  const auto at =
+      std::lower_bound(row.begin(), row.end(), index, [](const auto& term, int i) { return term.first < i; });
   return at != row.end() && at->first == index ? at->second : 0.0;
 }
 
@@ -73,7 +74,11 @@ void scale(SparseRow& row, double factor) {
 class Reduction {
  public:
   Reduction(std::span<const SparseRow> relations, int columns)
-      : relations_(relations), row_of_pivot_(columns, -1), appearances_(columns, 0), users_(columns), terms_(columns),
+      : relations_(relations),
+        row_of_pivot_(columns, -1),
+        appearances_(columns, 0),
+        users_(columns),
+        terms_(columns),
         combination_(static_cast<int>(relations.size())) {
     for (const SparseRow& relation : relations) {
       for (const auto& term : relation) ++appearances_[term.first];
@@ -95,7 +100,8 @@ class Reduction {
     for (const auto& [column, coefficient] : relations_[relation]) substitute(column, coefficient);
     SparseRow terms = terms_.take();
     SparseRow combination = combination_.take();
-    // What is left may also be the rounding of rows that were substituted: it is tiny beside everything that was written.
+    // What is left may also be the rounding of rows that were substituted: it is tiny beside everything that was
+    // written.
     if (terms.empty() || largest_of(terms) <= cancellation_tolerance * smallest_of(relations_[relation])) {
       result_.dependencies.push_back(std::move(combination));
       return;
@@ -165,6 +171,8 @@ class Reduction {
 
 }  // namespace
 
-GaussJordan gauss_jordan(std::span<const SparseRow> relations, int columns) { return Reduction(relations, columns).run(); }
+GaussJordan gauss_jordan(std::span<const SparseRow> relations, int columns) {
+  return Reduction(relations, columns).run();
+}
 
 }  // namespace comma::solver

@@ -28,8 +28,8 @@ inline constexpr double cancellation_tolerance = 1e-12;
 /// Pivot candidates closer than this are as good as each other numerically.
 inline constexpr double pivot_tie_tolerance = 1e-9;
 
-/// Relations of a single term come first (O(1) each), then the others, short before long. The pivot of a relation is its
-/// largest coefficient; among equals, the column that appears in fewest relations, so that few rows fill in.
+/// Relations of a single term come first (O(1) each), then the others, short before long. The pivot of a relation is
+/// its largest coefficient; among equals, the column that appears in fewest relations, so that few rows fill in.
 GaussJordan gauss_jordan(std::span<const SparseRow> relations, int columns);
 
 }  // namespace comma::solver

@@ -20,14 +20,17 @@ constexpr double membership_tolerance = 1e-4;
 /// Components below this beside the largest are rounding when a motion is put into words.
 constexpr double negligible = 1e-6;
 
-Eigen::Vector3d position(const Point& point) { return {point[0], point[1], point[2]}; }
+Eigen::Vector3d position(const Point& point) {
+  return {point[0], point[1], point[2]};
+}
 
 /// The rigid modes of a part; lengths are measured in units of its size.
 struct PartModes {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double size = 1.0;
-  Eigen::MatrixXd values;      ///< unknowns x modes
-  Eigen::MatrixXd admissible;  ///< modes x k, orthonormal: the modes that the conditions let all nodes of the part follow
+  Eigen::MatrixXd values;  ///< unknowns x modes
+  Eigen::MatrixXd
+      admissible;  ///< modes x k, orthonormal: the modes that the conditions let all nodes of the part follow
 };
 
 /// What each mode gives to a degree of freedom.
@@ -52,8 +55,8 @@ void place_centre(const Mesh& mesh, std::span<const int> nodes, PartModes& part)
 }
 
 /// The modes for which the conditions give every degree of freedom of the part's nodes what the mode gives it.
-Eigen::MatrixXd admissible_modes(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination, std::span<const int> nodes,
-                                 std::span<const int> unknowns, const PartModes& part) {
+Eigen::MatrixXd admissible_modes(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
+                                 std::span<const int> nodes, std::span<const int> unknowns, const PartModes& part) {
   Eigen::MatrixXd followed = Eigen::MatrixXd::Zero(dofs.size(), mode_count);
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(elimination.transformation(), unknowns[k]); entry; ++entry) {
@@ -77,13 +80,15 @@ Eigen::MatrixXd admissible_modes(const Mesh& mesh, const DofMap& dofs, const Eli
   return spectrum.eigenvectors().leftCols(count);
 }
 
-PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination, std::span<const int> unknowns) {
+PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
+                   std::span<const int> unknowns) {
   PartModes part;
   const std::vector<int> nodes = nodes_moved(dofs, elimination, unknowns);
   place_centre(mesh, nodes, part);
   part.values.resize(static_cast<Eigen::Index>(unknowns.size()), mode_count);
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
-    part.values.row(static_cast<Eigen::Index>(k)) = mode_values(mesh, dofs, elimination.kept()[unknowns[k]], part).transpose();
+    part.values.row(static_cast<Eigen::Index>(k)) =
+        mode_values(mesh, dofs, elimination.kept()[unknowns[k]], part).transpose();
   }
   part.admissible = admissible_modes(mesh, dofs, elimination, nodes, unknowns, part);
   return part;
@@ -95,7 +100,8 @@ struct ModeEnergies {
 };
 
 /// Rows outside the part do not couple with it, so only its own columns are walked.
-ModeEnergies energies_of(const SymmetricMatrix& stiffness, std::span<const int> unknowns, const Eigen::MatrixXd& values) {
+ModeEnergies energies_of(const SymmetricMatrix& stiffness, std::span<const int> unknowns,
+                         const Eigen::MatrixXd& values) {
   std::vector<int> place(static_cast<std::size_t>(stiffness.rows()), -1);
   for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = static_cast<int>(k);
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(values.rows(), mode_count);
@@ -105,8 +111,10 @@ ModeEnergies energies_of(const SymmetricMatrix& stiffness, std::span<const int> 
       const int row = static_cast<int>(entry.row());
       if (place[row] < 0) continue;
       forces.row(place[row]) += entry.value() * values.row(place[column]);
-      if (row != column) forces.row(place[column]) += entry.value() * values.row(place[row]);
-      else result.largest_diagonal = std::max(result.largest_diagonal, std::abs(entry.value()));
+      if (row != column)
+        forces.row(place[column]) += entry.value() * values.row(place[row]);
+      else
+        result.largest_diagonal = std::max(result.largest_diagonal, std::abs(entry.value()));
     }
   }
   result.energy = values.transpose() * forces;
@@ -198,11 +206,14 @@ std::vector<RigidMotion> readable_motions(NullSpace null, const PartModes& part,
   bool free_along[3] = {};
   for (int mode = 0; mode < mode_count; ++mode) {
     const ModeVector unit = ModeVector::Unit(mode);
-    const bool admissible = (unit - part.admissible * (part.admissible.transpose() * unit)).norm() <= membership_tolerance;
+    const bool admissible =
+        (unit - part.admissible * (part.admissible.transpose() * unit)).norm() <= membership_tolerance;
     if (!admissible || !null.take(to_basis.col(mode))) continue;
     RigidMotion motion = to_motion(unit, part);
-    if (mode < 3) free_along[mode] = true;
-    else motion.anywhere = free_along[(mode + 1) % 3] && free_along[(mode + 2) % 3];
+    if (mode < 3)
+      free_along[mode] = true;
+    else
+      motion.anywhere = free_along[(mode + 1) % 3] && free_along[(mode + 2) % 3];
     motions.push_back(motion);
   }
   std::vector<ModeVector> others;
@@ -214,7 +225,9 @@ std::vector<RigidMotion> readable_motions(NullSpace null, const PartModes& part,
 
 }  // namespace
 
-bool RigidMotion::is_rotation() const { return rotation.squaredNorm() > 0.0; }
+bool RigidMotion::is_rotation() const {
+  return rotation.squaredNorm() > 0.0;
+}
 
 std::string RigidMotion::text(int dimension) const {
   if (!is_rotation()) return "translation along " + direction(translation, dimension);
@@ -236,7 +249,8 @@ std::vector<int> nodes_moved(const DofMap& dofs, const Elimination& elimination,
 }
 
 std::vector<RigidMotion> free_rigid_motions(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
-                                            const SymmetricMatrix& stiffness, std::span<const int> unknowns, double tolerance) {
+                                            const SymmetricMatrix& stiffness, std::span<const int> unknowns,
+                                            double tolerance) {
   const PartModes part = modes_of(mesh, dofs, elimination, unknowns);
   if (part.admissible.cols() == 0) return {};
   const ModeEnergies energies = energies_of(stiffness, unknowns, part.values);

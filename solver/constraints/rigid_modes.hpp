@@ -22,15 +22,18 @@ struct RigidMotion {
   bool anywhere = false;  ///< the axis may lie anywhere: the translations across it are free as well
 
   bool is_rotation() const;
-  /// "translation along Y", "translation along (0.6, 0.8)", "rotation about Z", "rotation about (0, 0.6, 0.8) through (1, 2, 3)".
+  /// "translation along Y", "translation along (0.6, 0.8)", "rotation about Z", "rotation about (0, 0.6, 0.8) through
+  /// (1, 2, 3)".
   std::string text(int dimension) const;
 };
 
-/// The free rigid motions of a part: `unknowns` are its rows of the reduced stiffness. A rigid motion must also be one of the
-/// nodes that follow by way of the conditions. Motions along and about the axes come first, where they are free. A motion q is free when n q.Kq <= tolerance
-/// max|K_ii| q.q, n the number of unknowns: the left side is about the stiffness of the support that holds it.
+/// The free rigid motions of a part: `unknowns` are its rows of the reduced stiffness. A rigid motion must also be one
+/// of the nodes that follow by way of the conditions. Motions along and about the axes come first, where they are free.
+/// A motion q is free when n q.Kq <= tolerance max|K_ii| q.q, n the number of unknowns: the left side is about the
+/// stiffness of the support that holds it.
 std::vector<RigidMotion> free_rigid_motions(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
-                                            const SymmetricMatrix& stiffness, std::span<const int> unknowns, double tolerance);
+                                            const SymmetricMatrix& stiffness, std::span<const int> unknowns,
+                                            double tolerance);
 
 /// The nodes that move when the unknowns of a part do, by way of the conditions too; rising.
 std::vector<int> nodes_moved(const DofMap& dofs, const Elimination& elimination, std::span<const int> unknowns);

@@ -36,8 +36,10 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-/// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by conditions).
-std::vector<std::vector<int>> parts_of(const DofMap& dofs, const Elimination& elimination, const SymmetricMatrix& stiffness) {
+/// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by
+/// conditions).
+std::vector<std::vector<int>> parts_of(const DofMap& dofs, const Elimination& elimination,
+                                       const SymmetricMatrix& stiffness) {
   const int n = static_cast<int>(stiffness.rows());
   DisjointSets sets(n);
   std::vector<int> unknown_of_node(dofs.node_count(), -1);
@@ -68,11 +70,14 @@ std::string remedy_for(const std::vector<RigidMotion>& motions) {
     }
     const std::string text = motion.text(3);
     const char axis = text.back();
-    if (axis >= 'X' && axis <= 'Z') components.push_back(std::string("D") + axis);
-    else oblique = true;
+    if (axis >= 'X' && axis <= 'Z')
+      components.push_back(std::string("D") + axis);
+    else
+      oblique = true;
   }
   std::vector<std::string> wanted;
-  if (!components.empty()) wanted.push_back(fmt::format("impose {} on one of its nodes", fmt::join(components, " and ")));
+  if (!components.empty())
+    wanted.push_back(fmt::format("impose {} on one of its nodes", fmt::join(components, " and ")));
   if (oblique) wanted.push_back("impose a displacement along its direction of motion on one of its nodes");
   if (rotations > 0) {
     wanted.push_back(fmt::format("impose {} on nodes away from the {} of rotation",
@@ -82,8 +87,10 @@ std::string remedy_for(const std::vector<RigidMotion>& motions) {
   return fmt::format("{}, or add {}", fmt::join(wanted, " and "), motions.size() == 1 ? "a spring" : "springs");
 }
 
-/// The null vector of a part by inverse iteration on the equilibrated matrix, as a displacement of all degrees of freedom.
-Eigen::VectorXd null_vector(const Elimination& elimination, const SymmetricMatrix& stiffness, std::span<const int> unknowns) {
+/// The null vector of a part by inverse iteration on the equilibrated matrix, as a displacement of all degrees of
+/// freedom.
+Eigen::VectorXd null_vector(const Elimination& elimination, const SymmetricMatrix& stiffness,
+                            std::span<const int> unknowns) {
   constexpr double shift = 1e-12;  // keeps the factors finite; far below any eigenvalue that is not null
   constexpr int iterations = 4;
   const Eigen::VectorXd factors = equilibration_factors(stiffness);
@@ -165,12 +172,14 @@ Error singular_matrix_error(const Mesh& mesh, const DofMap& dofs, const Eliminat
   const std::vector<FreePart> parts =
       find_free_parts(mesh, dofs, elimination, reduced_stiffness, report.null_rows, singular_digits);
   if (parts.empty()) {
-    return Error("singular-matrix", fmt::format("the stiffness is singular: {} unknowns have no stiffness", report.null_rows.size()),
+    return Error("singular-matrix",
+                 fmt::format("the stiffness is singular: {} unknowns have no stiffness", report.null_rows.size()),
                  "look for nodes that no element and no condition holds");
   }
   std::vector<std::string> texts;
   for (const FreePart& part : parts) texts.push_back(describe(part, mesh));
-  return Error("singular-matrix", fmt::format("the stiffness is singular: {}", fmt::join(texts, "; ")), parts.front().remedy);
+  return Error("singular-matrix", fmt::format("the stiffness is singular: {}", fmt::join(texts, "; ")),
+               parts.front().remedy);
 }
 
 }  // namespace comma::solver

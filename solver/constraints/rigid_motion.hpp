@@ -21,17 +21,18 @@ struct FreePart {
   std::string remedy;                ///< "impose DX on one of its nodes, or add a spring"
 };
 
-/// The free parts behind the null rows of a reduced stiffness T^T K T (lower triangle). The rigid motions of each connected part
-/// of its graph span a space of at most six dimensions; those whose energy is less than 10^-singular_digits of the part's
-/// stiffness are free. Where none is, inverse iteration finds the mechanism. At most `most_free_parts` are looked into.
-/// `null_rows` empty: every part is tested. `singular_digits` < 0 is taken as 8.
+/// The free parts behind the null rows of a reduced stiffness T^T K T (lower triangle). The rigid motions of each
+/// connected part of its graph span a space of at most six dimensions; those whose energy is less than
+/// 10^-singular_digits of the part's stiffness are free. Where none is, inverse iteration finds the mechanism. At most
+/// `most_free_parts` are looked into. `null_rows` empty: every part is tested. `singular_digits` < 0 is taken as 8.
 std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
                                       const SymmetricMatrix& reduced_stiffness, std::span<const int> null_rows,
                                       int singular_digits = LinearOptions{}.singular_digits);
 
 inline constexpr std::size_t most_free_parts = 5;
 
-/// The error `singular-matrix` that a factorisation's report calls for: nodes, motions, and in the hint what would hold them.
+/// The error `singular-matrix` that a factorisation's report calls for: nodes, motions, and in the hint what would hold
+/// them.
 Error singular_matrix_error(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
                             const SymmetricMatrix& reduced_stiffness, const FactorReport& report,
                             int singular_digits = LinearOptions{}.singular_digits);

@@ -44,6 +44,8 @@ class ElementBlock {
 
 /// Blocks for cells that share type and formulation.
 std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 

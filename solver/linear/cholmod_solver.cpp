@@ -71,8 +71,10 @@ void read_simplicial_pivots(const cholmod_factor& factor, Eigen::VectorXd& pivot
 
 Eigen::VectorXd pivots_by_row(const cholmod_factor& factor) {
   Eigen::VectorXd ordered(static_cast<Eigen::Index>(factor.n));
-  if (factor.is_super) read_supernodal_pivots(factor, ordered);
-  else read_simplicial_pivots(factor, ordered);
+  if (factor.is_super)
+    read_supernodal_pivots(factor, ordered);
+  else
+    read_simplicial_pivots(factor, ordered);
   const auto* order = static_cast<const int*>(factor.Perm);
   Eigen::VectorXd pivots(ordered.size());
   for (Eigen::Index k = 0; k < ordered.size(); ++k) pivots[order[k]] = ordered[k];

@@ -9,18 +9,24 @@ namespace comma::solver {
 
 std::string_view name_of(LinearMethod method) {
   switch (method) {
-    case LinearMethod::mumps: return "MUMPS";
-    case LinearMethod::cholmod: return "CHOLMOD";
-    case LinearMethod::eigen_ldlt: return "LDLT";
+    case LinearMethod::mumps:
+      return "MUMPS";
+    case LinearMethod::cholmod:
+      return "CHOLMOD";
+    case LinearMethod::eigen_ldlt:
+      return "LDLT";
   }
   return "";
 }
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const LinearOptions& options) {
   switch (method) {
-    case LinearMethod::mumps: return make_mumps_solver(options);
-    case LinearMethod::cholmod: return make_cholmod_solver(options);
-    case LinearMethod::eigen_ldlt: return make_eigen_ldlt_solver(options);
+    case LinearMethod::mumps:
+      return make_mumps_solver(options);
+    case LinearMethod::cholmod:
+      return make_cholmod_solver(options);
+    case LinearMethod::eigen_ldlt:
+      return make_eigen_ldlt_solver(options);
   }
   throw Error("unsupported", "no such linear solver");
 }

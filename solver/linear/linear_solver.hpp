@@ -1,4 +1,5 @@
-// One interface for all direct solvers of symmetric systems (design: analyse once a pattern, factorise once a stiffness).
+// One interface for all direct solvers of symmetric systems (design: analyse once a pattern, factorise once a
+// stiffness).
 //
 // Every solver works on the equilibrated matrix S A S and refines its solutions against the matrix as given, see
 // refined_solver.hpp; docs/linear_solvers.md shows what that buys on nearly singular matrices.
@@ -26,17 +27,17 @@ enum class FactorVerdict : std::uint8_t { ok, indefinite, singular };
 /// What a factorisation found. `ok`: positive definite.
 struct FactorReport {
   FactorVerdict verdict = FactorVerdict::ok;
-  std::vector<int> null_rows;     ///< rows without a usable pivot (verdict singular), rising
-  int lost_digits = 0;            ///< whole decimal digits lost on the worst pivot, relative to its initial diagonal (at
-                                  ///< most 17). MUMPS keeps its pivots to itself: there it is an estimate by inverse iteration
+  std::vector<int> null_rows;  ///< rows without a usable pivot (verdict singular), rising
+  int lost_digits = 0;         ///< whole decimal digits lost on the worst pivot, relative to its initial diagonal (at
+                        ///< most 17). MUMPS keeps its pivots to itself: there it is an estimate by inverse iteration
 };
 
 struct LinearOptions {
-  /// A pivot that loses more whole decimal digits than this is null (Code_Aster's NPREC, U4.50.01); negative: never tested,
-  /// only a pivot of exactly zero is null then.
+  /// A pivot that loses more whole decimal digits than this is null (Code_Aster's NPREC, U4.50.01); negative: never
+  /// tested, only a pivot of exactly zero is null then.
   int singular_digits = 8;
-  /// Steps of iterative refinement at most, the residual in doubled precision. They end as soon as a correction no longer
-  /// changes the solution: one step is usual, a matrix of condition 1e15 needs a dozen. 0: none.
+  /// Steps of iterative refinement at most, the residual in doubled precision. They end as soon as a correction no
+  /// longer changes the solution: one step is usual, a matrix of condition 1e15 needs a dozen. 0: none.
   int refinement_steps = 20;
   /// Power-of-two scaling of rows and columns; only a study of its effect turns it off.
   bool equilibrate = true;
@@ -48,16 +49,17 @@ class LinearSolver {
   virtual LinearMethod method() const = 0;
   /// Symbolic analysis of a pattern.
   virtual void analyse(const SymmetricMatrix& matrix) = 0;
-  /// Numeric factorisation; keeps a copy for refinement. A matrix of another pattern than the analysed one is analysed again.
-  /// Throws Error `not-finite` naming the row of an entry that is infinite or not a number; `out-of-memory`.
+  /// Numeric factorisation; keeps a copy for refinement. A matrix of another pattern than the analysed one is analysed
+  /// again. Throws Error `not-finite` naming the row of an entry that is infinite or not a number; `out-of-memory`.
   virtual FactorReport factorise(const SymmetricMatrix& matrix) = 0;
   /// rhs: size n x k, overwritten by the solution. Returns the largest relative residual
-  /// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf) of the columns. Throws Error `singular-matrix` if the last factorisation was
-  /// singular, `inaccurate-solution` if the residual stays above `worst_residual` (an indefinite matrix met by a solver that
-  /// does not pivot; MUMPS does).
+  /// |b - A x|_inf / (|A|_inf |x|_inf + |b|_inf) of the columns. Throws Error `singular-matrix` if the last
+  /// factorisation was singular, `inaccurate-solution` if the residual stays above `worst_residual` (an indefinite
+  /// matrix met by a solver that does not pivot; MUMPS does).
   virtual double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
 
-  /// A backward stable factorisation stays near 1e-16, whatever the condition; at 1e-6 the factors are not those of the matrix.
+  /// A backward stable factorisation stays near 1e-16, whatever the condition; at 1e-6 the factors are not those of the
+  /// matrix.
   static constexpr double worst_residual = 1e-6;
 };
 

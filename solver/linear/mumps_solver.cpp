@@ -40,13 +40,13 @@ class MumpsSolver final : public RefinedSolver {
     data_.job = job_initialise;
     mumps_(&data_);
     for (int stream = 1; stream <= 3; ++stream) control(stream) = -1;
-    control(4) = 0;    // print nothing
-    control(6) = 0;    // the matrix is scaled already, and the analysis must hold for other values of the same pattern
+    control(4) = 0;  // print nothing
+    control(6) = 0;  // the matrix is scaled already, and the analysis must hold for other values of the same pattern
     control(8) = 0;
     control(12) = 1;
-    control(13) = 1;   // the last front too counts its null pivots
-    control(10) = 0;   // refinement is RefinedSolver's
-    control(24) = 1;   // note null pivots and go on
+    control(13) = 1;  // the last front too counts its null pivots
+    control(10) = 0;  // refinement is RefinedSolver's
+    control(24) = 1;  // note null pivots and go on
   }
 
   ~MumpsSolver() override {
@@ -103,8 +103,9 @@ class MumpsSolver final : public RefinedSolver {
  private:
   int& control(int number) const { return data_.icntl[number - 1]; }
 
-  /// MUMPS knows one threshold for all rows; the smallest reference keeps it from calling a sound pivot null. References lie
-  /// between 1/2 and 4, so some pivot may lose up to a digit more than `singular_digits` before it is noticed.
+  /// MUMPS knows one threshold for all rows; the smallest reference keeps it from calling a sound pivot null.
+  /// References lie between 1/2 and 4, so some pivot may lose up to a digit more than `singular_digits` before it is
+  /// noticed.
   double null_threshold(const Eigen::VectorXd& references) const {
     const double least = std::numeric_limits<double>::min();
     if (options().singular_digits < 0) return least;
@@ -128,8 +129,9 @@ class MumpsSolver final : public RefinedSolver {
     return result;
   }
 
-  /// The largest diagonal entry of the scaled inverse is one over the pivot of a row eliminated last. Two steps of inverse
-  /// iteration from an irregular vector give the eigenvector v that dominates it, so the entry is about v_i^2 / (lambda v.v).
+  /// The largest diagonal entry of the scaled inverse is one over the pivot of a row eliminated last. Two steps of
+  /// inverse iteration from an irregular vector give the eigenvector v that dominates it, so the entry is about v_i^2 /
+  /// (lambda v.v).
   int estimated_digits() const {
     constexpr double golden_section = 0.6180339887498949;  // its multiples fill the unit interval without a pattern
     constexpr int all = std::numeric_limits<double>::max_digits10;
@@ -144,7 +146,8 @@ class MumpsSolver final : public RefinedSolver {
       solve_scaled(probe);
       entry = probe.lpNorm<Eigen::Infinity>() / length;
     }
-    return std::isfinite(entry) && entry > 0.0 ? std::clamp(static_cast<int>(std::floor(std::log10(entry))), 0, all) : all;
+    return std::isfinite(entry) && entry > 0.0 ? std::clamp(static_cast<int>(std::floor(std::log10(entry))), 0, all)
+                                               : all;
   }
 
   void run(int job) const {
@@ -155,10 +158,12 @@ class MumpsSolver final : public RefinedSolver {
   void check() const {
     const int status = data_.infog[0];
     if (status >= 0) return;
-    if (status == error_workspace || status == error_memory || status == error_index_overflow || status == -8 || status == -19) {
+    if (status == error_workspace || status == error_memory || status == error_index_overflow || status == -8 ||
+        status == -19) {
       throw Error("out-of-memory", "the factors of the stiffness matrix do not fit into memory", "coarsen the mesh");
     }
-    throw Error("linear-solver", fmt::format("MUMPS refuses the matrix (INFOG(1) = {}, INFOG(2) = {})", status, data_.infog[1]));
+    throw Error("linear-solver",
+                fmt::format("MUMPS refuses the matrix (INFOG(1) = {}, INFOG(2) = {})", status, data_.infog[1]));
   }
 
   SharedLibrary library_{COMMA_MUMPS_LIBRARY};
@@ -170,6 +175,8 @@ class MumpsSolver final : public RefinedSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_mumps_solver(const LinearOptions& options) { return std::make_unique<MumpsSolver>(options); }
+std::unique_ptr<LinearSolver> make_mumps_solver(const LinearOptions& options) {
+  return std::make_unique<MumpsSolver>(options);
+}
 
 }  // namespace comma::solver

@@ -56,7 +56,8 @@ void check_finite(const SymmetricMatrix& matrix) {
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (SymmetricMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
       if (std::isfinite(entry.value())) continue;
-      throw Error("not-finite", fmt::format("the matrix has the entry {} at row {}, column {}", entry.value(), entry.row(), column),
+      throw Error("not-finite",
+                  fmt::format("the matrix has the entry {} at row {}, column {}", entry.value(), entry.row(), column),
                   "look for a material constant, a section or a coordinate that is zero, infinite or missing");
     }
   }
@@ -75,8 +76,10 @@ struct Iterate {
   std::vector<char> done;
 
   Iterate(Eigen::Index rows, Eigen::Index columns)
-      : high(Eigen::MatrixXd::Zero(rows, columns)), low(high),
-        last_correction(Eigen::VectorXd::Constant(columns, std::numeric_limits<double>::infinity())), done(columns, 0) {}
+      : high(Eigen::MatrixXd::Zero(rows, columns)),
+        low(high),
+        last_correction(Eigen::VectorXd::Constant(columns, std::numeric_limits<double>::infinity())),
+        done(columns, 0) {}
 
   bool all_done() const { return std::find(done.begin(), done.end(), 0) == done.end(); }
 
@@ -112,8 +115,10 @@ FactorReport judge_pivots(const Eigen::VectorXd& pivots, const Eigen::VectorXd& 
     const int digits = digits_lost(pivot, references[row]);
     report.lost_digits = std::max(report.lost_digits, digits);
     const bool lost = singular_digits >= 0 && digits > singular_digits;
-    if (!std::isfinite(pivot) || pivot == 0.0 || lost) report.null_rows.push_back(static_cast<int>(row));
-    else if (pivot < 0.0) negative = true;
+    if (!std::isfinite(pivot) || pivot == 0.0 || lost)
+      report.null_rows.push_back(static_cast<int>(row));
+    else if (pivot < 0.0)
+      negative = true;
   }
   if (largest > pivot_growth) {
     report.null_rows.clear();
@@ -139,8 +144,10 @@ void RefinedSolver::analyse(const SymmetricMatrix& matrix) {
 
 FactorReport RefinedSolver::factorise(const SymmetricMatrix& matrix) {
   check_finite(matrix);
-  if (!matrix.isCompressed() || !has_pattern_of(matrix)) analyse(matrix);
-  else std::copy(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), matrix_.valuePtr());
+  if (!matrix.isCompressed() || !has_pattern_of(matrix))
+    analyse(matrix);
+  else
+    std::copy(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), matrix_.valuePtr());
   report_ = {};
   norm_ = row_sum_norm(matrix_);
   factors_ = options_.equilibrate ? equilibration_factors(matrix_) : Eigen::VectorXd::Ones(matrix_.rows());
@@ -162,8 +169,8 @@ double RefinedSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
   }
   if (worst <= worst_residual) return worst;
   throw Error("inaccurate-solution",
-              fmt::format("the solver {} reaches a relative residual of {:.1e} only; refinement does not improve it", name_of(method()),
-                          worst),
+              fmt::format("the solver {} reaches a relative residual of {:.1e} only; refinement does not improve it",
+                          name_of(method()), worst),
               "the matrix is not positive definite or nearly singular: use the solver MUMPS, which interchanges rows");
 }
 
@@ -178,15 +185,20 @@ double RefinedSolver::solve_block(Eigen::Ref<Eigen::MatrixXd> rhs) const {
     solve_scaled(remainder);
     for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
       if (!x.done[column]) x.correct(column, remainder.col(column), factors_);
-      if (x.done[column]) remainder.col(column).setZero();
-      else residual(matrix_, rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums, remainder.col(column).data());
+      if (x.done[column])
+        remainder.col(column).setZero();
+      else
+        residual(matrix_, rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums,
+                 remainder.col(column).data());
     }
   }
   double worst = 0.0;
   x.low.setZero();
   for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
-    residual(matrix_, rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums, final_residual.data());
-    const double scale = norm_ * x.high.col(column).lpNorm<Eigen::Infinity>() + rhs.col(column).lpNorm<Eigen::Infinity>();
+    residual(matrix_, rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums,
+             final_residual.data());
+    const double scale =
+        norm_ * x.high.col(column).lpNorm<Eigen::Infinity>() + rhs.col(column).lpNorm<Eigen::Infinity>();
     const double size = final_residual.lpNorm<Eigen::Infinity>();
     // A right-hand side of zeros is solved exactly; what is not finite must not pass a comparison.
     const double relative = size == 0.0 ? 0.0 : size / scale;

@@ -5,10 +5,10 @@
 
 namespace comma::solver {
 
-/// Factorises S A S (equilibration.hpp) and refines x by x += S (S A S)^-1 S (b - A x). The residual is summed in doubled
-/// precision from exact products and x carries a low-order part, so the forward error falls to one rounding of x as long as
-/// the factors are worth anything, that is up to condition numbers of about 1e15 (Demmel, Hida, Kahan, Li, Mukherjee, Riedy,
-/// "Error bounds from extra-precise iterative refinement", ACM Trans. Math. Software 32, 2006).
+/// Factorises S A S (equilibration.hpp) and refines x by x += S (S A S)^-1 S (b - A x). The residual is summed in
+/// doubled precision from exact products and x carries a low-order part, so the forward error falls to one rounding of
+/// x as long as the factors are worth anything, that is up to condition numbers of about 1e15 (Demmel, Hida, Kahan, Li,
+/// Mukherjee, Riedy, "Error bounds from extra-precise iterative refinement", ACM Trans. Math. Software 32, 2006).
 class RefinedSolver : public LinearSolver {
  public:
   explicit RefinedSolver(const LinearOptions& options) : options_(options) {}
@@ -18,8 +18,8 @@ class RefinedSolver : public LinearSolver {
   double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const final;
 
  protected:
-  /// Each solver's own part; `matrix` is already scaled, its rows and columns never zero in number. `references` (n): what each
-  /// row's pivot is measured against.
+  /// Each solver's own part; `matrix` is already scaled, its rows and columns never zero in number. `references` (n):
+  /// what each row's pivot is measured against.
   virtual void analyse_pattern(const SymmetricMatrix& matrix) = 0;
   virtual FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) = 0;
   virtual void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
@@ -38,9 +38,10 @@ class RefinedSolver : public LinearSolver {
   FactorReport report_;
 };
 
-/// The verdict on pivots (n, by row of the matrix): null where a pivot is zero, not finite, or has lost more than `singular_digits`
-/// whole decimal digits of its reference; else indefinite where one is negative. Pivots much larger than anything in the scaled matrix show
-/// an indefinite matrix factorised without interchanges, on which a small pivot says nothing.
+/// The verdict on pivots (n, by row of the matrix): null where a pivot is zero, not finite, or has lost more than
+/// `singular_digits` whole decimal digits of its reference; else indefinite where one is negative. Pivots much larger
+/// than anything in the scaled matrix show an indefinite matrix factorised without interchanges, on which a small pivot
+/// says nothing.
 FactorReport judge_pivots(const Eigen::VectorXd& pivots, const Eigen::VectorXd& references, int singular_digits);
 
 }  // namespace comma::solver

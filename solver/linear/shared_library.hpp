@@ -5,8 +5,9 @@
 
 namespace comma::solver {
 
-/// A shared library opened at run time. MUMPS, CHOLMOD and the BLAS below them take longer to load (some 5 ms) than a small
-/// scene takes to solve, so the program does not link them. Once loaded they stay: the BLAS starts threads of its own.
+/// A shared library opened at run time. MUMPS, CHOLMOD and the BLAS below them take longer to load (some 5 ms) than a
+/// small scene takes to solve, so the program does not link them. Once loaded they stay: the BLAS starts threads of its
+/// own.
 class SharedLibrary {
  public:
   /// Throws Error `missing-library` naming the file and the loader's reason.

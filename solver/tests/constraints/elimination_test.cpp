@@ -79,7 +79,8 @@ double reduction_error(const Elimination& elimination, unsigned seed) {
 TEST_CASE("imposed degrees of freedom leave the unknowns, the others stay in order") {
   const Scene scene(3, {relation({{0, dx, 2.0}}, 3.0), relation({{1, dy}}, -1.0)});
   CHECK(scene.elimination.full_size() == 6);
-  CHECK(std::vector<int>(scene.elimination.kept().begin(), scene.elimination.kept().end()) == std::vector<int>{1, 2, 4, 5});
+  CHECK(std::vector<int>(scene.elimination.kept().begin(), scene.elimination.kept().end()) ==
+        std::vector<int>{1, 2, 4, 5});
   Eigen::VectorXd expected(6);
   expected << 1.5, 0, 0, -1, 0, 0;
   CHECK(scene.elimination.offset(0.0) == expected);
@@ -93,8 +94,8 @@ TEST_CASE("without conditions nothing is eliminated") {
 }
 
 TEST_CASE("a chain of equalities ends at the imposed value, in whatever order it is written") {
-  std::vector<LinearRelation> relations = {relation({{0, dx}, {1, dx, -1.0}}, 0.0), relation({{1, dx}, {2, dx, -1.0}}, 0.0),
-                                           relation({{2, dx}}, 1.0)};
+  std::vector<LinearRelation> relations = {relation({{0, dx}, {1, dx, -1.0}}, 0.0),
+                                           relation({{1, dx}, {2, dx, -1.0}}, 0.0), relation({{2, dx}}, 1.0)};
   const int turn = GENERATE(0, 1, 2);
   std::rotate(relations.begin(), relations.begin() + turn, relations.end());
   const Scene scene(3, relations);
@@ -157,8 +158,8 @@ TEST_CASE("among equal coefficients the rarer unknown leaves, so that a master s
 }
 
 TEST_CASE("redundant conditions that agree are dropped, also when only to the digits of a decimal fraction") {
-  const Scene scene(2, {relation({{0, dx}}, 1.0 / 3.0), relation({{0, dx, 3.0}}, 1.0), relation({{0, dx}, {1, dx}}, 0.0),
-                        relation({{0, dx, 0.1}, {1, dx, 0.1}}, 0.0)});
+  const Scene scene(2, {relation({{0, dx}}, 1.0 / 3.0), relation({{0, dx, 3.0}}, 1.0),
+                        relation({{0, dx}, {1, dx}}, 0.0), relation({{0, dx, 0.1}, {1, dx, 0.1}}, 0.0)});
   CHECK(scene.elimination.reduced_size() == 2);
   CHECK_NOTHROW(scene.elimination.offset(0.0));
 }
@@ -169,21 +170,25 @@ TEST_CASE("a zero that carries the rounding of a cosine agrees with zero") {
 }
 
 TEST_CASE("contradictory values name node, component, values and both origins") {
-  const std::string message = message_of(3, {relation({{2, dx}}, 1.0, "a.comm:4, DDL_IMPO"), relation({{2, dx}}, 2.0, "a.comm:9, DDL_IMPO")});
+  const std::string message =
+      message_of(3, {relation({{2, dx}}, 1.0, "a.comm:4, DDL_IMPO"), relation({{2, dx}}, 2.0, "a.comm:9, DDL_IMPO")});
   CHECK(message ==
-        "contradictory-conditions: conditions contradict each other: DX at N3 = 1 (a.comm:4, DDL_IMPO); DX at N3 = 2 (a.comm:9, "
+        "contradictory-conditions: conditions contradict each other: DX at N3 = 1 (a.comm:4, DDL_IMPO); DX at N3 = 2 "
+        "(a.comm:9, "
         "DDL_IMPO)");
 }
 
 TEST_CASE("a contradiction through relations names all that take part and no other") {
-  const std::string message = message_of(3, {relation({{0, dx}}, 1.0, "first"), relation({{1, dx}}, 2.0, "second"),
-                                             relation({{2, dy}}, 5.0, "bystander"), relation({{0, dx}, {1, dx, -1.0}}, 0.0, "third")});
+  const std::string message =
+      message_of(3, {relation({{0, dx}}, 1.0, "first"), relation({{1, dx}}, 2.0, "second"),
+                     relation({{2, dy}}, 5.0, "bystander"), relation({{0, dx}, {1, dx, -1.0}}, 0.0, "third")});
   CHECK_THAT(message, Catch::Contains("DX at N1 = 1 (first)") && Catch::Contains("DX at N2 = 2 (second)") &&
                           Catch::Contains("DX at N1 - DX at N2 = 0 (third)") && !Catch::Contains("bystander"));
 }
 
 TEST_CASE("a relation without a left-hand side cannot be 1") {
-  CHECK_THAT(message_of(2, {relation({{0, dx}, {0, dx, -1.0}}, 1.0, "a.comm:4")}), Catch::Contains("cannot hold") && Catch::Contains("a.comm:4"));
+  CHECK_THAT(message_of(2, {relation({{0, dx}, {0, dx, -1.0}}, 1.0, "a.comm:4")}),
+             Catch::Contains("cannot hold") && Catch::Contains("a.comm:4"));
   CHECK(message_of(2, {relation({{0, dx}, {0, dx, -1.0}}, 0.0)}) == "no error");
 }
 
@@ -197,7 +202,8 @@ TEST_CASE("functions give the value at their node and time, multipliers scale it
   const DofMap dofs(model);
   LinearRelation moving = relation({{2, dx}}, 99.0);
   moving.function = [](const Point& at, double time) { return at[0] + 10.0 * time; };
-  const Elimination elimination(*model.mesh, dofs, applied({moving, relation({{0, dy}}, 4.0)}, [](double time) { return time / 2.0; }));
+  const Elimination elimination(*model.mesh, dofs,
+                                applied({moving, relation({{0, dy}}, 4.0)}, [](double time) { return time / 2.0; }));
   for (const double time : {0.0, 1.0, 3.0}) {
     const Eigen::VectorXd g = elimination.offset(time);
     CHECK(g[dofs.dof(2, dx)] == (2.0 + 10.0 * time) * time / 2.0);
@@ -213,10 +219,12 @@ TEST_CASE("conditions that agree at first and part later are an error at that ti
   loads.insert(loads.end(), fixed.begin(), fixed.end());
   const Elimination elimination(*model.mesh, dofs, loads);
   CHECK(elimination.offset(1.0)[0] == 1.0);
-  CHECK_THROWS_WITH(elimination.offset(2.0), Catch::Contains("at time 2") && Catch::Contains("ramp") && Catch::Contains("fixed"));
+  CHECK_THROWS_WITH(elimination.offset(2.0),
+                    Catch::Contains("at time 2") && Catch::Contains("ramp") && Catch::Contains("fixed"));
 }
 
-TEST_CASE("the reduced matrix is the dense T^T K T, for selections and for relations, and follows a change of pattern") {
+TEST_CASE(
+    "the reduced matrix is the dense T^T K T, for selections and for relations, and follows a change of pattern") {
   const Scene selection(6, {relation({{0, dx}}, 0.0), relation({{3, dy}}, 1.0), relation({{5, dx}}, 0.0)});
   const Scene relations(6, {relation({{0, dx}}, 0.0), relation({{1, dx}, {2, dx, -2.0}, {3, dy, 0.5}}, 1.0),
                             relation({{4, dx}, {1, dx, 3.0}}, 0.0)});

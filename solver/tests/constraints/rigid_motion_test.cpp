@@ -16,13 +16,18 @@ constexpr auto dz = Component::dz;
 
 /// Nodes joined by bars of a stiffness, and conditions on them.
 struct Truss {
-  Truss(const std::vector<Point>& points, const std::vector<std::pair<int, int>>& bars, const std::vector<LinearRelation>& relations,
-        double bar_stiffness = 2e9 / 3.0, Formulation formulation = Formulation::spring_2d)
-      : model(nodes_with_springs(points, formulation)), dofs(model), elimination(*model.mesh, dofs, applied(relations)) {
+  Truss(const std::vector<Point>& points, const std::vector<std::pair<int, int>>& bars,
+        const std::vector<LinearRelation>& relations, double bar_stiffness = 2e9 / 3.0,
+        Formulation formulation = Formulation::spring_2d)
+      : model(nodes_with_springs(points, formulation)),
+        dofs(model),
+        elimination(*model.mesh, dofs, applied(relations)) {
     const int dimension = model.mesh->dimension;
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(dofs.size(), dofs.size());
     for (const auto& [a, b] : bars) {
-      const Eigen::Vector3d axis = (Eigen::Map<const Eigen::Vector3d>(points[b].data()) - Eigen::Map<const Eigen::Vector3d>(points[a].data())).normalized();
+      const Eigen::Vector3d axis =
+          (Eigen::Map<const Eigen::Vector3d>(points[b].data()) - Eigen::Map<const Eigen::Vector3d>(points[a].data()))
+              .normalized();
       const Eigen::VectorXd direction = axis.head(dimension);
       const Eigen::MatrixXd block = bar_stiffness * direction * direction.transpose();
       dense.block(a * dimension, a * dimension, dimension, dimension) += block;
@@ -72,7 +77,8 @@ TEST_CASE("a body that slides names the direction and the remedy") {
   REQUIRE(report.verdict == FactorVerdict::singular);
   const Error error = singular_matrix_error(*truss.model.mesh, truss.dofs, truss.elimination, truss.stiffness, report);
   CHECK(error.code() == "singular-matrix");
-  CHECK(error.what() == std::string("the stiffness is singular: nothing holds N1, N2, N3, N4 (4 nodes): translation along X"));
+  CHECK(error.what() ==
+        std::string("the stiffness is singular: nothing holds N1, N2, N3, N4 (4 nodes): translation along X"));
   CHECK(error.hint() == "impose DX on one of its nodes, or add a spring");
 }
 
@@ -107,14 +113,17 @@ TEST_CASE("only the free one of two bodies is named, however stiff the other") {
 
 TEST_CASE("two bodies hung on the same fixed node swing each for itself") {
   const std::vector<Point> points = {{0, 0, 0}, {-1, -2, 0}, {0, -2, 0}, {1, -2, 0}, {2, -2, 0}};
-  const auto parts = Truss(points, {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {0, 4}, {3, 4}}, {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0)}).free_parts();
+  const auto parts = Truss(points, {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {0, 4}, {3, 4}},
+                           {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0)})
+                         .free_parts();
   REQUIRE(parts.size() == 2);
   for (const FreePart& part : parts) CHECK(part.motions == Strings{"rotation about Z through (0, 0)"});
 }
 
 TEST_CASE("a parallelogram of bars sways, and only its moving side is named") {
-  const Truss truss(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
-                    {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0), relation({{1, dx}}, 0.0), relation({{1, dy}}, 0.0)});
+  const Truss truss(
+      square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+      {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0), relation({{1, dx}}, 0.0), relation({{1, dy}}, 0.0)});
   const auto parts = truss.free_parts();
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].nodes == std::vector<int>{2, 3});
@@ -123,7 +132,8 @@ TEST_CASE("a parallelogram of bars sways, and only its moving side is named") {
 
 TEST_CASE("nodes that move in ratios are a mechanism, and those that move most are named") {
   const std::vector<Point> row = {{0, 0, 0}, {1, 0, 0}, {5, 0, 0}};
-  std::vector<LinearRelation> relations = {relation({{1, dx}, {0, dx, -3.0}}, 0.0), relation({{2, dx}, {1, dx, -2.0}}, 0.0)};
+  std::vector<LinearRelation> relations = {relation({{1, dx}, {0, dx, -3.0}}, 0.0),
+                                           relation({{2, dx}, {1, dx, -2.0}}, 0.0)};
   for (int node = 0; node < 3; ++node) relations.push_back(relation({{node, dy}}, 0.0));
   const auto parts = Truss(row, {}, relations).free_parts();
   REQUIRE(parts.size() == 1);
@@ -137,7 +147,8 @@ TEST_CASE("a node without stiffness moves in every direction") {
   std::vector<Point> points = square;
   points.push_back({7, 7, 0});
   const auto parts =
-      Truss(points, braced, {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0), relation({{1, dy}}, 0.0)}).free_parts();
+      Truss(points, braced, {relation({{0, dx}}, 0.0), relation({{0, dy}}, 0.0), relation({{1, dy}}, 0.0)})
+          .free_parts();
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].nodes == std::vector<int>{4});
   CHECK(parts[0].motions == Strings{"translation along X", "translation along Y"});
@@ -146,9 +157,10 @@ TEST_CASE("a node without stiffness moves in every direction") {
 TEST_CASE("a body tied to a free one by relations moves with it") {
   std::vector<Point> points = square;
   points.push_back({100, 0, 0});
-  const auto parts =
-      Truss(points, braced, {relation({{0, dy}}, 0.0), relation({{1, dy}}, 0.0), relation({{4, dy}}, 0.0), relation({{4, dx}, {1, dx, -1.0}}, 0.0)})
-          .free_parts();
+  const auto parts = Truss(points, braced,
+                           {relation({{0, dy}}, 0.0), relation({{1, dy}}, 0.0), relation({{4, dy}}, 0.0),
+                            relation({{4, dx}, {1, dx, -1.0}}, 0.0)})
+                         .free_parts();
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].motions == Strings{"translation along X"});
   CHECK(parts[0].nodes == std::vector<int>{0, 1, 2, 3, 4});
@@ -157,8 +169,8 @@ TEST_CASE("a body tied to a free one by relations moves with it") {
 TEST_CASE("a solid that nothing holds has six rigid motions") {
   const auto parts = Truss(corner, tetrahedron, {}, 1.0 / 3.0, Formulation::spring_3d).free_parts();
   REQUIRE(parts.size() == 1);
-  CHECK(parts[0].motions == Strings{"translation along X", "translation along Y", "translation along Z", "rotation about X",
-                                    "rotation about Y", "rotation about Z"});
+  CHECK(parts[0].motions == Strings{"translation along X", "translation along Y", "translation along Z",
+                                    "rotation about X", "rotation about Y", "rotation about Z"});
 }
 
 TEST_CASE("a solid on two fixed nodes turns about the line through them") {

@@ -22,7 +22,8 @@ inline Model nodes_with_springs(const std::vector<Point>& points, Formulation fo
   model.mesh = std::make_shared<Mesh>();
   model.mesh->dimension = formulation == Formulation::spring_2d ? 2 : 3;
   model.mesh->nodes = points;
-  for (int node = 0; node < static_cast<int>(points.size()); ++node) model.mesh->add_cell(CellType::poi1, std::vector<int>{node});
+  for (int node = 0; node < static_cast<int>(points.size()); ++node)
+    model.mesh->add_cell(CellType::poi1, std::vector<int>{node});
   model.formulations.assign(points.size(), formulation);
   return model;
 }

@@ -113,7 +113,8 @@ TEST_CASE("refinement reaches full accuracy on Hilbert matrices up to a conditio
   // The entries of the Hilbert matrix times lcm(1 .. 2n-1) are integers: rows times a vector of ones have no rounding.
   double multiple = 1.0;
   for (int i = 1; i <= 2 * n - 1; ++i) multiple = std::lcm(static_cast<long>(multiple), static_cast<long>(i));
-  const Eigen::MatrixXd hilbert = Eigen::MatrixXd::NullaryExpr(n, n, [&](auto i, auto j) { return multiple / (i + j + 1.0); });
+  const Eigen::MatrixXd hilbert =
+      Eigen::MatrixXd::NullaryExpr(n, n, [&](auto i, auto j) { return multiple / (i + j + 1.0); });
   LinearOptions options;
   options.singular_digits = -1;
   auto solver = make_linear_solver(method, options);
@@ -180,7 +181,8 @@ TEST_CASE("the digits lost on a pivot decide about singularity, and a negative l
   LinearOptions options;
   auto solver = make_linear_solver(method, options);
   solver->analyse(lower_triangle(dense));
-  CHECK(solver->factorise(lower_triangle(dense)).verdict == (weak < 1e-8 ? FactorVerdict::singular : FactorVerdict::ok));
+  CHECK(solver->factorise(lower_triangle(dense)).verdict ==
+        (weak < 1e-8 ? FactorVerdict::singular : FactorVerdict::ok));
   options.singular_digits = -1;
   solver = make_linear_solver(method, options);
   solver->analyse(lower_triangle(dense));

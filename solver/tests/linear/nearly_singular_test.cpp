@@ -1,11 +1,12 @@
-// The founding scene's matrix: a body of 2e9 Pa that springs of 10 N/m alone keep in place sideways, pressed on a body of 2e16 Pa.
+// The founding scene's matrix: a body of 2e9 Pa that springs of 10 N/m alone keep in place sideways, pressed on a body
+// of 2e16 Pa.
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <vector>
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/linear/linear_solver.hpp"
@@ -14,12 +15,12 @@ using namespace comma::solver;
 
 namespace {
 
-constexpr double side = 50.0;          // m
-constexpr double soft_modulus = 2e9;   // Pa
+constexpr double side = 50.0;         // m
+constexpr double soft_modulus = 2e9;  // Pa
 constexpr double stiff_modulus = 2e16;
 constexpr double poisson = 0.3;
-constexpr double spring = 10.0;        // N/m
-constexpr double descent = 20.0;       // m
+constexpr double spring = 10.0;   // N/m
+constexpr double descent = 20.0;  // m
 // The lateral strain of a plane-strain body between frictionless plates is nu / (1 - nu) times the compression.
 const double widening = poisson / (1.0 - poisson) * descent / 2.0;
 
@@ -41,7 +42,8 @@ ElementMatrix square_stiffness(Extended modulus) {
     for (const Extended y : {-gauss, gauss}) {
       Eigen::Matrix<Extended, 3, 8> strain = Eigen::Matrix<Extended, 3, 8>::Zero();
       for (int a = 0; a < 4; ++a) {
-        const Extended slope_x = corner_x[a] * (1.0L + corner_y[a] * y) / 4.0L, slope_y = corner_y[a] * (1.0L + corner_x[a] * x) / 4.0L;
+        const Extended slope_x = corner_x[a] * (1.0L + corner_y[a] * y) / 4.0L,
+                       slope_y = corner_y[a] * (1.0L + corner_x[a] * x) / 4.0L;
         strain(0, 2 * a) = strain(2, 2 * a + 1) = slope_x;
         strain(1, 2 * a + 1) = strain(2, 2 * a) = slope_y;
       }
@@ -51,8 +53,8 @@ ElementMatrix square_stiffness(Extended modulus) {
   return stiffness;
 }
 
-/// Two bodies of cells x cells elements, the soft one (nodes first) on y in [0, side], the stiff one below it; they touch along
-/// y = 0 in nodes of their own.
+/// Two bodies of cells x cells elements, the soft one (nodes first) on y in [0, side], the stiff one below it; they
+/// touch along y = 0 in nodes of their own.
 struct Scene {
   explicit Scene(int cells) : cells_(cells) {
     model.mesh = std::make_shared<Mesh>();
@@ -71,7 +73,8 @@ struct Scene {
     const int first = model.mesh->node_count();
     const double step = side / cells_;
     for (int row = 0; row <= cells_; ++row) {
-      for (int column = 0; column <= cells_; ++column) model.mesh->nodes.push_back({column * step - side / 2, bottom + row * step, 0});
+      for (int column = 0; column <= cells_; ++column)
+        model.mesh->nodes.push_back({column * step - side / 2, bottom + row * step, 0});
     }
     for (int row = 0; row < cells_; ++row) {
       for (int column = 0; column < cells_; ++column) {
@@ -110,8 +113,10 @@ struct Scene {
     auto load = std::make_shared<Load>();
     for (int column = 0; column <= cells_; ++column) {
       load->relations.push_back({{{node(0, column, cells_), Component::dy, 1.0}}, -descent, {}, {}});
-      load->relations.push_back({{{node(0, column, 0), Component::dy, 1.0}, {node(1, column, cells_), Component::dy, -1.0}}, 0.0, {}, {}});
-      for (const auto component : {Component::dx, Component::dy}) load->relations.push_back({{{node(1, column, 0), component, 1.0}}, 0.0, {}, {}});
+      load->relations.push_back(
+          {{{node(0, column, 0), Component::dy, 1.0}, {node(1, column, cells_), Component::dy, -1.0}}, 0.0, {}, {}});
+      for (const auto component : {Component::dx, Component::dy})
+        load->relations.push_back({{{node(1, column, 0), component, 1.0}}, 0.0, {}, {}});
     }
     return {AppliedLoad{load, {}}};
   }
@@ -214,8 +219,10 @@ TEST_CASE("the figures of docs/linear_solvers.md", "[.figures]") {
           options.refinement_steps = steps;
           options.equilibrate = equilibrate;
           const Outcome outcome = solve(scene, cells, method, options);
-          fmt::print("{0} x {0} cells, {1:8} scaled {2:5} refined {3:5}: asymmetry {4:.1e} m, lost digits {5}, {6:.2f} ms\n", cells,
-                     name_of(method), equilibrate, steps > 0, outcome.asymmetry, outcome.report.lost_digits, 1e3 * outcome.seconds);
+          fmt::print(
+              "{0} x {0} cells, {1:8} scaled {2:5} refined {3:5}: asymmetry {4:.1e} m, lost digits {5}, {6:.2f} ms\n",
+              cells, name_of(method), equilibrate, steps > 0, outcome.asymmetry, outcome.report.lost_digits,
+              1e3 * outcome.seconds);
         }
       }
     }
@@ -227,7 +234,8 @@ TEST_CASE("the times of docs/linear_solvers.md", "[.figures]") {
     const Scene scene(cells);
     for (const LinearMethod method : {LinearMethod::mumps, LinearMethod::cholmod, LinearMethod::eigen_ldlt}) {
       const Outcome outcome = solve(scene, cells, method, {.singular_digits = -1});
-      fmt::print("plane, {:6} unknowns, {:8}: {:8.2f} ms\n", scene.elimination->reduced_size(), name_of(method), 1e3 * outcome.seconds);
+      fmt::print("plane, {:6} unknowns, {:8}: {:8.2f} ms\n", scene.elimination->reduced_size(), name_of(method),
+                 1e3 * outcome.seconds);
     }
   }
   for (const int cells : {3, 6, 9, 14, 20}) {

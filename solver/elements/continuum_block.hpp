@@ -1,0 +1,262 @@
+// Solids and plane or axisymmetric bodies in small strains: one template on dimension, number of nodes and axisymmetry. Only
+// continuum_plane.cpp and continuum_solid.cpp include it, each to make its blocks.
+#pragma once
+
+#include <array>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/elements/element_block.hpp"
+#include "solver/elements/quadrature.hpp"
+#include "solver/elements/reference_element.hpp"
+#include "solver/elements/translation.hpp"
+#include "solver/error.hpp"
+#include "solver/materials/elasticity.hpp"
+
+namespace comma::solver {
+
+inline constexpr std::array<std::string_view, 4> plane_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY"};
+inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
+
+template <int Dim, int Nodes, bool Axisymmetric>
+class ContinuumBlock final : public ElementBlock {
+  static constexpr int strains = Dim == 3 ? 6 : 4;
+  static constexpr int size = Nodes * Dim;
+  using Coordinates = Eigen::Matrix<double, Nodes, Dim>;  // one node a row; also displacements and gradients of N
+  using Strain = Eigen::Matrix<double, strains, 1>;
+  using Law = Eigen::Matrix<double, strains, strains>;
+  using StrainRow = Eigen::Matrix<double, strains, Dim>;  // the strain that one node's displacement causes
+  using Stiffness = Eigen::Matrix<double, size, size>;
+
+  /// Shape functions and their derivatives at one integration point of the reference cell.
+  struct Sample {
+    double weight;
+    Eigen::Matrix<double, Nodes, 1> values;
+    Coordinates derivatives;
+  };
+
+  /// The same in the real cell.
+  struct Point {
+    double weight;  ///< volume that the point stands for (per radian, if axisymmetric)
+    double radius;
+    Coordinates gradients;
+  };
+
+ public:
+  ContinuumBlock(const BlockInput& input, std::vector<int> cells)
+      : mesh_(*input.model.mesh),
+        cells_(std::move(cells)),
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), Nodes, gather_nodes(mesh_, cells_)) {
+    const CellType type = mesh_.cell_types[cells_.front()];
+    for (const auto& point : quadrature(type, stiffness_family(type, input.model.formulations[cells_.front()]))) {
+      samples_.push_back({point.weight, shape_functions(type, point.at), shape_derivatives(type, point.at)});
+    }
+    collect_laws(input);
+    for (int element = 0; element < map_.element_count(); ++element) check_geometry(element);
+  }
+
+  void add_stiffness(const Eigen::VectorXd&, std::span<const int> column_starts, double* values) const override {
+    Stiffness k;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      element_stiffness(element, k);
+      map_.add(element, k.data(), column_starts, values);
+    }
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Coordinates force = element_forces(element, relative_displacements(u, dofs));
+      scatter_forces(force, dofs, forces);
+    }
+  }
+
+  std::span<const int> cells() const override { return cells_; }
+  int point_count() const override { return static_cast<int>(samples_.size()); }
+  std::span<const std::string_view> stress_names() const override {
+    if constexpr (Dim == 3) return solid_stress_names;
+    return plane_stress_names;
+  }
+  bool is_linear() const override { return true; }
+
+  void stresses(const Eigen::VectorXd& u, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Displacements displacements = relative_displacements(u, dofs);
+      const Coordinates x = coordinates(element);
+      for (const Sample& sample : samples_) {
+        Eigen::Map<Strain>(target).noalias() = law(element) * strain(displacements, sample, locate(x, sample));
+        target += strains;
+      }
+    }
+  }
+
+ private:
+  /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing. The
+  /// radial displacement is absolute as well, for the hoop strain.
+  struct Displacements {
+    Coordinates relative;
+    Eigen::Matrix<double, Nodes, 1> radial;
+  };
+
+  /// Hooke's law once for each distinct material.
+  void collect_laws(const BlockInput& input) {
+    std::unordered_map<const IsotropicElasticity*, int> known;
+    const Formulation formulation = input.model.formulations[cells_.front()];
+    for (const int cell : cells_) {
+      const IsotropicElasticity& elasticity = elasticity_of(input, cell);
+      const auto [entry, is_new] = known.try_emplace(&elasticity, static_cast<int>(laws_.size()));
+      if (is_new) laws_.push_back(make_law(elasticity, formulation));
+      law_of_element_.push_back(entry->second);
+    }
+  }
+
+  static Law make_law(const IsotropicElasticity& elasticity, Formulation formulation) {
+    if constexpr (Dim == 3) return solid_stiffness(elasticity);
+    else if (formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced)
+      return plane_stress_stiffness(elasticity);
+    else return plane_strain_stiffness(elasticity);
+  }
+
+  const Law& law(int element) const { return laws_[law_of_element_[element]]; }
+
+  Coordinates coordinates(int element) const {
+    Coordinates x;
+    const auto nodes = map_.nodes(element);
+    for (int a = 0; a < Nodes; ++a) {
+      for (int j = 0; j < Dim; ++j) x(a, j) = mesh_.nodes[nodes[a]][j];
+    }
+    return x;
+  }
+
+  /// A cell may be numbered either way round, but its orientation must not change from point to point.
+  void check_geometry(int element) const {
+    const Coordinates x = coordinates(element);
+    double sign = 0.0;
+    for (const Sample& sample : samples_) {
+      const double jacobian = (sample.derivatives.transpose() * x).eval().determinant();
+      if (!(jacobian * sign > 0.0 || (sign == 0.0 && jacobian != 0.0))) {
+        throw Error("distorted-cell", fmt::format("cell {} is flat or folded: its Jacobian is {} at an integration point",
+                                                  mesh_.cell_name(cells_[element]), jacobian));
+      }
+      sign = jacobian;
+      if (Axisymmetric && !(sample.values.dot(x.col(0)) > 0.0)) {
+        throw Error("distorted-cell", fmt::format("axisymmetric cell {} reaches the side of negative radii (X < 0)",
+                                                  mesh_.cell_name(cells_[element])));
+      }
+    }
+  }
+
+  static Point locate(const Coordinates& x, const Sample& sample) {
+    Point point;
+    const Eigen::Matrix<double, Dim, Dim> jacobian = sample.derivatives.transpose() * x;
+    point.gradients.noalias() = sample.derivatives * jacobian.inverse().transpose();
+    point.radius = Axisymmetric ? sample.values.dot(x.col(0)) : 1.0;
+    point.weight = sample.weight * std::abs(jacobian.determinant()) * point.radius;
+    return point;
+  }
+
+  static StrainRow strain_row(const Sample& sample, const Point& point, int a) {
+    StrainRow row = StrainRow::Zero();
+    const auto g = point.gradients.row(a);
+    row(0, 0) = g(0);
+    row(1, 1) = g(1);
+    row(3, 0) = g(1);
+    row(3, 1) = g(0);
+    if constexpr (Axisymmetric) row(2, 0) = sample.values(a) / point.radius;
+    if constexpr (Dim == 3) {
+      row(2, 2) = g(2);
+      row(4, 0) = g(2);
+      row(4, 2) = g(0);
+      row(5, 1) = g(2);
+      row(5, 2) = g(1);
+    }
+    return row;
+  }
+
+  void element_stiffness(int element, Stiffness& k) const {
+    const Coordinates x = coordinates(element);
+    const Law& d = law(element);
+    k.setZero();
+    std::array<StrainRow, Nodes> rows;
+    for (const Sample& sample : samples_) {
+      const Point point = locate(x, sample);
+      for (int a = 0; a < Nodes; ++a) rows[a] = strain_row(sample, point, a);
+      for (int b = 0; b < Nodes; ++b) {
+        const StrainRow stress = point.weight * (d * rows[b]);
+        for (int a = b; a < Nodes; ++a) {
+          k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * stress;
+        }
+      }
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    make_translation_exact<Nodes, Dim>(k, invariant_directions());
+  }
+
+  static constexpr std::array<bool, Dim> invariant_directions() {
+    std::array<bool, Dim> invariant{};
+    for (int d = 0; d < Dim; ++d) invariant[d] = !(Axisymmetric && d == 0);
+    return invariant;
+  }
+
+  static Displacements relative_displacements(const Eigen::VectorXd& u, const std::array<int, size>& dofs) {
+    Displacements result;
+    for (int a = 0; a < Nodes; ++a) {
+      for (int j = 0; j < Dim; ++j) result.relative(a, j) = u[dofs[a * Dim + j]] - u[dofs[(Nodes - 1) * Dim + j]];
+      result.radial(a) = u[dofs[a * Dim]];
+    }
+    return result;
+  }
+
+  static Strain strain(const Displacements& u, const Sample& sample, const Point& point) {
+    const Eigen::Matrix<double, Dim, Dim> h = u.relative.transpose() * point.gradients;  // h(i, j) = du_i / dx_j
+    Strain e = Strain::Zero();
+    e(0) = h(0, 0);
+    e(1) = h(1, 1);
+    e(3) = h(0, 1) + h(1, 0);
+    if constexpr (Axisymmetric) e(2) = sample.values.dot(u.radial) / point.radius;
+    if constexpr (Dim == 3) {
+      e(2) = h(2, 2);
+      e(4) = h(0, 2) + h(2, 0);
+      e(5) = h(1, 2) + h(2, 1);
+    }
+    return e;
+  }
+
+  Coordinates element_forces(int element, const Displacements& u) const {
+    const Coordinates x = coordinates(element);
+    Coordinates force = Coordinates::Zero();
+    for (const Sample& sample : samples_) {
+      const Point point = locate(x, sample);
+      const Strain stress = point.weight * (law(element) * strain(u, sample, point));
+      for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(sample, point, a).transpose() * stress).transpose();
+    }
+    return force;
+  }
+
+  /// The force on the last node balances the others exactly (see translation.hpp).
+  static void scatter_forces(const Coordinates& force, const std::array<int, size>& dofs, ForceSum forces) {
+    for (int j = 0; j < Dim; ++j) {
+      long double sum = 0.0L;
+      for (int a = 0; a < Nodes - 1; ++a) {
+        forces[dofs[a * Dim + j]] += force(a, j);
+        sum += force(a, j);
+      }
+      forces[dofs[(Nodes - 1) * Dim + j]] += invariant_directions()[j] ? -sum : static_cast<long double>(force(Nodes - 1, j));
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<int> cells_;
+  ElementMap map_;
+  std::vector<Sample> samples_;
+  std::vector<Law> laws_;
+  std::vector<int> law_of_element_;
+};
+
+}  // namespace comma::solver
