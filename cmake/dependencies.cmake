@@ -11,11 +11,15 @@ find_path(MED_INCLUDE_DIR med.h REQUIRED)
 # The shared MED library of Debian hangs on the HDF5 built with Open MPI, which costs every start of the program the loading
 # of MPI. The archive leaves its one parallel function out of the link and works with the serial HDF5 of the same version.
 find_library(MED_LIBRARY NAMES libmedC.a REQUIRED)
+# HDF5 as an archive too: the shared one brings libraries for remote files (curl, OpenSSL, Kerberos) that take another 5 ms of
+# every start.
 find_path(HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
-find_library(HDF5_LIBRARY NAMES hdf5_serial hdf5 REQUIRED)
+find_library(HDF5_LIBRARY NAMES libhdf5.a PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(Z_LIBRARY z REQUIRED)
+find_library(SZ_LIBRARY sz REQUIRED)
 add_library(comma_med INTERFACE)
 target_include_directories(comma_med SYSTEM INTERFACE ${MED_INCLUDE_DIR} ${HDF5_INCLUDE_DIR})
-target_link_libraries(comma_med INTERFACE ${MED_LIBRARY} ${HDF5_LIBRARY})
+target_link_libraries(comma_med INTERFACE ${MED_LIBRARY} ${HDF5_LIBRARY} ${SZ_LIBRARY} ${Z_LIBRARY} Threads::Threads ${CMAKE_DL_LIBS})
 
 # MUMPS and CHOLMOD are opened at run time (solver/linear/shared_library.hpp): linked, they and their BLAS would add some
 # 5 ms to the start of every run.
@@ -35,4 +39,5 @@ if(COMMA_TESTS)
   find_path(CATCH2_INCLUDE_DIR catch2/catch.hpp REQUIRED)
   add_library(comma_test_main STATIC ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
   target_include_directories(comma_test_main SYSTEM PUBLIC ${CATCH2_INCLUDE_DIR})
+  target_compile_options(comma_test_main PRIVATE -O0)
 endif()

@@ -1,4 +1,5 @@
 #include "solver/constraints/rigid_modes.hpp"
+#include "solver/linear/symmetric_eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,9 +76,9 @@ Eigen::MatrixXd admissible_modes(const Mesh& mesh, const DofMap& dofs, const Eli
       scale += rigid.squaredNorm();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<ModeMatrix> spectrum(mismatch);
-  const auto count = (spectrum.eigenvalues().array() <= rank_tolerance * scale).count();
-  return spectrum.eigenvectors().leftCols(count);
+  const SymmetricEigen spectrum = symmetric_eigen(mismatch);
+  const auto count = (spectrum.values.array() <= rank_tolerance * scale).count();
+  return spectrum.vectors.leftCols(count);
 }
 
 PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
@@ -257,18 +258,18 @@ std::vector<RigidMotion> free_rigid_motions(const Mesh& mesh, const DofMap& dofs
 
   // An orthonormal basis of the admissible motions that the unknowns see: R W V / sqrt(Lambda).
   const Eigen::MatrixXd seen = part.values * part.admissible;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(seen.transpose() * seen);
-  const auto rank = (gram.eigenvalues().array() > rank_tolerance * static_cast<double>(unknowns.size())).count();
-  const Eigen::VectorXd lengths = gram.eigenvalues().tail(rank).cwiseSqrt();
-  const Eigen::MatrixXd directions = part.admissible * gram.eigenvectors().rightCols(rank);
+  const SymmetricEigen gram = symmetric_eigen(seen.transpose() * seen);
+  const auto rank = (gram.values.array() > rank_tolerance * static_cast<double>(unknowns.size())).count();
+  const Eigen::VectorXd lengths = gram.values.tail(rank).cwiseSqrt();
+  const Eigen::MatrixXd directions = part.admissible * gram.vectors.rightCols(rank);
   const Eigen::MatrixXd from_basis = directions * lengths.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd to_basis = lengths.asDiagonal() * directions.transpose();
   if (rank == 0) return {};
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(from_basis.transpose() * energies.energy * from_basis);
+  const SymmetricEigen spectrum = symmetric_eigen(from_basis.transpose() * energies.energy * from_basis);
   const double limit = tolerance * energies.largest_diagonal / static_cast<double>(unknowns.size());
-  const auto free_count = (spectrum.eigenvalues().array() <= limit).count();
-  return readable_motions(NullSpace(spectrum.eigenvectors().leftCols(free_count)), part, from_basis, to_basis);
+  const auto free_count = (spectrum.values.array() <= limit).count();
+  return readable_motions(NullSpace(spectrum.vectors.leftCols(free_count)), part, from_basis, to_basis);
 }
 
 }  // namespace comma::solver
