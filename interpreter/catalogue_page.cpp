@@ -111,10 +111,10 @@ KeywordPage keyword_from(const std::string& name, const Json& json) {
 }
 
 RulePage rule_from(const Json& json) {
-  const auto& [word, keywords] = *json.items().begin();
-  const auto kind = rule_named(word);
-  if (!kind) throw std::runtime_error("catalogue: no rule is called " + word);
-  return {*kind, texts(keywords)};
+  const auto rule = json.begin();
+  const auto kind = rule_named(rule.key());
+  if (!kind) throw std::runtime_error("catalogue: no rule is called " + rule.key());
+  return {*kind, texts(rule.value())};
 }
 
 BlockPage block_from(const Json& json) {

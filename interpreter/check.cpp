@@ -10,6 +10,7 @@
 
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
+#include "interpreter/dict.hpp"
 
 namespace comma::interpreter {
 namespace {
@@ -59,13 +60,25 @@ struct Occurrence {
   Span span;
 };
 
+/// A dict with text keys stands for _F(...) too.
+std::optional<Occurrence> occurrence_of_dict(const Dict& dict, const Span& span) {
+  Occurrence occurrence{{}, span};
+  for (const Dict::Entry& entry : dict.entries()) {
+    if (!entry.live) continue;
+    if (!entry.key.is_text()) return std::nullopt;
+    occurrence.arguments.push_back({entry.key.as_text(), span, std::make_shared<const Value>(entry.value), span});
+  }
+  return occurrence;
+}
+
 std::optional<Occurrence> occurrence_of(const Value& value, const Span& otherwise) {
+  if (value.is_dict()) return occurrence_of_dict(value.as_dict(), otherwise);
   if (!value.is_factor()) return std::nullopt;
   const Factor& factor = value.as_factor();
   return Occurrence{factor.arguments, factor.span ? factor.span : otherwise};
 }
 
-/// A single _F(...), or a tuple or list of them; unknown ones are left out.
+/// A single _F(...) or dict, or a tuple or list of them; unknown ones are left out.
 std::optional<std::vector<Occurrence>> occurrences_of(const Value& value, const Span& span) {
   std::vector<Value> items{value};
   if (value.is_sequence()) items.assign(value.items().begin(), value.items().end());
@@ -101,7 +114,7 @@ class LevelCheck {
 
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
-  static Value seen_by_conditions(const Value& value) { return value.is_factor() ? Value(true) : value; }
+  static Value seen_by_conditions(const Value& value) { return value.is_factor() || value.is_dict() ? Value(true) : value; }
 
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
@@ -191,7 +204,7 @@ class LevelCheck {
   }
 
   void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count, const Span& span) {
-    const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "_F(...)");
+    const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "occurrence");
     const bool too_many = keyword.max_count != unlimited && count > static_cast<std::size_t>(keyword.max_count);
     if (too_many)
       context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count), span);

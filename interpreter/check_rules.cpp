@@ -7,7 +7,7 @@
 namespace comma::interpreter {
 namespace {
 
-using Kind = RulePage::Kind;
+using RuleKind = RulePage::Kind;
 
 std::string joined(const std::vector<std::string>& names, std::size_t first = 0) {
   return fmt::format("{}", fmt::join(names.begin() + static_cast<std::ptrdiff_t>(first), names.end(), ", "));
@@ -25,13 +25,13 @@ class RuleCheck {
 
   void run() {
     switch (rule_.kind) {
-      case Kind::exactly_one: at_least_one(), at_most_one(); return;
-      case Kind::at_least_one: at_least_one(); return;
-      case Kind::at_most_one: at_most_one(); return;
-      case Kind::all_or_none: all_or_none(); return;
-      case Kind::requires_all: requires_all(); return;
-      case Kind::requires_one: requires_one(); return;
-      case Kind::excludes: excludes(); return;
+      case RuleKind::exactly_one: at_least_one(), at_most_one(); return;
+      case RuleKind::at_least_one: at_least_one(); return;
+      case RuleKind::at_most_one: at_most_one(); return;
+      case RuleKind::all_or_none: all_or_none(); return;
+      case RuleKind::requires_all: requires_all(); return;
+      case RuleKind::requires_one: requires_one(); return;
+      case RuleKind::excludes: excludes(); return;
     }
   }
 
@@ -42,7 +42,8 @@ class RuleCheck {
   }
 
   void at_least_one() {
-    if (present_.empty()) diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
+    if (!present_.empty()) return;
+    diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
   }
 
   void at_most_one() {
@@ -101,13 +102,13 @@ void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyw
 std::string describe_rule(const RulePage& rule) {
   const std::string all = joined(rule.keywords);
   switch (rule.kind) {
-    case Kind::exactly_one: return "exactly one of " + all;
-    case Kind::at_least_one: return "at least one of " + all;
-    case Kind::at_most_one: return "at most one of " + all;
-    case Kind::all_or_none: return "all or none of " + all;
-    case Kind::requires_all: return fmt::format("{} requires {}", rule.keywords.front(), joined(rule.keywords, 1));
-    case Kind::requires_one: return fmt::format("{} requires one of {}", rule.keywords.front(), joined(rule.keywords, 1));
-    case Kind::excludes: return fmt::format("{} excludes {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::exactly_one: return "exactly one of " + all;
+    case RuleKind::at_least_one: return "at least one of " + all;
+    case RuleKind::at_most_one: return "at most one of " + all;
+    case RuleKind::all_or_none: return "all or none of " + all;
+    case RuleKind::requires_all: return fmt::format("{} requires {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::requires_one: return fmt::format("{} requires one of {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::excludes: return fmt::format("{} excludes {}", rule.keywords.front(), joined(rule.keywords, 1));
   }
   return "";
 }

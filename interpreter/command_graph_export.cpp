@@ -8,7 +8,7 @@
 namespace comma::interpreter {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string dot_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -40,11 +40,11 @@ std::string to_dot(const CommandGraph& graph) {
   const auto needs = graph.needs();
   std::string out = "digraph commands {\n  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=10];\n";
   for (const Node& node : graph.nodes())
-    fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, quoted(label_of(node)),
+    fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, dot_text(label_of(node)),
                    style_of(needs[static_cast<std::size_t>(node.id)]));
   for (const Node& node : graph.nodes())
     for (const Edge& edge : node.waits_for)
-      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id, quoted(edge.resource),
+      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id, dot_text(edge.resource),
                      edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
   return out + "}\n";
 }

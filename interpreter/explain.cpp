@@ -97,7 +97,7 @@ class Writer {
   }
 
   static std::string count(const KeywordPage& page) {
-    return describe_count(page.min_count, page.max_count, page.is_factor() ? "_F(...)" : "value");
+    return describe_count(page.min_count, page.max_count, page.is_factor() ? "occurrence" : "value");
   }
 
   void words(const KeywordPage& page) {

@@ -65,9 +65,8 @@ class Converter {
     for (const auto& entry : node) {
       const std::string key = entry.first.as<std::string>();
       if (key == "<<") {
-        for (const auto& [name, value] : convert(entry.second).items())
-          if (!map.contains(name)) map[name] = value;
-      } else if (map.contains(key) && !merged(node)) {
+        spread(convert(entry.second), map);
+      } else if (map.contains(key) && !has_merge(node)) {
         fail(path_, entry.first, key + " is written twice");
       } else {
         map[key] = convert(entry.second);
@@ -76,7 +75,17 @@ class Converter {
     return map;
   }
 
-  static bool merged(const YAML::Node& node) { return static_cast<bool>(node["<<"]); }
+  /// `<<: *one` or `<<: [*one, *two]`
+  static void spread(const Json& merged, Json& map) {
+    if (merged.is_array()) {
+      for (const Json& part : merged) spread(part, map);
+      return;
+    }
+    for (const auto& [name, value] : merged.items())
+      if (!map.contains(name)) map[name] = value;
+  }
+
+  static bool has_merge(const YAML::Node& node) { return static_cast<bool>(node["<<"]); }
 
   std::string path_;
 };
@@ -241,7 +250,7 @@ class PageBuilder {
   void check_rule(const Json& rule, const std::string& where) const {
     if (!rule.is_object() || rule.size() != 1 || !rule.begin()->is_array())
       refuse(where, "a rule is one key with the list of its keywords");
-    if (!rule_named(rule.items().begin().key())) refuse(where, fmt::format("no rule is called '{}'", rule.items().begin().key()));
+    if (!rule_named(rule.begin().key())) refuse(where, fmt::format("no rule is called '{}'", rule.begin().key()));
   }
 
   std::string path_;
