@@ -124,11 +124,16 @@ class LevelCheck {
 
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
+    std::set<std::string, std::less<>> factors;
     visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
       for (const std::string& alias : keyword.aliases) canonical.emplace(alias, keyword.name);
+      if (keyword.is_factor()) factors.insert(keyword.name);
     });
     for (const Argument& argument : arguments) {
-      if (argument.value->is_none()) continue;  // KEYWORD=None is Code_Aster's way to leave a keyword out
+      // KEYWORD=None and FACTOR=() are Code_Aster's ways to leave a keyword out.
+      const Value& value = *argument.value;
+      if (value.is_none()) continue;
+      if (value.is_sequence() && value.items().empty() && factors.contains(argument.name)) continue;
       const auto alias = canonical.find(argument.name);
       add_pending({alias == canonical.end() ? argument.name : alias->second, &argument, false});
     }
@@ -312,23 +317,23 @@ bool holds_unknown(const Keywords& keywords) {
   return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
 }
 
-/// Whether the concept stands at "A" or in an occurrence at "A/B".
-bool holds_at(const Keywords& keywords, std::string_view path, const Concept* handle) {
+/// The concepts at "A" or in the occurrences at "A/B"; unknown values count as `handle` itself.
+void collect_at(const Keywords& keywords, std::string_view path, const ConceptPtr& handle,
+                std::vector<ConceptPtr>& found) {
   const std::size_t slash = path.find('/');
-  if (slash == std::string_view::npos) {
-    const auto& items = keywords.items;
-    const auto found = std::ranges::find(items, path, &Keyword::name);
-    if (found == items.end()) return false;
-    if (found->value.is_unknown()) return true;
-    if (found->value.is_concept()) return found->value.as_concept().get() == handle;
-    if (!found->value.is_sequence()) return false;
-    return std::ranges::any_of(found->value.items(), [&](const Value& item) {
-      return item.is_concept() && item.as_concept().get() == handle;
-    });
+  if (slash != std::string_view::npos) {
+    for (const Keywords& factor : keywords.factors(path.substr(0, slash)))
+      collect_at(factor, path.substr(slash + 1), handle, found);
+    return;
   }
-  const auto& factors = keywords.factors(path.substr(0, slash));
-  return std::ranges::any_of(factors,
-                             [&](const Keywords& factor) { return holds_at(factor, path.substr(slash + 1), handle); });
+  const auto item = std::ranges::find(keywords.items, path, &Keyword::name);
+  if (item == keywords.items.end()) return;
+  std::vector<Value> values{item->value};
+  if (item->value.is_sequence()) values.assign(item->value.items().begin(), item->value.items().end());
+  for (const Value& value : values) {
+    if (value.is_unknown()) found.push_back(handle);
+    if (value.is_concept()) found.push_back(value.as_concept());
+  }
 }
 
 /// The checks of reuse=.
@@ -362,9 +367,10 @@ class ReuseCheck {
       return error(fmt::format("{} cannot change {} in place: it is {} ({})", page_.name, handle->name,
                                with_article(context_.catalogue.describe_type(handle->type)), handle->type),
                    reuse_->value_span);
-    const bool same = std::ranges::any_of(
-        page_.reuse_same_as, [&](const std::string& path) { return holds_at(checked.call, path, handle.get()); });
-    if (!same)
+    std::vector<ConceptPtr> named;
+    for (const std::string& path : page_.reuse_same_as) collect_at(checked.call, path, handle, named);
+    const bool same = std::ranges::find(named, handle) != named.end();
+    if (!same && !named.empty())
       error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
             reuse_->value_span);
     checked.call.result = handle;

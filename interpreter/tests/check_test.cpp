@@ -323,3 +323,18 @@ TEST_CASE("A value of a wrong type in a condition makes one error, at the value"
   const Diagnostic found = checker.only({{"SPECIAL", Value("YES")}, {"STRENGTH", Value("strong")}});
   expect(found, "wrong-type", "LOAD/STRENGTH wants a real number, not the text 'strong'", "'strong'");
 }
+
+TEST_CASE("An empty list of occurrences leaves a factor out") {
+  Checker checker;
+  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPOT", Value::tuple({})}});
+  CHECK(checker.diagnostics.items().empty());
+  CHECK_FALSE(checked.call.has("SPOT"));
+}
+
+TEST_CASE("reuse= goes with a keyword only where that keyword is given") {
+  Checker checker;
+  const ConceptPtr result = new_concept("R", "result", 9);
+  const CheckedCall checked = checker.check("SOLVE", {{"reuse", Value(result)}, {"MODEL", Value(checker.model)}});
+  CHECK(checked.sound);
+  CHECK(checked.call.result == result);
+}
