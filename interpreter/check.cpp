@@ -158,6 +158,8 @@ class LevelCheck {
       take_given(keyword, *pending->argument);
     } else if (certain) {
       take_default(keyword);
+    } else {
+      scope_.values[keyword.name] = Value::unknown();  // its default would stand here if the block exists
     }
   }
 

@@ -33,7 +33,7 @@ TEST_CASE("A page keeps types, words, bounds, defaults and the order of its keyw
   const tests::LittleCatalogue little = tests::little_catalogue();
   const CommandPage& page = little.catalogue->page("LOAD");
   CHECK(page.doc == "Makes a load.");
-  REQUIRE(page.inside.keywords.size() == 12);
+  REQUIRE(page.inside.keywords.size() == 11);
   CHECK(page.inside.keywords[0].name == "MODEL");
   CHECK(page.inside.keywords[0].types[0].concept_type == "model");
   CHECK(page.inside.keywords[1].bounds.above == 0.0);

@@ -1,5 +1,5 @@
 // The catalogue as people write it: YAML pages -> the JSON that the program embeds. Used by the build and by tests; the
-// program itself never reads YAML. docs/catalogue.md describes the format.
+// program itself never reads YAML. commands/catalogue/README.md describes the format.
 #pragma once
 
 #include <cstdint>
