@@ -30,7 +30,8 @@ Value value_from(const Packed& packed) {
   if (packed.is_integer()) return Value(packed.integer());
   if (packed.is_real()) return Value(packed.number());
   if (packed.is_text()) return Value(std::string(packed.text()));
-  if (!packed.is_list()) throw std::runtime_error("catalogue: a default or a word is a number, a text or a list of them");
+  if (!packed.is_list())
+    throw std::runtime_error("catalogue: a default or a word is a number, a text or a list of them");
   std::vector<Value> items;
   for (const Packed& item : packed.list()) items.push_back(value_from(item));
   return Value::tuple(std::move(items));
@@ -84,7 +85,9 @@ Bounds bounds_from(const Packed& packed) {
   return {number("above"), number("at_least"), number("below"), number("at_most")};
 }
 
-int count_from(const Packed& packed) { return packed.is_text() ? unlimited : static_cast<int>(packed.integer()); }
+int count_from(const Packed& packed) {
+  return packed.is_text() ? unlimited : static_cast<int>(packed.integer());
+}
 
 LevelPage level_from(const Packed& packed);
 
@@ -97,7 +100,8 @@ KeywordPage keyword_from(std::string_view name, const Packed& packed) {
   keyword.types = types_from(*packed.find("type"));
   if (const Packed* found = packed.find("max")) keyword.max_count = count_from(*found);
   if (const Packed* found = packed.find("min")) keyword.min_count = count_from(*found);
-  if (const Packed* found = packed.find("words")) keyword.words = words_from(*found, keyword.types.front().kind == Kind::integer);
+  if (const Packed* found = packed.find("words"))
+    keyword.words = words_from(*found, keyword.types.front().kind == Kind::integer);
   keyword.bounds = bounds_from(packed);
   keyword.required = flag_at(packed, "required", false);
   keyword.supported = flag_at(packed, "supported", true);

@@ -10,8 +10,8 @@
 
 namespace comma::interpreter {
 
-/// The bytes come from a page that the build has validated. Throws std::exception on bytes that are damaged, DiagnosticError
-/// on a condition that does not parse.
+/// The bytes come from a page that the build has validated. Throws std::exception on bytes that are damaged,
+/// DiagnosticError on a condition that does not parse.
 CommandPage decode_page(std::span<const std::uint8_t> bytes);
 std::vector<ConceptTypePage> decode_types(std::span<const std::uint8_t> bytes);
 

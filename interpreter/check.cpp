@@ -35,8 +35,12 @@ Truth holds(const Expression& condition, const Scope& scope) {
     const bool keyword = std::ranges::find(condition.variables(), name) != condition.variables().end();
     return keyword ? std::optional(Value()) : std::nullopt;
   };
-  if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
-  return condition.holds(lookup) ? Truth::yes : Truth::no;
+  try {
+    if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
+    return condition.holds(lookup) ? Truth::yes : Truth::no;
+  } catch (const DiagnosticError&) {
+    return Truth::unknown;  // it compares a value of a wrong type, which is reported where it stands
+  }
 }
 
 /// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whatever their conditions.
@@ -114,7 +118,9 @@ class LevelCheck {
 
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
-  static Value seen_by_conditions(const Value& value) { return value.is_factor() || value.is_dict() ? Value(true) : value; }
+  static Value seen_by_conditions(const Value& value) {
+    return value.is_factor() || value.is_dict() ? Value(true) : value;
+  }
 
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
@@ -135,7 +141,8 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
-    const std::string also = pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
+    const std::string also =
+        pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
                                pending.argument->name_span, "keep one of them");
   }
@@ -171,7 +178,8 @@ class LevelCheck {
       context_.quiet = true;
     }
     Keyword item{keyword.name, Value(), {}, argument.name_span, argument.value_span, true};
-    const bool right = keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
+    const bool right =
+        keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
     if (right) result_.items.push_back(std::move(item));
     context_.quiet = was_quiet;
   }
@@ -205,23 +213,26 @@ class LevelCheck {
     return true;
   }
 
-  void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count, const Span& span) {
+  void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count,
+                              const Span& span) {
     const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "occurrence");
     const bool too_many = keyword.max_count != unlimited && count > static_cast<std::size_t>(keyword.max_count);
     if (too_many)
-      context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count), span);
+      context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count),
+                                 span);
     else if (count < static_cast<std::size_t>(keyword.min_count))
       context_.diagnostics.error("wrong-count", fmt::format("{} takes {}, not {}", label, wanted, count), span);
   }
 
-  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments, const std::string& label,
-                            const Span& span) {
+  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments,
+                            const std::string& label, const Span& span) {
     return LevelCheck(keyword.inside, label, span, &scope_, context_).run(arguments);
   }
 
   void take_default(const KeywordPage& keyword) {
     if (keyword.required) {
-      context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_, keyword.doc);
+      context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_,
+                                 keyword.doc);
       return;
     }
     Keyword item{keyword.name, Value(), {}, Span(), Span(), false};
@@ -256,8 +267,9 @@ class LevelCheck {
     });
     const Span& span = pending.argument->name_span;
     if (!conditions.empty()) {
-      context_.diagnostics.error("unknown-keyword",
-                                 fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
+      context_.diagnostics.error(
+          "unknown-keyword",
+          fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
       return;
     }
     const std::string near = nearest(pending.name, known);
@@ -266,12 +278,14 @@ class LevelCheck {
       hint = fmt::format("it belongs inside {}=_F(...)", home);
     else if (!near.empty())
       hint = fmt::format("did you mean {}?", near);
-    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span, hint);
+    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span,
+                               hint);
   }
 
   static bool has_keyword(const LevelPage& level, const std::string& name) {
     bool found = false;
-    visit_keywords(level, "", [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
+    visit_keywords(level, "",
+                   [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
     return found;
   }
 
@@ -308,11 +322,13 @@ bool holds_at(const Keywords& keywords, std::string_view path, const Concept* ha
     if (found->value.is_unknown()) return true;
     if (found->value.is_concept()) return found->value.as_concept().get() == handle;
     if (!found->value.is_sequence()) return false;
-    return std::ranges::any_of(found->value.items(),
-                               [&](const Value& item) { return item.is_concept() && item.as_concept().get() == handle; });
+    return std::ranges::any_of(found->value.items(), [&](const Value& item) {
+      return item.is_concept() && item.as_concept().get() == handle;
+    });
   }
   const auto& factors = keywords.factors(path.substr(0, slash));
-  return std::ranges::any_of(factors, [&](const Keywords& factor) { return holds_at(factor, path.substr(slash + 1), handle); });
+  return std::ranges::any_of(factors,
+                             [&](const Keywords& factor) { return holds_at(factor, path.substr(slash + 1), handle); });
 }
 
 /// The checks of reuse=.
@@ -330,21 +346,24 @@ class ReuseCheck {
     }
     const Value& value = *reuse_->value;
     if (value.is_unknown()) return;
-    if (page_.reuse == Reuse::none) return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
-    if (!value.is_concept()) return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
+    if (page_.reuse == Reuse::none)
+      return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
+    if (!value.is_concept())
+      return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
     check_concept(value.as_concept(), checked);
   }
 
  private:
   void check_concept(const ConceptPtr& handle, CheckedCall& checked) {
-    const bool fits = std::ranges::any_of(
-        page_.products, [&](const ProductPage& product) { return context_.catalogue.is_a(handle->type, product.type); });
+    const bool fits = std::ranges::any_of(page_.products, [&](const ProductPage& product) {
+      return context_.catalogue.is_a(handle->type, product.type);
+    });
     if (!fits)
       return error(fmt::format("{} cannot change {} in place: it is {} ({})", page_.name, handle->name,
                                with_article(context_.catalogue.describe_type(handle->type)), handle->type),
                    reuse_->value_span);
-    const bool same = std::ranges::any_of(page_.reuse_same_as,
-                                          [&](const std::string& path) { return holds_at(checked.call, path, handle.get()); });
+    const bool same = std::ranges::any_of(
+        page_.reuse_same_as, [&](const std::string& path) { return holds_at(checked.call, path, handle.get()); });
     if (!same)
       error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
             reuse_->value_span);
@@ -386,7 +405,8 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
 
   const auto reuse = std::ranges::find(written.arguments, "reuse", &Argument::name);
   std::vector<Argument> arguments;
-  std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse"; });
+  std::ranges::copy_if(written.arguments, std::back_inserter(arguments),
+                       [](const Argument& a) { return a.name != "reuse"; });
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
   CheckedCall checked;

@@ -162,7 +162,8 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
   throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {}, hint_for(name, known));
 }
 
-/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once for each.
+/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once
+/// for each.
 void explain_keyword(Writer& writer, const std::string& above, const LevelPage& level, std::string_view rest) {
   const std::size_t slash = rest.find('/');
   const std::string_view name = rest.substr(0, slash);

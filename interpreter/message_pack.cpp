@@ -31,27 +31,67 @@ class PackedReader {
     if (lead <= 0x9f) return value.content_ = list(lead & 0x0fU, depth), value;
     if (lead <= 0xbf) return value.content_ = text(lead & 0x1fU), value;
     switch (lead) {
-      case 0xc0: break;
-      case 0xc2: value.content_ = false; break;
-      case 0xc3: value.content_ = true; break;
-      case 0xca: value.content_ = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(big_endian(4)))); break;
-      case 0xcb: value.content_ = std::bit_cast<double>(big_endian(8)); break;
-      case 0xcc: value.content_ = static_cast<std::int64_t>(big_endian(1)); break;
-      case 0xcd: value.content_ = static_cast<std::int64_t>(big_endian(2)); break;
-      case 0xce: value.content_ = static_cast<std::int64_t>(big_endian(4)); break;
-      case 0xcf: value.content_ = static_cast<std::int64_t>(big_endian(8)); break;
-      case 0xd0: value.content_ = std::int64_t{static_cast<std::int8_t>(big_endian(1))}; break;
-      case 0xd1: value.content_ = std::int64_t{static_cast<std::int16_t>(big_endian(2))}; break;
-      case 0xd2: value.content_ = std::int64_t{static_cast<std::int32_t>(big_endian(4))}; break;
-      case 0xd3: value.content_ = static_cast<std::int64_t>(big_endian(8)); break;
-      case 0xd9: value.content_ = text(big_endian(1)); break;
-      case 0xda: value.content_ = text(big_endian(2)); break;
-      case 0xdb: value.content_ = text(big_endian(4)); break;
-      case 0xdc: value.content_ = list(big_endian(2), depth); break;
-      case 0xdd: value.content_ = list(big_endian(4), depth); break;
-      case 0xde: value.content_ = map(big_endian(2), depth); break;
-      case 0xdf: value.content_ = map(big_endian(4), depth); break;
-      default: fail();
+      case 0xc0:
+        break;
+      case 0xc2:
+        value.content_ = false;
+        break;
+      case 0xc3:
+        value.content_ = true;
+        break;
+      case 0xca:
+        value.content_ = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(big_endian(4))));
+        break;
+      case 0xcb:
+        value.content_ = std::bit_cast<double>(big_endian(8));
+        break;
+      case 0xcc:
+        value.content_ = static_cast<std::int64_t>(big_endian(1));
+        break;
+      case 0xcd:
+        value.content_ = static_cast<std::int64_t>(big_endian(2));
+        break;
+      case 0xce:
+        value.content_ = static_cast<std::int64_t>(big_endian(4));
+        break;
+      case 0xcf:
+        value.content_ = static_cast<std::int64_t>(big_endian(8));
+        break;
+      case 0xd0:
+        value.content_ = std::int64_t{static_cast<std::int8_t>(big_endian(1))};
+        break;
+      case 0xd1:
+        value.content_ = std::int64_t{static_cast<std::int16_t>(big_endian(2))};
+        break;
+      case 0xd2:
+        value.content_ = std::int64_t{static_cast<std::int32_t>(big_endian(4))};
+        break;
+      case 0xd3:
+        value.content_ = static_cast<std::int64_t>(big_endian(8));
+        break;
+      case 0xd9:
+        value.content_ = text(big_endian(1));
+        break;
+      case 0xda:
+        value.content_ = text(big_endian(2));
+        break;
+      case 0xdb:
+        value.content_ = text(big_endian(4));
+        break;
+      case 0xdc:
+        value.content_ = list(big_endian(2), depth);
+        break;
+      case 0xdd:
+        value.content_ = list(big_endian(4), depth);
+        break;
+      case 0xde:
+        value.content_ = map(big_endian(2), depth);
+        break;
+      case 0xdf:
+        value.content_ = map(big_endian(4), depth);
+        break;
+      default:
+        fail();
     }
     return value;
   }
@@ -103,9 +143,13 @@ class PackedReader {
   std::size_t position_ = 0;
 };
 
-Packed Packed::read(std::span<const std::uint8_t> bytes) { return PackedReader(bytes).read_all(); }
+Packed Packed::read(std::span<const std::uint8_t> bytes) {
+  return PackedReader(bytes).read_all();
+}
 
-double Packed::number() const { return is_integer() ? static_cast<double>(integer()) : std::get<double>(content_); }
+double Packed::number() const {
+  return is_integer() ? static_cast<double>(integer()) : std::get<double>(content_);
+}
 
 const Packed* Packed::find(std::string_view key) const {
   for (const auto& [name, value] : map())

@@ -1,5 +1,5 @@
-// A reader of MessagePack for the catalogue's pages. It copies no text and keeps the order of mappings: a page is read in
-// a fraction of what a general JSON tree costs, and a run reads some twenty of them at each start.
+// A reader of MessagePack for the catalogue's pages. It copies no text and keeps the order of mappings: a page is read
+// in a fraction of what a general JSON tree costs, and a run reads some twenty of them at each start.
 #pragma once
 
 #include <cstdint>

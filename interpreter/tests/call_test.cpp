@@ -8,7 +8,9 @@ using namespace comma::interpreter;
 
 namespace {
 
-Keyword keyword(const std::string& name, Value value, bool given = true) { return {name, std::move(value), {}, {}, {}, given}; }
+Keyword keyword(const std::string& name, Value value, bool given = true) {
+  return {name, std::move(value), {}, {}, {}, given};
+}
 
 struct MeshData : ConceptData {
   int nodes = 4;

@@ -54,7 +54,8 @@ TEST_CASE("A type that is a kind of another stands for it, not the other way rou
 }
 
 TEST_CASE("Words of YAML that look like booleans stay words") {
-  const auto page = page_from_yaml(head + "keywords: {K: {type: text, doc: D, words: [OUI, NON, Y, 3D_SI], default: NON}}", "p");
+  const auto page =
+      page_from_yaml(head + "keywords: {K: {type: text, doc: D, words: [OUI, NON, Y, 3D_SI], default: NON}}", "p");
   CHECK(page["keywords"]["K"]["words"] == tools::Json({"OUI", "NON", "Y", "3D_SI"}));
 }
 
@@ -71,8 +72,11 @@ TEST_CASE("Keywords under `unsupported` are marked so") {
 }
 
 TEST_CASE("A shared part comes first and the page's own keys win") {
-  const tools::SharedParts shared{{"part", "keywords: {A: {type: real, doc: shared}, B: {type: real, doc: shared}}\nrules: [{at_most_one: [A, B]}]"}};
-  const auto page = page_from_yaml(head + "use: part\nkeywords: {B: {type: integer, doc: own}}\nrules: [{exactly_one: [A, B]}]", "p", shared);
+  const tools::SharedParts shared{
+      {"part",
+       "keywords: {A: {type: real, doc: shared}, B: {type: real, doc: shared}}\nrules: [{at_most_one: [A, B]}]"}};
+  const auto page = page_from_yaml(
+      head + "use: part\nkeywords: {B: {type: integer, doc: own}}\nrules: [{exactly_one: [A, B]}]", "p", shared);
   CHECK(page["keywords"]["A"]["doc"] == "shared");
   CHECK(page["keywords"]["B"]["doc"] == "own");
   CHECK(page["rules"].size() == 2);
@@ -80,7 +84,9 @@ TEST_CASE("A shared part comes first and the page's own keys win") {
 
 TEST_CASE("What the format does not have stops the build, and is named") {
   CHECK(problem_of(head + "kewords: {}").find("the format has no key 'kewords'") != std::string::npos);
-  CHECK(problem_of(head + "keywords: {A: {type: real, doc: D, defalt: 1}}").find("C/A: the format has no key 'defalt'") != std::string::npos);
+  CHECK(
+      problem_of(head + "keywords: {A: {type: real, doc: D, defalt: 1}}").find("C/A: the format has no key 'defalt'") !=
+      std::string::npos);
   CHECK(problem_of(head + "keywords: {A: {doc: D}}").find("'type' is missing") != std::string::npos);
   CHECK(problem_of(head + "rules: [{one_of: [A]}]").find("no rule is called 'one_of'") != std::string::npos);
   CHECK(problem_of(head + "use: nothing").find("there is no shared part 'nothing'") != std::string::npos);
@@ -103,7 +109,8 @@ TEST_CASE("A page that contradicts itself is found out") {
   CHECK(problems("keywords: {A: {type: real, doc: D, default: 1}}").empty());
 }
 
-TEST_CASE("Every page of comma is right: defaults obey their types, words and bounds, rules and conditions name keywords") {
+TEST_CASE(
+    "Every page of comma is right: defaults obey their types, words and bounds, rules and conditions name keywords") {
   const auto compiled = tools::CompiledCatalogue::from_folder(std::string(COMMA_SOURCE_DIR) + "/commands/catalogue");
   const auto blobs = compiled.blobs();
   const Catalogue catalogue(blobs);

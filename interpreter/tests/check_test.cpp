@@ -17,7 +17,8 @@ struct Checker {
   ConceptPtr model = new_concept("MO", "model", 1);
 
   CheckedCall check(const std::string& name, const Arguments& arguments, Severity unsupported = Severity::error) {
-    return check_call(written_call(name, arguments), little.catalogue->page(name), *little.catalogue, diagnostics, unsupported);
+    return check_call(written_call(name, arguments), little.catalogue->page(name), *little.catalogue, diagnostics,
+                      unsupported);
   }
 
   /// The one diagnostic of LOAD(MODEL=MO, ...).
@@ -46,7 +47,8 @@ void expect(const Diagnostic& found, const std::string& code, const std::string&
 
 TEST_CASE("A call without a mistake is converted and completed with defaults") {
   Checker checker;
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value(3)}, {"AXIS", Value::list({Value(1), Value(0)})}});
+  const CheckedCall checked = checker.check(
+      "LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value(3)}, {"AXIS", Value::list({Value(1), Value(0)})}});
   REQUIRE(checker.diagnostics.items().empty());
   CHECK(checked.sound);
   CHECK(checked.complete);
@@ -68,7 +70,8 @@ TEST_CASE("A condition brings its block, with defaults that further conditions s
   CHECK(weak.product_type == "special_load");
   CHECK(weak.call.real("STRENGTH") == 2.0);
   CHECK_FALSE(weak.call.has("WARNING"));
-  const CheckedCall strong = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPECIAL", Value("YES")}, {"STRENGTH", Value(6.0)}});
+  const CheckedCall strong =
+      checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPECIAL", Value("YES")}, {"STRENGTH", Value(6.0)}});
   CHECK(strong.call.text("WARNING") == "strong");
   CHECK(checker.diagnostics.items().empty());
 }
@@ -76,7 +79,8 @@ TEST_CASE("A condition brings its block, with defaults that further conditions s
 TEST_CASE("A block inside a factor sees the keywords around the factor") {
   Checker checker;
   const Value spot = factor({{"ALL", Value("YES")}, {"DEGREE", Value(2)}});
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPECIAL", Value("YES")}, {"SPOT", spot}});
+  const CheckedCall checked =
+      checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPECIAL", Value("YES")}, {"SPOT", spot}});
   CHECK(checker.diagnostics.items().empty());
   CHECK(checked.call.factors("SPOT").front().integer("DEGREE") == 2);
 }
@@ -85,7 +89,8 @@ TEST_CASE("Factors may be one, several, or a dict") {
   Checker checker;
   const Value one = factor({{"ALL", Value("YES")}});
   const Value dict = Value::dict({{"GROUP", Value("TOP")}});
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPOT", Value::list({one, dict})}});
+  const CheckedCall checked =
+      checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"SPOT", Value::list({one, dict})}});
   CHECK(checker.diagnostics.items().empty());
   REQUIRE(checked.call.factors("SPOT").size() == 2);
   CHECK(checked.call.factors("SPOT")[1].texts("GROUP") == std::vector<std::string>{"TOP"});
@@ -93,7 +98,8 @@ TEST_CASE("Factors may be one, several, or a dict") {
 
 TEST_CASE("None leaves a keyword out") {
   Checker checker;
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"LEVEL", Value()}, {"PRES", Value()}});
+  const CheckedCall checked =
+      checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"LEVEL", Value()}, {"PRES", Value()}});
   CHECK(checker.diagnostics.items().empty());
   CHECK(checked.call.integer("LEVEL") == 1);
   CHECK_FALSE(checked.call.has("PRES"));
@@ -110,7 +116,9 @@ TEST_CASE("An older name of a keyword gives the newer one") {
 TEST_CASE("Complex numbers are numbers or ('RI', real, imaginary) or ('MP', modulus, degrees)") {
   Checker checker;
   const auto phase = [&](const Value& value) {
-    return checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value(1.0)}, {"PHASE", value}}).call.at("PHASE").value.as_complex();
+    return checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value(1.0)}, {"PHASE", value}})
+        .call.at("PHASE")
+        .value.as_complex();
   };
   CHECK(phase(Value::tuple({Value("RI"), Value(1.0), Value(2)})) == std::complex<double>(1.0, 2.0));
   CHECK(phase(Value(4.0)) == std::complex<double>(4.0, 0.0));
@@ -121,11 +129,13 @@ TEST_CASE("Complex numbers are numbers or ('RI', real, imaginary) or ('MP', modu
 }
 
 TEST_CASE("A misspelt keyword is told with the nearest one") {
-  expect(Checker().only({{"PRESS", Value(1.0)}}), "unknown-keyword", "LOAD has no keyword PRESS", "PRESS", "did you mean PRES?");
+  expect(Checker().only({{"PRESS", Value(1.0)}}), "unknown-keyword", "LOAD has no keyword PRESS", "PRESS",
+         "did you mean PRES?");
 }
 
 TEST_CASE("A keyword of a block is told with the condition of the block") {
-  expect(Checker().only({{"STRENGTH", Value(1.0)}}), "unknown-keyword", "LOAD has STRENGTH only when SPECIAL == 'YES'", "STRENGTH");
+  expect(Checker().only({{"STRENGTH", Value(1.0)}}), "unknown-keyword", "LOAD has STRENGTH only when SPECIAL == 'YES'",
+         "STRENGTH");
 }
 
 TEST_CASE("A keyword of a factor that stands outside is sent inside") {
@@ -139,8 +149,8 @@ TEST_CASE("A misspelt word is told with the nearest one") {
 }
 
 TEST_CASE("A word that resembles none is told with all of them") {
-  expect(Checker().only({{"SPECIAL", Value("QQQQQQ")}}), "unknown-word", "LOAD/SPECIAL does not know 'QQQQQQ'", "'QQQQQQ'",
-         "one of 'YES', 'NO', 'MAYBE'");
+  expect(Checker().only({{"SPECIAL", Value("QQQQQQ")}}), "unknown-word", "LOAD/SPECIAL does not know 'QQQQQQ'",
+         "'QQQQQQ'", "one of 'YES', 'NO', 'MAYBE'");
 }
 
 TEST_CASE("A missing compulsory keyword is told at the command") {
@@ -148,7 +158,8 @@ TEST_CASE("A missing compulsory keyword is told at the command") {
 }
 
 TEST_CASE("A text where a number is wanted") {
-  expect(Checker().only({{"PRES", Value("abc")}}), "wrong-type", "LOAD/PRES wants a real number, not the text 'abc'", "'abc'");
+  expect(Checker().only({{"PRES", Value("abc")}}), "wrong-type", "LOAD/PRES wants a real number, not the text 'abc'",
+         "'abc'");
 }
 
 TEST_CASE("A real where an integer is wanted") {
@@ -157,7 +168,8 @@ TEST_CASE("A real where an integer is wanted") {
 }
 
 TEST_CASE("A bool is no number") {
-  expect(Checker().only({{"PRES", Value(true)}}), "wrong-type", "LOAD/PRES wants a real number, not True (bool)", "True");
+  expect(Checker().only({{"PRES", Value(true)}}), "wrong-type", "LOAD/PRES wants a real number, not True (bool)",
+         "True");
 }
 
 TEST_CASE("A concept of another type is told with what it is and what makes the right one") {
@@ -168,12 +180,14 @@ TEST_CASE("A concept of another type is told with what it is and what makes the 
 
 TEST_CASE("A special concept passes where the general one is asked") {
   Checker checker;
-  const CheckedCall checked = checker.check("SOLVE", {{"MODEL", Value(checker.model)}, {"LOAD", Value(new_concept("L", "special_load", 5))}});
+  const CheckedCall checked =
+      checker.check("SOLVE", {{"MODEL", Value(checker.model)}, {"LOAD", Value(new_concept("L", "special_load", 5))}});
   CHECK(checked.sound);
 }
 
 TEST_CASE("A simple value where _F is wanted") {
-  expect(Checker().only({{"SPOT", Value(3)}}), "wrong-type", "LOAD/SPOT wants _F(...), not 3", "3", "write SPOT=_F(...)");
+  expect(Checker().only({{"SPOT", Value(3)}}), "wrong-type", "LOAD/SPOT wants _F(...), not 3", "3",
+         "write SPOT=_F(...)");
 }
 
 TEST_CASE("_F where a simple value is wanted") {
@@ -184,7 +198,8 @@ TEST_CASE("_F where a simple value is wanted") {
 
 TEST_CASE("A number out of its bounds") {
   expect(Checker().only({{"PRES", Value(0.0)}}), "out-of-bounds", "LOAD/PRES must be above 0; it is 0.0", "0.0");
-  expect(Checker().only({{"LEVEL", Value(4)}}), "out-of-bounds", "LOAD/LEVEL must be at least 0 and at most 3; it is 4", "4");
+  expect(Checker().only({{"LEVEL", Value(4)}}), "out-of-bounds", "LOAD/LEVEL must be at least 0 and at most 3; it is 4",
+         "4");
 }
 
 TEST_CASE("Too few and too many values") {
@@ -195,7 +210,8 @@ TEST_CASE("Too few and too many values") {
 
 TEST_CASE("A single value between brackets is a single value") {
   Checker checker;
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value::tuple({Value(2.0)})}});
+  const CheckedCall checked =
+      checker.check("LOAD", {{"MODEL", Value(checker.model)}, {"PRES", Value::tuple({Value(2.0)})}});
   CHECK(checked.call.real("PRES") == 2.0);
 }
 
@@ -217,7 +233,8 @@ TEST_CASE("None of the keywords of which one is needed") {
 }
 
 TEST_CASE("A keyword that goes together with another") {
-  expect(Checker().only({{"PHASE", Value(1.0)}}), "requires-keyword", "LOAD/PHASE goes together with PRES", "PHASE", "add PRES");
+  expect(Checker().only({{"PHASE", Value(1.0)}}), "requires-keyword", "LOAD/PHASE goes together with PRES", "PHASE",
+         "add PRES");
   const Diagnostic found = Checker().only({{"SPOT", factor({{"ALL", Value("YES")}, {"UNIT_Y", Value(1.0)}})}});
   expect(found, "requires-keyword", "LOAD/SPOT/UNIT_Y goes together with UNIT_X", "UNIT_Y", "add UNIT_X");
 }
@@ -239,9 +256,11 @@ TEST_CASE("What comma does not support is an error before a run and an alarm in 
   Checker run;
   expect(run.only({{"LATER", Value(1.0)}}), "unsupported", "comma does not support LOAD/LATER yet", "LATER");
   Checker word;
-  expect(word.only({{"SPECIAL", Value("MAYBE")}}), "unsupported", "comma does not support LOAD/SPECIAL='MAYBE' yet", "'MAYBE'");
+  expect(word.only({{"SPECIAL", Value("MAYBE")}}), "unsupported", "comma does not support LOAD/SPECIAL='MAYBE' yet",
+         "'MAYBE'");
   Checker check;
-  const CheckedCall checked = check.check("LOAD", {{"MODEL", Value(check.model)}, {"LATER", Value(1.0)}}, Severity::alarm);
+  const CheckedCall checked =
+      check.check("LOAD", {{"MODEL", Value(check.model)}, {"LATER", Value(1.0)}}, Severity::alarm);
   CHECK(checked.sound);
   CHECK_FALSE(checked.complete);
   CHECK_FALSE(check.diagnostics.has_errors());
@@ -255,8 +274,8 @@ TEST_CASE("reuse= where nothing is changed in place") {
 
 TEST_CASE("reuse= that is missing where it is compulsory") {
   Checker checker;
-  expect(checker.only_of("SHIFT", {{"MESH", Value(checker.mesh)}}), "bad-reuse", "SHIFT changes MESH in place and needs reuse=",
-         "SHIFT", "add reuse= with the concept of MESH");
+  expect(checker.only_of("SHIFT", {{"MESH", Value(checker.mesh)}}), "bad-reuse",
+         "SHIFT changes MESH in place and needs reuse=", "SHIFT", "add reuse= with the concept of MESH");
 }
 
 TEST_CASE("reuse= of another concept than the one that is given") {
@@ -283,7 +302,9 @@ TEST_CASE("reuse= gives back the same concept") {
 TEST_CASE("An unknown value passes every check, and the call will not run") {
   Checker checker;
   const Value unknown = Value::unknown();
-  const CheckedCall checked = checker.check("LOAD", {{"MODEL", unknown}, {"PRES", unknown}, {"SPECIAL", unknown}, {"SPOT", unknown}, {"STRENGTH", Value(1.0)}});
+  const CheckedCall checked = checker.check(
+      "LOAD",
+      {{"MODEL", unknown}, {"PRES", unknown}, {"SPECIAL", unknown}, {"SPOT", unknown}, {"STRENGTH", Value(1.0)}});
   CHECK(checker.diagnostics.items().empty());
   CHECK(checked.sound);
   CHECK_FALSE(checked.complete);
@@ -295,4 +316,10 @@ TEST_CASE("All mistakes of a call are told, each once") {
   std::vector<std::string> codes;
   for (const Diagnostic& found : checker.diagnostics.items()) codes.push_back(found.code);
   CHECK(codes == std::vector<std::string>{"missing-keyword", "out-of-bounds", "unknown-word", "unknown-keyword"});
+}
+
+TEST_CASE("A value of a wrong type in a condition makes one error, at the value") {
+  Checker checker;
+  const Diagnostic found = checker.only({{"SPECIAL", Value("YES")}, {"STRENGTH", Value("strong")}});
+  expect(found, "wrong-type", "LOAD/STRENGTH wants a real number, not the text 'strong'", "'strong'");
 }

@@ -21,7 +21,8 @@ struct Builder {
   ConceptPtr add(const std::string& command, const Arguments& arguments, const std::string& name = "") {
     const CommandPage& page = little.catalogue->page(command);
     Diagnostics diagnostics;
-    CheckedCall checked = check_call(written_call(command, arguments), page, *little.catalogue, diagnostics, Severity::error);
+    CheckedCall checked =
+        check_call(written_call(command, arguments), page, *little.catalogue, diagnostics, Severity::error);
     REQUIRE(diagnostics.items().empty());
     ConceptPtr product = checked.call.result;
     if (!product && !checked.product_type.empty()) product = new_concept(name, checked.product_type, next++);
@@ -97,7 +98,8 @@ TEST_CASE("Pruning keeps what a verdict or an output builds on, and nothing else
   builder.add("VERIFY", {{"WHAT", Value(tested)}});
   builder.add("PRINT", {{"WHAT", Value(printed)}});
   const auto needs = builder.graph.needs();
-  CHECK(needs == std::vector<Need>{Need::verdict, Need::verdict, Need::verdict, Need::output, Need::nothing, Need::verdict, Need::output});
+  CHECK(needs == std::vector<Need>{Need::verdict, Need::verdict, Need::verdict, Need::output, Need::nothing,
+                                   Need::verdict, Need::output});
 }
 
 TEST_CASE("A change in place that comes after the verdict is not needed by it") {

@@ -146,7 +146,8 @@ LittleCatalogue::LittleCatalogue(const std::vector<std::string>& pages) {
 }
 
 LittleCatalogue little_catalogue() {
-  return LittleCatalogue({mesh_page, shift_page, model_page, load_page, solve_page, table_page, print_page, verify_page});
+  return LittleCatalogue(
+      {mesh_page, shift_page, model_page, load_page, solve_page, table_page, print_page, verify_page});
 }
 
 CommandCall written_call(const std::string& name, const Arguments& arguments) {
@@ -166,7 +167,8 @@ CommandCall written_call(const std::string& name, const Arguments& arguments) {
   CommandCall call{name, span(0, name.size()), span(0, text.size()), {}};
   for (std::size_t i = 0; i < arguments.size(); ++i)
     call.arguments.push_back({arguments[i].first, span(names[i].first, names[i].second),
-                              std::make_shared<const Value>(arguments[i].second), span(values[i].first, values[i].second)});
+                              std::make_shared<const Value>(arguments[i].second),
+                              span(values[i].first, values[i].second)});
   return call;
 }
 

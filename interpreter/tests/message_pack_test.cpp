@@ -33,7 +33,8 @@ bool same(const Packed& packed, const Json& json) {
 
 TEST_CASE("What an independent writer packs is read back, of every size of number, text, list and mapping") {
   Json json = Json::parse(R"({"b": [true, false, null], "a": {"nested": {"x": 1.5e300, "y": 0.1, "z": 0.5}}})");
-  for (const std::int64_t number : {0L, 1L, 127L, 128L, 255L, 256L, 65535L, 65536L, 4294967295L, 4294967296L, 9007199254740993L})
+  for (const std::int64_t number :
+       {0L, 1L, 127L, 128L, 255L, 256L, 65535L, 65536L, 4294967295L, 4294967296L, 9007199254740993L})
     json["numbers"].push_back(number), json["numbers"].push_back(-number);
   for (const std::size_t size : {0U, 31U, 32U, 255U, 256U, 70000U}) json["texts"].push_back(std::string(size, 'x'));
   for (int i = 0; i < 70000; ++i) json["long"].push_back(i % 3);

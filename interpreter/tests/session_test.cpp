@@ -16,7 +16,8 @@ struct Data : ConceptData {
 /// A session whose commands note that they ran; SOLVE fails where it is told to.
 struct World {
   explicit World(SessionOptions options = {}) : session(*little.catalogue, commands, diagnostics, options) {
-    for (const std::string& name : little.catalogue->names()) commands[name] = [this](const Call& call) { return run(call); };
+    for (const std::string& name : little.catalogue->names())
+      commands[name] = [this](const Call& call) { return run(call); };
   }
 
   std::shared_ptr<ConceptData> run(const Call& call) {
@@ -32,7 +33,8 @@ struct World {
     return call.result ? std::make_shared<Data>() : nullptr;
   }
 
-  Value call(const std::string& name, const Arguments& arguments, const std::string& variable = "", bool eager = false) {
+  Value call(const std::string& name, const Arguments& arguments, const std::string& variable = "",
+             bool eager = false) {
     const Value value = session.call(written_call(name, arguments), eager);
     if (value.is_concept() && !variable.empty()) value.as_concept()->name = variable;
     return value;
