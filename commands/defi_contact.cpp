@@ -59,7 +59,7 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   }
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
-  if (keywords.has("TOLE_APPA")) zone.pairing_distance = keywords.real("TOLE_APPA");
+  if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }
 

@@ -58,7 +58,7 @@ std::string describe_value(const Value& value, const Catalogue& catalogue) {
   }
   if (value.is_factor()) return "_F(...)";
   std::string shown = value.repr();
-  if (shown.size() > longest_shown) shown = shown.substr(0, longest_shown) + "...";
+  if (shown.size() > longest_shown) shown.replace(longest_shown, std::string::npos, "...");
   if (value.is_text()) return "the text " + shown;
   if (value.is_number()) return shown;
   return fmt::format("{} ({})", shown, value.type_name());
