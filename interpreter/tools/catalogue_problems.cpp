@@ -84,9 +84,7 @@ class Inspector {
     if (keyword.required && standard) note(where, "is required and has a default");
     if (keyword.max_count != unlimited && keyword.max_count < keyword.min_count) note(where, "max is less than min");
     inspect_default(keyword, where);
-    const bool has_inside = !keyword.inside.keywords.empty() || !keyword.inside.blocks.empty();
     if (!keyword.is_factor()) return;
-    if (!has_inside) note(where, "is a factor without keywords");
     NameSet around = visible;
     factor_level(keyword.inside, where, around);
   }

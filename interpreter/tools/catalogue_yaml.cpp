@@ -213,6 +213,8 @@ class PageBuilder {
     allow(json, where, {"type",  "doc",      "unit",     "aliases",   "min",      "max",     "words",    "above", "at_least",
                         "below", "at_most", "required", "supported", "no_effect", "default", "keywords", "rules", "blocks"});
     demand(json, where, {"type", "doc"});
+    if (json["type"] == "factor" && !json.contains("keywords") && !json.contains("blocks"))
+      refuse(where, "a factor lists its keywords ('keywords: {}' when it has none)");
     if (json.contains("max") && json["max"].is_string() && json["max"] != "many") refuse(where, "max is a number or 'many'");
     if (json.contains("words")) check_words(json["words"], where);
     return json;
