@@ -1,6 +1,6 @@
-// The catalogue: what each command is called, takes and gives. It is data, one YAML page a command, compiled at build time
-// into one compact blob a page; a page is decoded when its command is first used. Checks, defaults and `comma explain`
-// all read the structures below, so they cannot disagree.
+// The catalogue: what each command is called, takes and gives. It is data, one YAML page a command, compiled at build
+// time into one compact blob a page; a page is decoded when its command is first used. Checks, defaults and `comma
+// explain` all read the structures below, so they cannot disagree.
 #pragma once
 
 #include <cstdint>
@@ -104,8 +104,8 @@ struct KeywordPage {
   bool holds_many() const { return max_count != 1; }
 };
 
-/// Keywords that exist only under a condition: an expression over the keywords of its level and of the levels around it,
-/// where a keyword that is absent is None.
+/// Keywords that exist only under a condition: an expression over the keywords of its level and of the levels around
+/// it, where a keyword that is absent is None.
 struct BlockPage {
   std::string when;
   std::shared_ptr<const Expression> condition;

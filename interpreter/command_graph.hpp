@@ -1,5 +1,6 @@
-// The command graph: one node a call, ordered by what the calls read and write, like instructions in a processor. A later
-// reader waits for an earlier writer; a writer in place (reuse=) waits for the earlier readers and the earlier writer.
+// The command graph: one node a call, ordered by what the calls read and write, like instructions in a processor. A
+// later reader waits for an earlier writer; a writer in place (reuse=) waits for the earlier readers and the earlier
+// writer.
 #pragma once
 
 #include <map>
@@ -33,22 +34,22 @@ std::string_view name_of(Need need);
 std::string_view name_of(State state);
 
 struct Node {
-  int id = 0;                 ///< position in the file's order of execution
+  int id = 0;  ///< position in the file's order of execution
   Call call;
-  ConceptPtr product;         ///< made, or changed in place; null if the command gives nothing
+  ConceptPtr product;  ///< made, or changed in place; null if the command gives nothing
   Cost cost = Cost::cheap;
   Role role = Role::value;
-  bool complete = true;       ///< false: a value is unknown or unsupported, so it never runs
+  bool complete = true;  ///< false: a value is unknown or unsupported, so it never runs
   std::vector<Edge> waits_for;
   State state = State::waiting;
-  bool forgiven = false;      ///< it failed inside try: what it left may still be read
+  bool forgiven = false;  ///< it failed inside try: what it left may still be read
   double seconds = 0;
 };
 
 class CommandGraph {
  public:
-  /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The product's
-  /// reads_through is filled here.
+  /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The
+  /// product's reads_through is filled here.
   Node& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
 
   std::vector<Node>& nodes() { return nodes_; }

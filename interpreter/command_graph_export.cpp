@@ -8,7 +8,7 @@
 namespace comma::interpreter {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string dot_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -17,13 +17,18 @@ std::string quoted(std::string_view text) {
   return result + '"';
 }
 
-int line_of(const Node& node) { return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0; }
+int line_of(const Node& node) {
+  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
+}
 
 std::string style_of(Need need) {
   switch (need) {
-    case Need::verdict: return "style=filled, fillcolor=\"#e8f0fe\"";
-    case Need::output: return "style=dashed";
-    case Need::nothing: return "color=grey, fontcolor=grey";
+    case Need::verdict:
+      return "style=filled, fillcolor=\"#e8f0fe\"";
+    case Need::output:
+      return "style=dashed";
+    case Need::nothing:
+      return "color=grey, fontcolor=grey";
   }
   return "";
 }
@@ -38,14 +43,16 @@ std::string label_of(const Node& node) {
 
 std::string to_dot(const CommandGraph& graph) {
   const auto needs = graph.needs();
-  std::string out = "digraph commands {\n  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", fontsize=10];\n";
+  std::string out =
+      "digraph commands {\n  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", "
+      "fontsize=10];\n";
   for (const Node& node : graph.nodes())
-    fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, quoted(label_of(node)),
+    fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, dot_text(label_of(node)),
                    style_of(needs[static_cast<std::size_t>(node.id)]));
   for (const Node& node : graph.nodes())
     for (const Edge& edge : node.waits_for)
-      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id, quoted(edge.resource),
-                     edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
+      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id,
+                     dot_text(edge.resource), edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
   return out + "}\n";
 }
 
@@ -62,7 +69,8 @@ nlohmann::json to_json(const CommandGraph& graph) {
                      {"state", name_of(node.state)},
                      {"cost", node.cost == Cost::solve ? "solve" : "cheap"}});
     for (const Edge& edge : node.waits_for)
-      edges.push_back({{"from", edge.from}, {"to", node.id}, {"kind", name_of(edge.hazard)}, {"resource", edge.resource}});
+      edges.push_back(
+          {{"from", edge.from}, {"to", node.id}, {"kind", name_of(edge.hazard)}, {"resource", edge.resource}});
   }
   return {{"nodes", nodes}, {"edges", edges}};
 }

@@ -8,8 +8,8 @@
 
 namespace comma::interpreter {
 
-/// A digraph: boxes are commands with their concept and line, arrows are concepts and files. What a verdict needs is drawn
-/// solid, what only an output needs dashed, the rest grey.
+/// A digraph: boxes are commands with their concept and line, arrows are concepts and files. What a verdict needs is
+/// drawn solid, what only an output needs dashed, the rest grey.
 std::string to_dot(const CommandGraph& graph);
 
 /// {"nodes": [{"id", "command", "concept", "file", "line", "needed_by", "state", "cost"}],

@@ -20,10 +20,13 @@ bool is_readable(const Node& source) {
   return source.state == State::failed && source.forgiven && source.product && source.product->data;
 }
 
-int line_of(const Node& node) { return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0; }
+int line_of(const Node& node) {
+  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
+}
 
 DiagnosticError not_computed(const Node& source) {
-  return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)), source.call.span};
+  return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)),
+          source.call.span};
 }
 
 }  // namespace
@@ -71,7 +74,9 @@ bool Executor::is_cheap(int id) const {
   });
 }
 
-void Executor::forgive(int id) { graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true; }
+void Executor::forgive(int id) {
+  graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true;
+}
 
 void Executor::run_reporting(Node& node) {
   try {

@@ -97,7 +97,7 @@ class Writer {
   }
 
   static std::string count(const KeywordPage& page) {
-    return describe_count(page.min_count, page.max_count, page.is_factor() ? "_F(...)" : "value");
+    return describe_count(page.min_count, page.max_count, page.is_factor() ? "occurrence" : "value");
   }
 
   void words(const KeywordPage& page) {
@@ -162,7 +162,8 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
   throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {}, hint_for(name, known));
 }
 
-/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once for each.
+/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once
+/// for each.
 void explain_keyword(Writer& writer, const std::string& above, const LevelPage& level, std::string_view rest) {
   const std::size_t slash = rest.find('/');
   const std::string_view name = rest.substr(0, slash);

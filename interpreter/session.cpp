@@ -4,12 +4,17 @@
 
 namespace comma::interpreter {
 
-Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics, SessionOptions options)
+Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
+                 SessionOptions options)
     : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
 
-bool Session::is_command(std::string_view name) const { return catalogue_.has(name); }
+bool Session::is_command(std::string_view name) const {
+  return catalogue_.has(name);
+}
 
-std::vector<std::string> Session::command_names() const { return catalogue_.names(); }
+std::vector<std::string> Session::command_names() const {
+  return catalogue_.names();
+}
 
 Value Session::call(const CommandCall& written, bool eager) {
   if (!catalogue_.has(written.name)) {

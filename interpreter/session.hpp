@@ -1,5 +1,5 @@
-// One run of one command file: the evaluator hands its calls here; they are checked, ordered, and executed when the whole
-// file is known to be right - or earlier, when the file itself asks for a computed value.
+// One run of one command file: the evaluator hands its calls here; they are checked, ordered, and executed when the
+// whole file is known to be right - or earlier, when the file itself asks for a computed value.
 #pragma once
 
 #include <string>
@@ -18,22 +18,24 @@ struct SessionOptions {
   bool only_tests = false;  ///< leave out what no verdict and no output needs
 };
 
-/// Codes of its own: unknown-command, not-computed, command-failed, out-of-memory, internal-error (see check.hpp for the rest).
+/// Codes of its own: unknown-command, not-computed, command-failed, out-of-memory, internal-error (see check.hpp for
+/// the rest).
 class Session : public CommandHost {
  public:
   /// All three must outlive the session.
-  Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics, SessionOptions options = {});
+  Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
+          SessionOptions options = {});
 
   bool is_command(std::string_view name) const override;
   std::vector<std::string> command_names() const override;
   Value call(const CommandCall& call, bool eager) override;
 
-  /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's data
-  /// stays null, and the evaluator goes on with an unknown value.
+  /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's
+  /// data stays null, and the evaluator goes on with an unknown value.
   void force(const ConceptPtr& handle) override;
 
-  /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found before
-  /// anything is solved; then, if all is right so far, the rest.
+  /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
+  /// before anything is solved; then, if all is right so far, the rest.
   void finish();
 
   const CommandGraph& graph() const { return graph_; }

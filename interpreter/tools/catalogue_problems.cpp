@@ -48,7 +48,8 @@ class Inspector {
     if (!names.contains(path.substr(0, path.find('/')))) note(page_.name, "reuse names the unknown keyword " + path);
   }
 
-  /// A command or a factor: the level where names, rules and conditions see each other. `visible` holds the names around it.
+  /// A command or a factor: the level where names, rules and conditions see each other. `visible` holds the names
+  /// around it.
   void factor_level(const LevelPage& level, const std::string& where, NameSet& visible) {
     NameSet here;
     collect_names(level, here);
@@ -60,7 +61,8 @@ class Inspector {
     for (const KeywordPage& keyword : level.keywords) inspect(keyword, where + "/" + keyword.name, here, visible);
     for (const RulePage& rule : level.rules)
       for (const std::string& name : rule.keywords)
-        if (!here.contains(name)) note(where, fmt::format("the rule '{}' names the unknown keyword {}", describe_rule(rule), name));
+        if (!here.contains(name))
+          note(where, fmt::format("the rule '{}' names the unknown keyword {}", describe_rule(rule), name));
     for (const BlockPage& block : level.blocks) {
       condition(*block.condition, where, visible);
       block_level(block.inside, where, here, visible);
