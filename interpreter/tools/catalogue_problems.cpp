@@ -59,6 +59,7 @@ class Inspector {
 
   void block_level(const LevelPage& level, const std::string& where, const NameSet& here, const NameSet& visible) {
     for (const KeywordPage& keyword : level.keywords) inspect(keyword, where + "/" + keyword.name, here, visible);
+    if (level.further) inspect(*level.further, where + "/(any other name)", here, visible);
     for (const RulePage& rule : level.rules)
       for (const std::string& name : rule.keywords)
         if (!here.contains(name))
