@@ -87,22 +87,22 @@ std::string_view name_of(Need need) {
   return "";
 }
 
-std::string_view name_of(State state) {
+std::string_view name_of(NodeState state) {
   switch (state) {
-    case State::waiting:
+    case NodeState::waiting:
       return "waiting";
-    case State::done:
+    case NodeState::done:
       return "done";
-    case State::failed:
+    case NodeState::failed:
       return "failed";
-    case State::skipped:
+    case NodeState::skipped:
       return "skipped";
   }
   return "";
 }
 
-Node& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, bool complete) {
-  Node node;
+CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, bool complete) {
+  CommandNode node;
   node.id = static_cast<int>(nodes_.size());
   node.cost = page.cost;
   node.role = page.role;
@@ -124,13 +124,13 @@ Node& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, 
   return nodes_.emplace_back(std::move(node));
 }
 
-void CommandGraph::read(Node& node, int resource, const std::string& name) {
+void CommandGraph::read(CommandNode& node, int resource, const std::string& name) {
   History& history = histories_[resource];
   if (history.writer >= 0) node.waits_for.push_back({history.writer, Hazard::read_after_write, name});
   if (history.readers.empty() || history.readers.back() != node.id) history.readers.push_back(node.id);
 }
 
-void CommandGraph::write(Node& node, int resource, const std::string& name) {
+void CommandGraph::write(CommandNode& node, int resource, const std::string& name) {
   History& history = histories_[resource];
   for (const int reader : history.readers)
     if (reader != node.id) node.waits_for.push_back({reader, Hazard::write_after_read, name});

@@ -17,7 +17,7 @@ std::string dot_text(std::string_view text) {
   return result + '"';
 }
 
-int line_of(const Node& node) {
+int line_of(const CommandNode& node) {
   return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
 }
 
@@ -33,7 +33,7 @@ std::string style_of(Need need) {
   return "";
 }
 
-std::string label_of(const Node& node) {
+std::string label_of(const CommandNode& node) {
   const std::string concept_name = node.product ? node.product->name + " = " : "";
   const int line = line_of(node);
   return concept_name + node.call.command + (line > 0 ? fmt::format(" (line {})", line) : "");
@@ -46,10 +46,10 @@ std::string to_dot(const CommandGraph& graph) {
   std::string out =
       "digraph commands {\n  node [shape=box, fontname=\"sans-serif\"];\n  edge [fontname=\"sans-serif\", "
       "fontsize=10];\n";
-  for (const Node& node : graph.nodes())
+  for (const CommandNode& node : graph.nodes())
     fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, dot_text(label_of(node)),
                    style_of(needs[static_cast<std::size_t>(node.id)]));
-  for (const Node& node : graph.nodes())
+  for (const CommandNode& node : graph.nodes())
     for (const Edge& edge : node.waits_for)
       fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id,
                      dot_text(edge.resource), edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
@@ -59,7 +59,7 @@ std::string to_dot(const CommandGraph& graph) {
 nlohmann::json to_json(const CommandGraph& graph) {
   const auto needs = graph.needs();
   auto nodes = nlohmann::json::array(), edges = nlohmann::json::array();
-  for (const Node& node : graph.nodes()) {
+  for (const CommandNode& node : graph.nodes()) {
     nodes.push_back({{"id", node.id},
                      {"command", node.call.command},
                      {"concept", node.product ? nlohmann::json(node.product->name) : nlohmann::json()},

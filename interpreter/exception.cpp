@@ -100,7 +100,11 @@ std::string ExceptionObject::text() const {
 }
 
 Diagnostic ExceptionObject::diagnostic() const {
-  if (failure) return *failure;
+  if (failure) {
+    Diagnostic finding = *failure;
+    if (!finding.span) finding.span = span;
+    return finding;
+  }
   const ErrorClass& row = class_of(kind);
   std::string message = text();
   if (kind == ErrorKind::key) message = "the key " + message + " does not exist";

@@ -42,12 +42,12 @@ class Executor {
 
  private:
   /// Marks the node done, or failed and throws.
-  void run(Node& node);
-  void run_reporting(Node& node);
+  void run(CommandNode& node);
+  void run_reporting(CommandNode& node);
   /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
-  std::shared_ptr<ConceptData> invoke(const Node& node) const;
+  std::shared_ptr<ConceptData> invoke(const CommandNode& node) const;
   /// The first node that this one builds on and that is not there, or null.
-  const Node* missing_source(const Node& node) const;
+  const CommandNode* missing_source(const CommandNode& node) const;
 
   CommandGraph& graph_;
   const CommandTable& commands_;

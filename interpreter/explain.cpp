@@ -172,7 +172,10 @@ void explain_keyword(Writer& writer, const std::string& above, const LevelPage& 
   if (places.empty()) throw_unknown_keyword(above, level, name);
   const std::string path = fmt::format("{}/{}", above, places.front().keyword->name);
   if (slash == std::string_view::npos) {
-    for (const Place& place : places) writer.keyword(path, place);
+    for (const Place& place : places) {
+      if (&place != &places.front()) writer.line("");
+      writer.keyword(path, place);
+    }
     return;
   }
   const std::string_view below = rest.substr(slash + 1);

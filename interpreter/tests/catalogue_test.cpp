@@ -71,7 +71,7 @@ TEST_CASE("Keywords under `unsupported` are marked so") {
   CHECK(page["keywords"]["K"]["words"]["A"]["supported"] == false);
 }
 
-TEST_CASE("A shared part comes first and the page's own keys win") {
+TEST_CASE("A shared part comes after the page's own keys, which win") {
   const tools::SharedParts shared{
       {"part",
        "keywords: {A: {type: real, doc: shared}, B: {type: real, doc: shared}}\nrules: [{at_most_one: [A, B]}]"}};
@@ -79,6 +79,7 @@ TEST_CASE("A shared part comes first and the page's own keys win") {
       head + "use: part\nkeywords: {B: {type: integer, doc: own}}\nrules: [{exactly_one: [A, B]}]", "p", shared);
   CHECK(page["keywords"]["A"]["doc"] == "shared");
   CHECK(page["keywords"]["B"]["doc"] == "own");
+  CHECK(page["keywords"].begin().key() == "B");
   CHECK(page["rules"].size() == 2);
 }
 

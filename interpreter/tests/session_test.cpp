@@ -46,7 +46,7 @@ struct World {
     return all;
   }
 
-  State state(int id) const { return session.graph().nodes()[static_cast<std::size_t>(id)].state; }
+  NodeState state(int id) const { return session.graph().nodes()[static_cast<std::size_t>(id)].state; }
 
   LittleCatalogue little = little_catalogue();
   Diagnostics diagnostics;
@@ -69,7 +69,7 @@ TEST_CASE("Nothing runs before the whole file is known to be right") {
   CHECK(world.log.empty());
   world.session.finish();
   CHECK(world.log == Log{"MESH MA", "MODEL MO", "VERIFY"});
-  CHECK(world.state(2) == State::done);
+  CHECK(world.state(2) == NodeState::done);
 }
 
 TEST_CASE("A change in place keeps the concept and its data") {
@@ -165,7 +165,7 @@ TEST_CASE("A forced failure is thrown to the file; what depends on it does not r
   world.call("VERIFY", {{"WHAT", result}});
   world.session.finish();
   CHECK(world.log == Log{"MESH MA", "MODEL MO", "SOLVE R"});
-  CHECK(world.state(3) == State::skipped);
+  CHECK(world.state(3) == NodeState::skipped);
 }
 
 TEST_CASE("A failure stops what depends on it, and only that; all failures are told at their place") {
@@ -180,9 +180,9 @@ TEST_CASE("A failure stops what depends on it, and only that; all failures are t
   world.session.finish();
   CHECK(world.codes() == Log{"no-convergence"});
   CHECK(text_at(world.diagnostics.items()[0].span) == "SOLVE(MODEL=MO, )");
-  CHECK(world.state(2) == State::failed);
-  CHECK(world.state(4) == State::skipped);
-  CHECK(world.state(5) == State::done);
+  CHECK(world.state(2) == NodeState::failed);
+  CHECK(world.state(4) == NodeState::skipped);
+  CHECK(world.state(5) == NodeState::done);
 }
 
 TEST_CASE("Two commands that write one file: the second runs although the first failed") {
@@ -223,7 +223,7 @@ TEST_CASE("Pruning leaves out what neither a verdict nor an output needs") {
   world.call("VERIFY", {{"WHAT", tested}});
   world.session.finish();
   CHECK(world.log == Log{"MESH MA", "MODEL MO", "SOLVE R2", "VERIFY"});
-  CHECK(world.state(2) == State::skipped);
+  CHECK(world.state(2) == NodeState::skipped);
 }
 
 TEST_CASE("A fault of a command is told as comma's own") {

@@ -175,22 +175,27 @@ class PageBuilder {
       Json part = Converter(path).convert(load(found->second, path));
       part.erase("shapes");
       if (part.contains("use")) part = with_shared(std::move(part), path);
-      json = merge(std::move(part), json);
+      json = merge(part, std::move(json));
     }
     return json;
   }
 
-  /// The shared part first, then the page's own, which wins.
-  static Json merge(Json part, const Json& own) {
-    for (const auto& [key, value] : own.items()) {
-      if ((key == "keywords" || key == "unsupported") && part.contains(key))
-        for (const auto& [name, keyword] : value.items()) part[key][name] = keyword;
-      else if ((key == "rules" || key == "blocks") && part.contains(key))
-        part[key].insert(part[key].end(), value.begin(), value.end());
-      else
-        part[key] = value;
+  /// The page's own keywords, rules and blocks first, then those of the shared part; the page's own keys win.
+  static Json merge(const Json& part, Json own) {
+    for (const auto& [key, value] : part.items()) {
+      if (!own.contains(key))
+        own[key] = value;
+      else if (key == "keywords" || key == "unsupported")
+        append_missing(own[key], value);
+      else if (key == "rules" || key == "blocks")
+        own[key].insert(own[key].end(), value.begin(), value.end());
     }
-    return part;
+    return own;
+  }
+
+  static void append_missing(Json& own, const Json& part) {
+    for (const auto& [name, keyword] : part.items())
+      if (!own.contains(name)) own[name] = keyword;
   }
 
   /// `unsupported:` has the shape of `keywords:`; comma knows these keywords and does not act on them yet.

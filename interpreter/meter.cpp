@@ -1,0 +1,31 @@
+#include "interpreter/meter.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/exception.hpp"
+
+namespace comma::interpreter {
+
+namespace {
+
+/// Memory written in about the time of one step of the evaluator.
+constexpr std::uint64_t bytes_per_step = 64;
+
+}  // namespace
+
+void Meter::stop_steps() const {
+  throw LimitReached("limit-steps", fmt::format("this takes more than {} steps: the run is stopped", limits_.steps), {},
+                     "look for a loop that never ends");
+}
+
+void Meter::allocate(std::uint64_t bytes) {
+  if (bytes > limits_.largest_object) {
+    throw LimitReached("limit-memory", fmt::format("this makes an object of more than {} MB: the run is stopped",
+                                                   limits_.largest_object >> 20),
+                       {}, "look for a product or a range that is too large");
+  }
+  steps_ += bytes / bytes_per_step;
+  if (steps_ > limits_.steps) stop_steps();
+}
+
+}  // namespace comma::interpreter
