@@ -9,7 +9,7 @@
 namespace comma::interpreter {
 namespace {
 
-constexpr std::array<std::pair<Kind, std::string_view>, 15> kind_names{{{Kind::real, "real"},
+constexpr std::array<std::pair<Kind, std::string_view>, 16> kind_names{{{Kind::real, "real"},
                                                                         {Kind::integer, "integer"},
                                                                         {Kind::complex, "complex"},
                                                                         {Kind::text, "text"},
@@ -23,7 +23,8 @@ constexpr std::array<std::pair<Kind, std::string_view>, 15> kind_names{{{Kind::r
                                                                         {Kind::input_unit, "input_unit"},
                                                                         {Kind::output_unit, "output_unit"},
                                                                         {Kind::concept_kind, "concept"},
-                                                                        {Kind::factor, "factor"}}};
+                                                                        {Kind::factor, "factor"},
+                                                                        {Kind::anything, "anything"}}};
 
 constexpr std::array<std::pair<RulePage::Kind, std::string_view>, 7> rule_names{
     {{RulePage::Kind::exactly_one, "exactly_one"},

@@ -33,7 +33,8 @@ enum class Kind {
   input_unit,   ///< number of a file that the command reads
   output_unit,  ///< number of a file that the command writes
   concept_kind,
-  factor
+  factor,
+  anything  ///< any value of the language, as it was written
 };
 
 /// The word of the YAML pages for a kind ("node_group"); "concept" for a concept.
@@ -74,6 +75,8 @@ struct LevelPage {
   std::vector<KeywordPage> keywords;
   std::vector<RulePage> rules;
   std::vector<BlockPage> blocks;
+  /// What any other name is (the parameters that FORMULE takes), or null: there is no other.
+  std::shared_ptr<const KeywordPage> further;
 };
 
 /// A count or a bound that may be missing.

@@ -139,6 +139,8 @@ LevelPage level_from(const Packed& packed) {
     for (const Packed& rule : found->list()) level.rules.push_back(rule_from(rule));
   if (const Packed* found = packed.find("blocks"))
     for (const Packed& block : found->list()) level.blocks.push_back(block_from(block));
+  if (const Packed* found = packed.find("further"))
+    level.further = std::make_shared<const KeywordPage>(keyword_from("", *found));
   return level;
 }
 

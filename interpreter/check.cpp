@@ -110,7 +110,7 @@ class LevelCheck {
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
     activate(level_, true);
     for (const Pending& pending : pending_)
-      if (!pending.used) report_stray(pending);
+      if (!pending.used) take_other(pending);
     return std::move(result_);
   }
 
@@ -173,6 +173,14 @@ class LevelCheck {
     } else {
       scope_.values[keyword.name] = Value::unknown();  // its default would stand here if the block exists
     }
+  }
+
+  /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
+  void take_other(const Pending& pending) {
+    if (!level_.further) return report_stray(pending);
+    KeywordPage keyword = *level_.further;
+    keyword.name = pending.name;
+    take_given(keyword, *pending.argument);
   }
 
   void take_given(const KeywordPage& keyword, const Argument& argument) {

@@ -37,6 +37,8 @@ std::string describe_kind(Kind kind) {
       return "a file unit (an integer)";
     case Kind::concept_kind:
       return "a concept";
+    case Kind::anything:
+      return "a value";
     case Kind::factor:
       return "_F(...)";
   }
@@ -124,7 +126,7 @@ class ValueCheck {
       : page_(page), label_(label), span_(span), context_(context) {}
 
   std::optional<Value> run(const Value& value) {
-    if (value.is_unknown()) return value;
+    if (value.is_unknown() || admits(page_, Kind::anything)) return value;
     const bool several = value.is_sequence() && !(admits(page_, Kind::complex) && is_complex_triple(value));
     std::vector<Value> items;
     if (several)

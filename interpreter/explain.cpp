@@ -119,6 +119,7 @@ class Writer {
       line("{}{}{:<20} {}{}{}", indent, keyword.required ? "* " : "  ", keyword.name, keyword.doc,
            keyword.default_value ? " Default " + keyword.default_value->repr() + "." : "",
            keyword.supported ? "" : " [not supported yet]");
+    if (level_page.further) line("{}  any other name       {}", indent, level_page.further->doc);
     for (const RulePage& rule : level_page.rules) line("{}rule: {}", indent, describe_rule(rule));
     for (const BlockPage& block : level_page.blocks) {
       line("{}when {}", indent, block.when);

@@ -89,6 +89,11 @@ TEST_CASE("What the format does not have stops the build, and is named") {
       problem_of(head + "keywords: {A: {type: real, doc: D, defalt: 1}}").find("C/A: the format has no key 'defalt'") !=
       std::string::npos);
   CHECK(problem_of(head + "keywords: {A: {doc: D}}").find("'type' is missing") != std::string::npos);
+  CHECK(problem_of(head + "keywords: {A: {type: factor, doc: D}}").find("a factor lists its keywords") !=
+        std::string::npos);
+  CHECK(problem_of(head + "keywords: {A: {type: factor, doc: D, keywords: {}}}").empty());
+  CHECK(problem_of(head + "further: {type: real}").find("C/(any other name): the key 'doc' is missing") !=
+        std::string::npos);
   CHECK(problem_of(head + "rules: [{one_of: [A]}]").find("no rule is called 'one_of'") != std::string::npos);
   CHECK(problem_of(head + "use: nothing").find("there is no shared part 'nothing'") != std::string::npos);
   CHECK(problem_of("command: C\ndoc: D\ncategory: fun").find("'fun' is none of mesh") != std::string::npos);
@@ -105,7 +110,6 @@ TEST_CASE("A page that contradicts itself is found out") {
   CHECK(problems("keywords: {A: {type: martian, doc: D}}").size() == 1);
   CHECK(problems("keywords: {A: {type: real, doc: D}}\nrules: [{exactly_one: [A, B]}]").size() == 1);
   CHECK(problems("keywords: {A: {type: real, doc: D}}\nblocks: [{when: B == 1}]").size() == 1);
-  CHECK(problems("keywords: {A: {type: factor, doc: D}}").size() == 1);
   CHECK(problems("keywords: {A: {type: real, doc: ''}}").size() == 1);
   CHECK(problems("keywords: {A: {type: real, doc: D, default: 1}}").empty());
 }

@@ -331,6 +331,27 @@ TEST_CASE("An empty list of occurrences leaves a factor out") {
   CHECK_FALSE(checked.call.has("SPOT"));
 }
 
+TEST_CASE("A page may let the user choose further names; their values pass as they were written") {
+  const LittleCatalogue little({
+      "command: FORMULA\ndoc: Makes a formula.\ncategory: functions\n"
+      "keywords: {TEXT: {type: text, doc: The expression., required: true}}\n"
+      "further: {type: anything, doc: A name of the expression.}"});
+  const auto check = [&](const Arguments& arguments, Diagnostics& diagnostics) {
+    return check_call(written_call("FORMULA", arguments), little.catalogue->page("FORMULA"), *little.catalogue,
+                      diagnostics, Severity::error);
+  };
+  const Value list = Value::list({Value(1.0), Value("b")});
+  Diagnostics said;
+  const CheckedCall checked = check({{"TEXT", Value("a*x")}, {"a", Value(2)}, {"table", list}}, said);
+  CHECK(said.items().empty());
+  CHECK(checked.complete);
+  CHECK(checked.call.integer("a") == 2);
+  CHECK(checked.call.at("table").value.is_list());
+  check({{"TEXT", Value("a*x")}, {"a", Value(2)}, {"a", Value(3)}}, said);
+  REQUIRE(said.items().size() == 1);
+  CHECK(said.items().front().code == "duplicate-keyword");
+}
+
 TEST_CASE("reuse= goes with a keyword only where that keyword is given") {
   Checker checker;
   const ConceptPtr result = new_concept("R", "result", 9);

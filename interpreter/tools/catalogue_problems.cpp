@@ -59,6 +59,7 @@ class Inspector {
 
   void block_level(const LevelPage& level, const std::string& where, const NameSet& here, const NameSet& visible) {
     for (const KeywordPage& keyword : level.keywords) inspect(keyword, where + "/" + keyword.name, here, visible);
+    if (level.further) inspect(*level.further, where + "/(any other name)", here, visible);
     for (const RulePage& rule : level.rules)
       for (const std::string& name : rule.keywords)
         if (!here.contains(name))
@@ -86,9 +87,7 @@ class Inspector {
     if (keyword.required && standard) note(where, "is required and has a default");
     if (keyword.max_count != unlimited && keyword.max_count < keyword.min_count) note(where, "max is less than min");
     inspect_default(keyword, where);
-    const bool has_inside = !keyword.inside.keywords.empty() || !keyword.inside.blocks.empty();
     if (!keyword.is_factor()) return;
-    if (!has_inside) note(where, "is a factor without keywords");
     NameSet around = visible;
     factor_level(keyword.inside, where, around);
   }

@@ -109,7 +109,7 @@ class PageBuilder {
     json.erase("shapes");  // a place for YAML anchors
     allow(json, "the page",
           {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "supported",
-           "reuse", "keywords", "unsupported", "rules", "blocks", "use"});
+           "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
     demand(json, "the page", {"command", "doc", "category"});
     choose(json, "cost", {"cheap", "solve"});
     choose(json, "role", {"value", "verdict", "output", "setup"});
@@ -153,6 +153,7 @@ class PageBuilder {
     if (json.contains("use")) json = with_shared(std::move(json), where);
     if (json.contains("keywords")) json["keywords"] = keywords(json["keywords"], where);
     if (json.contains("unsupported")) add_unsupported(json, where);
+    if (json.contains("further")) json["further"] = keyword(json["further"], where + "/(any other name)");
     if (json.contains("rules"))
       for (const Json& rule : json["rules"]) check_rule(rule, where);
     if (json.contains("blocks"))
@@ -231,6 +232,8 @@ class PageBuilder {
           {"type", "doc", "unit", "aliases", "min", "max", "words", "above", "at_least", "below", "at_most", "required",
            "supported", "no_effect", "default", "keywords", "rules", "blocks"});
     demand(json, where, {"type", "doc"});
+    if (json["type"] == "factor" && !json.contains("keywords") && !json.contains("blocks"))
+      refuse(where, "a factor lists its keywords ('keywords: {}' when it has none)");
     if (json.contains("max") && json["max"].is_string() && json["max"] != "many")
       refuse(where, "max is a number or 'many'");
     if (json.contains("words")) check_words(json["words"], where);
