@@ -94,6 +94,7 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
     return Value(std::shared_ptr<Object>(std::make_shared<BoundMethod>(object, name, method)));
   }
   if (const auto* type = object.as_object<TypeObject>()) {
+    if (type->name == "dict" && name == "fromkeys") return attribute(Value::dict({}), name);
     // str.upper(text): the method with its object as first argument.
     if (const Method method = find_method(type_attribute_owner(*type), name)) {
       return Value(std::shared_ptr<Object>(std::make_shared<UnboundMethod>(name, method)));

@@ -243,7 +243,6 @@ std::string format_value(const Value& value, std::string_view text, Meter& meter
   const Spec spec = parse_spec(text, value);
   meter.allocate(static_cast<std::uint64_t>(spec.width));
   if (value.is_text()) return format_text(value.as_text(), spec, value);
-  if (value.is_bool() && spec.type == 0) return format_text(text_of(value), spec, Value(text_of(value)));
   if (integer_of(value)) return format_integer(value, spec);
   if (value.is_real()) return format_real(value.as_real(), spec, value);
   if (value.is_complex()) return format_complex(value.as_complex(), spec, value);

@@ -220,7 +220,8 @@ std::string format_level(std::string_view text, const std::function<Value(std::s
       const Field field = split_field(text.substr(i + 1, close - i - 1));
       Value value = value_of(field.name);
       if (field.conversion != 0) value = convert_value(value, field.conversion);
-      const std::string spec = format_level(field.spec, value_of, meter, level + 1);
+      const bool nested = field.spec.find_first_of("{}") != field.spec.npos;
+      const std::string spec = nested ? format_level(field.spec, value_of, meter, level + 1) : std::string(field.spec);
       out += format_value(value, spec, meter);
       i = close;
     }

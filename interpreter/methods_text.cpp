@@ -109,8 +109,7 @@ std::vector<Value> split_blanks(const Points& points, std::int64_t most) {
     if (static_cast<std::int64_t>(parts.size()) < most) {
       while (end < points.size() && !is_blank(points[end])) ++end;
     } else {
-      end = points.size();
-      while (end > i && is_blank(points[end - 1])) --end;
+      end = points.size();  // the rest as it stands, trailing blanks and all
     }
     parts.emplace_back(encode_utf8({points.begin() + static_cast<std::ptrdiff_t>(i), points.begin() + static_cast<std::ptrdiff_t>(end)}));
     if (end >= points.size() || static_cast<std::int64_t>(parts.size()) > most) return parts;
