@@ -136,24 +136,19 @@ Value power_integer(const Value& a, const Value& b, Meter& meter) {
   if (base.is_zero() || base == BigInteger(1)) return exponent.is_zero() ? Value(1) : a.is_bool() ? Value(static_cast<int>(a.as_bool())) : a;
   if (base == BigInteger(-1)) return exponent.is_odd() ? Value(-1) : Value(1);
   const std::uint64_t times = exponent.fits_int64() ? static_cast<std::uint64_t>(exponent.to_int64()) : std::numeric_limits<std::uint32_t>::max();
-  const std::uint64_t bytes = base.bit_length() * std::min<std::uint64_t>(times, std::numeric_limits<std::uint32_t>::max()) / 8;
-  // The product of two numbers of n limbs takes n^2 operations.
-  meter.allocate(bytes);
-  meter.allocate(std::min<std::uint64_t>(bytes * (bytes / 64), meter.limits().largest_object * 64) / 64);
+  const std::uint64_t bits = base.bit_length() * std::min<std::uint64_t>(times, std::numeric_limits<std::uint32_t>::max());
+  meter.check_integer(bits);
+  meter.work(bits / 32 * (bits / 32));
   return Value::integer(BigInteger::power(base, times));
 }
 
 Value big_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
   const BigInteger x = *integer_of(a);
   const BigInteger y = *integer_of(b);
-  const std::uint64_t bytes = (x.bit_length() + y.bit_length()) / 8;
   switch (op) {
     case Operator::add: return Value::integer(x + y);
     case Operator::subtract: return Value::integer(x - y);
-    case Operator::multiply:
-      meter.allocate(bytes);
-      meter.allocate(std::min<std::uint64_t>(bytes * bytes / 64, meter.limits().largest_object));
-      return Value::integer(x * y);
+    case Operator::multiply: meter.check_integer(x.bit_length() + y.bit_length()); return Value::integer(x * y);
     case Operator::bit_and: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::conjunction, x, y));
     case Operator::bit_or: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::disjunction, x, y));
     case Operator::bit_xor: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::exclusive, x, y));
@@ -163,7 +158,7 @@ Value big_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
       if (op == Operator::right_shift) return Value::integer(x.shifted_right(y.fits_int64() ? static_cast<std::uint64_t>(y.to_int64()) : ~0ULL));
       if (x.is_zero()) return 0;
       const std::uint64_t bits = y.fits_int64() ? static_cast<std::uint64_t>(y.to_int64()) : ~0ULL;
-      meter.allocate(bits / 8);
+      meter.check_integer(std::max(bits, bits + x.bit_length()));
       return Value::integer(x.shifted_left(bits));
     }
     default: raise_operands(op, a, b);
@@ -196,7 +191,15 @@ Value divide_integers(const Value& a, const Value& b) {
   return result;
 }
 
+/// Schoolbook products and quotients take the product of the lengths.
+void charge_long_operands(const Value& a, const Value& b, Meter& meter) {
+  if (!a.is_big_integer() && !b.is_big_integer()) return;
+  const auto limbs = [](const Value& value) { return value.is_big_integer() ? value.as_big_integer().bit_length() / 32 + 1 : 1; };
+  meter.work(limbs(a) * limbs(b) + limbs(a) + limbs(b));
+}
+
 Value integer_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
+  charge_long_operands(a, b, meter);
   if (op == Operator::divide) return divide_integers(a, b);
   if (op == Operator::floor_divide) return floor_divide(a, b);
   if (op == Operator::modulo) return modulo(a, b);

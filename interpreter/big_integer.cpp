@@ -82,8 +82,22 @@ double BigInteger::to_double() const {
   return negative_ ? -value : value;
 }
 
+/// Digits of a base 2^bits, most significant first: cut out of the limbs.
+std::string BigInteger::bit_digits(unsigned bits) const {
+  std::string digits = negative_ ? "-" : "";
+  const std::size_t count = (bit_length() + bits - 1) / bits;
+  for (std::size_t i = count; i-- > 0;) {
+    const std::size_t place = i * bits;
+    std::uint64_t window = limbs_[place / 32];
+    if (place / 32 + 1 < limbs_.size()) window |= static_cast<std::uint64_t>(limbs_[place / 32 + 1]) << 32;
+    digits += "0123456789abcdef"[(window >> (place % 32)) & ((1U << bits) - 1)];
+  }
+  return digits;
+}
+
 std::string BigInteger::to_string(int base) const {
   if (is_zero()) return "0";
+  if (base == 2 || base == 8 || base == 16) return bit_digits(base == 2 ? 1 : base == 8 ? 3 : 4);
   // As many digits at once as fit a limb, so that the number is divided as seldom as possible.
   std::uint32_t chunk = static_cast<std::uint32_t>(base);
   int chunk_digits = 1;

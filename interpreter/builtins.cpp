@@ -152,18 +152,19 @@ Value hash(Evaluator&, const CallArguments& arguments) {
   return static_cast<std::int64_t>(hash_of(arguments[0]) >> 3);
 }
 
-Value divmod(Evaluator&, const CallArguments& arguments) {
+Value divmod(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("divmod", arguments, 2, 2);
   for (const Value& value : arguments.positional) {
     if (!is_numeric(value) || value.is_complex()) {
       raise(ErrorKind::type, fmt::format("unsupported operand type(s) for divmod(): '{}' and '{}'", arguments[0].type_name(), arguments[1].type_name()));
     }
   }
-  return Value::tuple({floor_divide(arguments[0], arguments[1]), modulo(arguments[0], arguments[1])});
+  return Value::tuple({binary_operation(Operator::floor_divide, arguments[0], arguments[1], evaluator.meter()),
+                       binary_operation(Operator::modulo, arguments[0], arguments[1], evaluator.meter())});
 }
 
 /// a**b modulo m, the square-and-multiply way.
-Value power_modulo(const Value& a, const Value& b, const Value& m) {
+Value power_modulo(const Value& a, const Value& b, const Value& m, Meter& meter) {
   const auto base = integer_of(a), exponent = integer_of(b), modulus = integer_of(m);
   if (!base || !exponent || !modulus) raise(ErrorKind::type, "pow() 3rd argument not allowed unless all arguments are integers");
   if (modulus->is_zero()) raise(ErrorKind::value, "pow() 3rd argument cannot be 0");
@@ -171,6 +172,7 @@ Value power_modulo(const Value& a, const Value& b, const Value& m) {
   const auto reduce = [&](const BigInteger& x) { return BigInteger::floor_divide(x, *modulus).second; };
   BigInteger result = reduce(BigInteger(1)), factor = reduce(*base);
   for (BigInteger n = *exponent; !n.is_zero(); n = n.shifted_right(1)) {
+    meter.work(2 * (modulus->bit_length() / 32 + 1) * (modulus->bit_length() / 32 + 1) + n.bit_length() / 32 + 16);
     if (n.is_odd()) result = reduce(result * factor);
     factor = reduce(factor * factor);
   }
@@ -179,7 +181,7 @@ Value power_modulo(const Value& a, const Value& b, const Value& m) {
 
 Value pow(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("pow", arguments, 2, 3);
-  if (arguments.size() == 3) return power_modulo(arguments[0], arguments[1], arguments[2]);
+  if (arguments.size() == 3) return power_modulo(arguments[0], arguments[1], arguments[2], evaluator.meter());
   return power(arguments[0], arguments[1], evaluator.meter());
 }
 
@@ -244,6 +246,25 @@ Value identity(Evaluator&, const CallArguments& arguments) {
 /// _F is made by the evaluator itself, which knows where its keywords stand.
 Value factor(Evaluator&, const CallArguments&) { return {}; }
 
+struct Refusal {
+  std::string_view name, reason;
+};
+
+constexpr std::string_view no_files = "a command file reaches no file: use LIRE_*, IMPR_* and the units of the .export";
+constexpr std::string_view no_code = "text is not run as code in a command file";
+constexpr std::string_view no_looking = "variables are not looked up by name: use a dict";
+constexpr std::array refusals = {
+    Refusal{"open", no_files},       Refusal{"input", "a command file asks nothing while it runs"},
+    Refusal{"eval", no_code},        Refusal{"exec", no_code},
+    Refusal{"compile", no_code},     Refusal{"__import__", "write 'import' on a line of its own"},
+    Refusal{"globals", no_looking},  Refusal{"locals", no_looking},
+    Refusal{"vars", no_looking},     Refusal{"dir", no_looking},
+    Refusal{"setattr", "attributes cannot be assigned"}, Refusal{"delattr", "attributes cannot be deleted"},
+    Refusal{"bytes", "texts are str"}, Refusal{"bytearray", "texts are str"},
+    Refusal{"super", "there are no classes"}, Refusal{"issubclass", "use isinstance(...)"},
+    Refusal{"exit", "use sys.exit() after 'import sys'"}, Refusal{"quit", "use sys.exit() after 'import sys'"},
+};
+
 constexpr std::array functions = {
     FunctionRow{"print", print},   FunctionRow{"len", len},         FunctionRow{"abs", abs},         FunctionRow{"round", round},
     FunctionRow{"isinstance", isinstance}, FunctionRow{"callable", callable}, FunctionRow{"repr", repr}, FunctionRow{"ascii", ascii},
@@ -285,6 +306,11 @@ const Names& builtins() {
 }  // namespace
 
 std::span<const FunctionRow> basic_functions() { return functions; }
+
+std::string_view refusal_of(std::string_view name) {
+  const auto found = std::find_if(refusals.begin(), refusals.end(), [&](const Refusal& row) { return row.name == name; });
+  return found == refusals.end() ? std::string_view() : found->reason;
+}
 
 const Value* builtin_value(std::string_view name) {
   const auto found = builtins().find(name);

@@ -17,6 +17,11 @@ std::vector<std::string> builtin_names();
 /// A member of the module math; null for another name.
 const Value* math_value(std::string_view name);
 
+/// The part of math that every command file has without import, as Code_Aster brings it; null for another name.
+const Value* common_math_value(std::string_view name);
+/// Why a Python builtin is left out ("open" reaches files); empty for a name that is none of them.
+std::string_view refusal_of(std::string_view name);
+
 /// int(...), str(...), list(...) ...
 Value construct(Evaluator& evaluator, const std::string& type, const CallArguments& arguments);
 

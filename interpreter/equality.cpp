@@ -78,8 +78,9 @@ bool equal_at(const Value& a, const Value& b, int depth) {
   if (a.storage().index() != b.storage().index()) return false;
   if (a.is_none()) return true;
   if (a.is_text()) return a.as_text() == b.as_text();
+  if (a.is_sequence() && a.items().data() == b.items().data() && a.items().size() == b.items().size()) return true;
   if (a.is_sequence()) return equal_items(a.items(), b.items(), depth);
-  if (a.is_dict()) return equal_dicts(a.as_dict(), b.as_dict(), depth);
+  if (a.is_dict()) return &a.as_dict() == &b.as_dict() || equal_dicts(a.as_dict(), b.as_dict(), depth);
   if (a.is_set()) return equal_dicts(a.as_set(), b.as_set(), depth);
   if (a.is_concept()) return a.as_concept() == b.as_concept();
   if (a.is_factor()) return &a.as_factor() == &b.as_factor();

@@ -98,12 +98,13 @@ Value Evaluator::load_global(const NameNode& name) {
   }
   if (const auto found = globals_.find(name.id); found != globals_.end()) return found->second;
   if (const Value* value = builtin_value(name.id)) return *value;
-  if (strict_ > 0) {
-    if (const Value* value = math_value(name.id)) return *value;
-  }
+  if (const Value* value = math_name(name.id)) return *value;
   if (host_.is_command(name.id)) return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name.id)));
   return unknown_name(name);
 }
+
+/// In a formula all of math is at hand; a file has the usual part of it.
+const Value* Evaluator::math_name(std::string_view name) const { return strict_ > 0 ? math_value(name) : common_math_value(name); }
 
 /// A name is reported once; its later uses belong to the same mistake.
 Value Evaluator::unknown_name(const NameNode& name, bool called) {
@@ -116,11 +117,16 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   known.insert(known.end(), commands.begin(), commands.end());
   if (!like_a_command) known.insert(known.end(), builtins.begin(), builtins.end());
   const std::string near = nearest(word, known);
-  std::string hint = near.empty() ? "" : fmt::format("did you mean {}?", near);
-  const std::string message = fmt::format("name '{}' is not defined", word);
+  const std::string_view refusal = refusal_of(word);
+  std::string hint = !near.empty() ? fmt::format("did you mean {}?", near) : "";
+  if (math_value(word) != nullptr) hint = fmt::format("write 'from math import {}' before", word);
+  if (!refusal.empty()) hint = refusal;
+  const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
+                                              : fmt::format("'{}' is not part of the command language", word);
   if (!recovering()) raise(ErrorKind::name, message, std::move(hint));
   if (!reported_names_.insert(word).second) return Value::unknown();
-  report({Severity::error, like_a_command ? "unknown-command" : "unknown-name",
+  const char* code = like_a_command ? "unknown-command" : refusal.empty() ? "unknown-name" : "not-supported";
+  report({Severity::error, code,
           like_a_command ? fmt::format("there is no command {}", word) : message, std::move(hint), span_of(name)});
   return Value::unknown();
 }

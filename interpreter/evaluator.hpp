@@ -83,6 +83,7 @@ class Evaluator {
   // Variables (evaluator.cpp).
   Value load(const NameNode& name);
   Value load_global(const NameNode& name);
+  const Value* math_name(std::string_view name) const;
   Value unknown_name(const NameNode& name, bool called = false);
   void store(const NameNode& name, Value value);
   void assign(const Node& target, const Value& value);

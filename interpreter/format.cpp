@@ -202,7 +202,7 @@ std::string format_integer(const Value& value, Spec spec) {
   else if (spec.type == 'b') base = 2;
   else if (spec.type != 0 && spec.type != 'd' && spec.type != 'n') raise_unknown_type(spec, value);
   if (spec.alternate && base != 10) prefix = std::string("0") + spec.type;
-  std::string digits = number.magnitude().to_string(base);
+  std::string digits = base == 10 ? decimal_digits(number.magnitude()) : number.magnitude().to_string(base);
   if (spec.type == 'X') std::transform(digits.begin(), digits.end(), digits.begin(), [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
   return assemble(number.is_negative(), prefix, digits, "", spec, base == 10 ? 3 : 4);
 }

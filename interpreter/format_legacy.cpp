@@ -142,7 +142,7 @@ class PercentFormatter {
     }
     const BigInteger big = *integer_of(number);
     const int base = decimal ? 10 : type == 'o' ? 8 : 16;
-    std::string digits = big.magnitude().to_string(base);
+    std::string digits = base == 10 ? decimal_digits(big.magnitude()) : big.magnitude().to_string(base);
     if (precision > static_cast<int>(digits.size())) digits.insert(0, static_cast<std::size_t>(precision) - digits.size(), '0');
     if (type == 'X') std::transform(digits.begin(), digits.end(), digits.begin(), [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
     const std::string prefix = flags.find('#') != std::string::npos && !decimal ? std::string("0") + type : "";

@@ -307,12 +307,25 @@ Token Lexer::lex_strange_character() {
   std::size_t length = 1;
   const char32_t character = code_point_at(text_, at_, length);
   at_ += static_cast<std::uint32_t>(length);
+  const std::uint32_t character_end = at_;
+  if (character == 0x2018 || character == 0x201C || character == 0xAB) skip_typographic_text(character);
   std::string shown;
   if (character < 0x20) shown = fmt::format("\\x{:02x}", static_cast<unsigned>(character));
   else append_utf8(shown, character);
   error("unexpected-character", fmt::format("the character {} (U+{:04X}) has no meaning here", shown, static_cast<unsigned>(character)),
-        begin, at_, hint_for(character));
+        begin, character_end, hint_for(character));
   return make(TokenKind::broken, begin);
+}
+
+/// To the quote that closes a typographic one, if it is on the line: its text is no code.
+void Lexer::skip_typographic_text(char32_t opening) {
+  const char32_t closing = opening == 0xAB ? 0xBB : opening + 1;
+  std::size_t length = 1;
+  for (std::uint32_t i = at_; i < end_ && text_[i] != '\n' && text_[i] != '\r'; i += static_cast<std::uint32_t>(length)) {
+    if (code_point_at(text_, i, length) != closing) continue;
+    at_ = i + static_cast<std::uint32_t>(length);
+    return;
+  }
 }
 
 }  // namespace comma::interpreter

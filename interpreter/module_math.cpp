@@ -199,14 +199,19 @@ std::int64_t count_argument(const Value& value, std::string_view function) {
   return n;
 }
 
+void grow(BigInteger& product, std::int64_t factor, Meter& meter) {
+  meter.step();
+  meter.check_integer(product.bit_length() + 64);
+  meter.work(product.bit_length() / 32);
+  product = product * BigInteger(factor);
+}
+
 Value factorial(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("factorial", arguments, 1, 1);
   const std::int64_t n = count_argument(arguments[0], "factorial");
   BigInteger product(1);
   for (std::int64_t i = 2; i <= n; ++i) {
-    evaluator.meter().step();
-    evaluator.meter().allocate(product.bit_length() / 8);
-    product = product * BigInteger(i);
+    grow(product, i, evaluator.meter());
   }
   return Value::integer(product);
 }
@@ -218,8 +223,7 @@ Value permutations(Evaluator& evaluator, const CallArguments& arguments) {
   if (k > n) return 0;
   BigInteger product(1);
   for (std::int64_t i = n - k + 1; i <= n; ++i) {
-    evaluator.meter().allocate(64 + product.bit_length() / 8);
-    product = product * BigInteger(i);
+    grow(product, i, evaluator.meter());
   }
   return Value::integer(product);
 }
@@ -232,8 +236,8 @@ Value combinations(Evaluator& evaluator, const CallArguments& arguments) {
   k = std::min(k, n - k);
   BigInteger result(1);
   for (std::int64_t i = 1; i <= k; ++i) {
-    evaluator.meter().allocate(64 + result.bit_length() / 8);
-    result = BigInteger::floor_divide(result * BigInteger(n - k + i), BigInteger(i)).first;
+    grow(result, n - k + i, evaluator.meter());
+    result = BigInteger::floor_divide(result, BigInteger(i)).first;
   }
   return Value::integer(result);
 }
@@ -243,8 +247,9 @@ BigInteger integer_argument(const Value& value) {
   raise(ErrorKind::type, fmt::format("'{}' object cannot be interpreted as an integer", value.type_name()));
 }
 
-BigInteger common_divisor(BigInteger a, BigInteger b) {
+BigInteger common_divisor(BigInteger a, BigInteger b, Meter& meter) {
   while (!b.is_zero()) {
+    meter.work(16 + (a.bit_length() + b.bit_length()) / 32);
     BigInteger rest = BigInteger::floor_divide(a, b).second;
     a = std::move(b);
     b = std::move(rest);
@@ -252,23 +257,25 @@ BigInteger common_divisor(BigInteger a, BigInteger b) {
   return a.magnitude();
 }
 
-Value gcd(Evaluator&, const CallArguments& arguments) {
+Value gcd(Evaluator& evaluator, const CallArguments& arguments) {
   BigInteger result;
-  for (const Value& value : arguments.positional) result = common_divisor(result, integer_argument(value));
+  for (const Value& value : arguments.positional) result = common_divisor(result, integer_argument(value), evaluator.meter());
   return Value::integer(result);
 }
 
-Value lcm(Evaluator&, const CallArguments& arguments) {
+Value lcm(Evaluator& evaluator, const CallArguments& arguments) {
   BigInteger result(1);
   for (const Value& value : arguments.positional) {
     const BigInteger x = integer_argument(value).magnitude();
     if (x.is_zero()) return 0;
-    result = BigInteger::floor_divide(result * x, common_divisor(result, x)).first;
+    evaluator.meter().check_integer(result.bit_length() + x.bit_length());
+    evaluator.meter().work((result.bit_length() / 32 + 1) * (x.bit_length() / 32 + 1));
+    result = BigInteger::floor_divide(result * x, common_divisor(result, x, evaluator.meter())).first;
   }
   return Value::integer(result);
 }
 
-Value isqrt(Evaluator&, const CallArguments& arguments) {
+Value isqrt(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("isqrt", arguments, 1, 1);
   const BigInteger n = integer_argument(arguments[0]);
   if (n.is_negative()) raise(ErrorKind::value, "isqrt() argument must be nonnegative");
@@ -276,6 +283,7 @@ Value isqrt(Evaluator&, const CallArguments& arguments) {
   // Newton's iteration from above decreases until it has passed the root.
   BigInteger x = BigInteger(1).shifted_left((n.bit_length() + 1) / 2);
   while (true) {
+    evaluator.meter().work((n.bit_length() / 32 + 1) * (n.bit_length() / 32 + 1));
     const BigInteger y = (x + BigInteger::floor_divide(n, x).first).shifted_right(1);
     if (y >= x) return Value::integer(x);
     x = y;
@@ -353,7 +361,15 @@ Names make_math() {
   return names;
 }
 
+constexpr std::array<std::string_view, 24> common = {"sin",  "cos",  "tan",   "asin",  "acos", "atan",  "atan2", "sinh",
+                                                     "cosh", "tanh", "exp",   "log",   "log10", "sqrt", "pi",    "ceil",
+                                                     "floor", "fabs", "fmod", "hypot", "radians", "degrees", "asinh", "acosh"};
+
 }  // namespace
+
+const Value* common_math_value(std::string_view name) {
+  return std::find(common.begin(), common.end(), name) == common.end() ? nullptr : math_value(name);
+}
 
 std::span<const FunctionRow> math_functions() { return functions; }
 

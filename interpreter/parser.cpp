@@ -74,7 +74,10 @@ void Parser::advance() {
     if (now_.text.size() == 1 && (c == '(' || c == '[' || c == '{')) open_brackets_.push_back(now_);
     if ((c == ')' || c == ']' || c == '}') && !open_brackets_.empty()) open_brackets_.pop_back();
   }
-  if (now_.kind == TokenKind::newline) open_brackets_.clear();
+  if (now_.kind == TokenKind::newline) {
+    open_brackets_.clear();
+    broken_ = false;
+  }
   if (now_.end > previous_end_ && now_.kind != TokenKind::newline) previous_end_ = now_.end;
   if (ahead_) {
     now_ = std::move(*ahead_);
@@ -82,6 +85,7 @@ void Parser::advance() {
   } else {
     now_ = lexer_.next();
   }
+  broken_ = broken_ || now_.kind == TokenKind::broken;
 }
 
 const Token& Parser::ahead() {
@@ -112,6 +116,7 @@ void Parser::fail(std::string code, std::string message, Span span, std::string 
 }
 
 void Parser::report(std::string code, std::string message, Span span, std::string hint) {
+  if (broken_) return;
   ++errors_;
   diagnostics_.error(std::move(code), std::move(message), std::move(span), std::move(hint));
 }
@@ -119,7 +124,11 @@ void Parser::report(std::string code, std::string message, Span span, std::strin
 void Parser::fail_here(std::string expected) {
   // What the lexer could not read was reported there.
   if (now_.kind == TokenKind::broken) throw Failure{{}, now_.begin};
-  if (now_.kind == TokenKind::newline) fail("syntax", "the line ends where " + expected + " is expected", span_of(now_));
+  if (now_.kind == TokenKind::newline) {
+    const std::string_view before = file_->text().substr(0, previous_end_);
+    const bool steps = before.ends_with("++") || before.ends_with("--");
+    fail("syntax", "the line ends where " + expected + " is expected", span_of(now_), steps ? "write 'x += 1' or 'x -= 1'" : "");
+  }
   if (now_.kind == TokenKind::end || now_.kind == TokenKind::dedent) {
     fail("syntax", "the text ends where " + expected + " is expected", span_of(now_));
   }
@@ -131,6 +140,7 @@ void Parser::fail_here(std::string expected) {
   }
   std::string hint;
   if (now_.kind == TokenKind::keyword) hint = fmt::format("'{}' is a reserved word of the language", now_.text);
+  if (now_.text == "&" || now_.text == "|") hint = "the logical operators are 'and' and 'or'";
   if (now_.text == "<>") hint = "different from is written !=";
   fail("syntax", fmt::format("'{}' stands where {} is expected", now_.text, expected), span_of(now_), std::move(hint));
 }
@@ -191,6 +201,7 @@ void Parser::recover(Failure failure, const Token& start) {
   std::optional<Token> left_open;
   if (!open_brackets_.empty()) left_open = open_brackets_.back();
   bool at_next_statement = false;
+  const bool follows_from_broken = broken_;
   while (now_.kind != TokenKind::newline && now_.kind != TokenKind::end) {
     if (now_.kind == TokenKind::indent || now_.kind == TokenKind::dedent) break;
     if (now_.begin > start.begin && starts_statement(now_)) {
@@ -204,7 +215,8 @@ void Parser::recover(Failure failure, const Token& start) {
     failure.finding = {Severity::error, "unclosed-bracket", fmt::format("this '{}' is never closed", left_open->text),
                        fmt::format("add '{}'", closing_of(left_open->text)), span_of(*left_open)};
   }
-  if (!failure.finding.message.empty()) {
+  const bool is_news = !failure.finding.message.empty() && (never_closed || !follows_from_broken);
+  if (is_news) {
     ++errors_;
     diagnostics_.add(std::move(failure.finding));
   }

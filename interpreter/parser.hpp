@@ -22,8 +22,8 @@ Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostic
 /// the order of use, repeated ones repeated.
 NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics, std::vector<std::string>* names = nullptr);
 
-/// Brackets, blocks and operators within each other: Python allows 200 brackets and 100 blocks.
-inline constexpr int deepest_nesting = 200;
+/// Brackets and operators within each other (a bracket with an expression in it counts twice), and blocks: as deep as Python.
+inline constexpr int deepest_nesting = 400;
 inline constexpr int deepest_block = 100;
 /// The height of an expression's tree (a + b + c + ... is as high as it is long), which bounds the evaluator's stack.
 inline constexpr int highest_tree = 2000;
@@ -153,6 +153,7 @@ class Parser {
   int blocks_ = 0;
   int loops_ = 0;
   bool orphan_ = false;  ///< inside the block of a broken header: what it needs around it may be missing
+  bool broken_ = false;  ///< the statement has a token that the lexer has reported: what follows from it is no news
   int errors_ = 0;
 };
 
