@@ -15,7 +15,9 @@ constexpr int deepest_compared = 500;
 
 bool equal_at(const Value& a, const Value& b, int depth);
 
-bool is_numeric(const Value& value) { return value.is_bool() || value.is_number() || value.is_complex(); }
+bool is_numeric(const Value& value) {
+  return value.is_bool() || value.is_number() || value.is_complex();
+}
 
 std::optional<std::int64_t> small_integer(const Value& value) {
   if (value.is_integer()) return value.as_integer();
@@ -94,7 +96,9 @@ std::size_t hash_real(double value) {
   return std::hash<double>{}(value);
 }
 
-std::size_t combine(std::size_t seed, std::size_t hash) { return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL); }
+std::size_t combine(std::size_t seed, std::size_t hash) {
+  return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL);
+}
 
 std::size_t hash_at(const Value& value, int depth) {
   if (depth > deepest_compared) raise(ErrorKind::recursion, "maximum recursion depth exceeded in hash()");
@@ -126,8 +130,12 @@ std::size_t hash_at(const Value& value, int depth) {
 
 }  // namespace
 
-bool equal(const Value& a, const Value& b) { return equal_at(a, b, 0); }
+bool equal(const Value& a, const Value& b) {
+  return equal_at(a, b, 0);
+}
 
-std::size_t hash_of(const Value& value) { return hash_at(value, 0); }
+std::size_t hash_of(const Value& value) {
+  return hash_at(value, 0);
+}
 
 }  // namespace comma::interpreter

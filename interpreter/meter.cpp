@@ -23,8 +23,10 @@ void Meter::work(std::uint64_t operations) {
 
 void Meter::check_integer(std::uint64_t bits) const {
   if (bits <= limits_.integer_bits) return;
-  throw LimitReached("limit-memory", fmt::format("this makes an integer of more than {} bits: the run is stopped", limits_.integer_bits), {},
-                     "compute with float where the last digit does not matter");
+  throw LimitReached(
+      "limit-memory",
+      fmt::format("this makes an integer of more than {} bits: the run is stopped", limits_.integer_bits), {},
+      "compute with float where the last digit does not matter");
 }
 
 void Meter::stop_steps() const {
@@ -34,9 +36,10 @@ void Meter::stop_steps() const {
 
 void Meter::allocate(std::uint64_t bytes) {
   if (bytes > limits_.largest_object) {
-    throw LimitReached("limit-memory", fmt::format("this makes an object of more than {} MB: the run is stopped",
-                                                   limits_.largest_object >> 20),
-                       {}, "look for a product or a range that is too large");
+    throw LimitReached(
+        "limit-memory",
+        fmt::format("this makes an object of more than {} MB: the run is stopped", limits_.largest_object >> 20), {},
+        "look for a product or a range that is too large");
   }
   steps_ += bytes / bytes_per_step;
   if (steps_ > limits_.steps) stop_steps();

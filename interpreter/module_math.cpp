@@ -16,11 +16,13 @@ namespace comma::interpreter {
 namespace {
 
 double real_argument(const Value& value) {
-  if (value.is_text() || !is_numeric(value) || value.is_complex()) raise(ErrorKind::type, "must be real number, not " + value.type_name());
+  if (value.is_text() || !is_numeric(value) || value.is_complex())
+    raise(ErrorKind::type, "must be real number, not " + value.type_name());
   return real_of(value);
 }
 
-/// nan out of numbers is outside the function's domain, infinity out of finite numbers is an overflow: as Python tells them.
+/// nan out of numbers is outside the function's domain, infinity out of finite numbers is an overflow: as Python tells
+/// them.
 Value checked(double result, double x, double y = 0.0) {
   if (std::isnan(result) && !std::isnan(x) && !std::isnan(y)) raise(ErrorKind::value, "math domain error");
   if (std::isinf(result) && std::isfinite(x) && std::isfinite(y)) raise(ErrorKind::overflow, "math range error");
@@ -42,8 +44,12 @@ Value binary(Evaluator&, const CallArguments& arguments) {
   return checked(Function(x, y), x, y);
 }
 
-double degrees(double x) { return x * (180.0 / std::numbers::pi); }
-double radians(double x) { return x * (std::numbers::pi / 180.0); }
+double degrees(double x) {
+  return x * (180.0 / std::numbers::pi);
+}
+double radians(double x) {
+  return x * (std::numbers::pi / 180.0);
+}
 
 double gamma_function(double x) {
   if (x == std::trunc(x) && x <= 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -56,8 +62,12 @@ double log_gamma(double x) {
 }
 
 /// atanh(+-1) and log1p(-1) are poles: Python calls them domain errors.
-double pole_free_atanh(double x) { return std::abs(x) >= 1.0 ? std::numeric_limits<double>::quiet_NaN() : std::atanh(x); }
-double pole_free_log1p(double x) { return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x); }
+double pole_free_atanh(double x) {
+  return std::abs(x) >= 1.0 ? std::numeric_limits<double>::quiet_NaN() : std::atanh(x);
+}
+double pole_free_log1p(double x) {
+  return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x);
+}
 
 /// Logarithm of any positive int, however large.
 double natural_log(const Value& value) {
@@ -120,9 +130,15 @@ Value test(Evaluator&, const CallArguments& arguments) {
   return Test(real_argument(arguments[0]));
 }
 
-bool is_nan(double x) { return std::isnan(x); }
-bool is_infinite(double x) { return std::isinf(x); }
-bool is_finite(double x) { return std::isfinite(x); }
+bool is_nan(double x) {
+  return std::isnan(x);
+}
+bool is_infinite(double x) {
+  return std::isinf(x);
+}
+bool is_finite(double x) {
+  return std::isfinite(x);
+}
 
 Value hypot(Evaluator&, const CallArguments& arguments) {
   std::vector<double> parts;
@@ -142,7 +158,8 @@ Value dist(Evaluator& evaluator, const CallArguments& arguments) {
   const auto b = list_of(arguments[1], evaluator.meter());
   if (a.size() != b.size()) raise(ErrorKind::value, "both points must have the same number of dimensions");
   CallArguments differences;
-  for (std::size_t i = 0; i < a.size(); ++i) differences.positional.emplace_back(real_argument(a[i]) - real_argument(b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    differences.positional.emplace_back(real_argument(a[i]) - real_argument(b[i]));
   return hypot(evaluator, differences);
 }
 
@@ -259,7 +276,8 @@ BigInteger common_divisor(BigInteger a, BigInteger b, Meter& meter) {
 
 Value gcd(Evaluator& evaluator, const CallArguments& arguments) {
   BigInteger result;
-  for (const Value& value : arguments.positional) result = common_divisor(result, integer_argument(value), evaluator.meter());
+  for (const Value& value : arguments.positional)
+    result = common_divisor(result, integer_argument(value), evaluator.meter());
   return Value::integer(result);
 }
 
@@ -299,7 +317,8 @@ Value isclose(Evaluator&, const CallArguments& arguments) {
   if (a == b) return true;
   if (std::isinf(a) || std::isinf(b)) return false;
   const double scale = std::max(std::abs(a), std::abs(b));
-  const double allowed = std::max((relative != nullptr ? real_argument(*relative) : 1e-9) * scale, absolute != nullptr ? real_argument(*absolute) : 0.0);
+  const double allowed = std::max((relative != nullptr ? real_argument(*relative) : 1e-9) * scale,
+                                  absolute != nullptr ? real_argument(*absolute) : 0.0);
   return std::abs(a - b) <= allowed;
 }
 
@@ -325,25 +344,60 @@ Value modf(Evaluator&, const CallArguments& arguments) {
 }
 
 constexpr std::array functions = {
-    FunctionRow{"sin", unary<std::sin>},     FunctionRow{"cos", unary<std::cos>},     FunctionRow{"tan", unary<std::tan>},
-    FunctionRow{"asin", unary<std::asin>},   FunctionRow{"acos", unary<std::acos>},   FunctionRow{"atan", unary<std::atan>},
-    FunctionRow{"sinh", unary<std::sinh>},   FunctionRow{"cosh", unary<std::cosh>},   FunctionRow{"tanh", unary<std::tanh>},
-    FunctionRow{"asinh", unary<std::asinh>}, FunctionRow{"acosh", unary<std::acosh>}, FunctionRow{"atanh", unary<pole_free_atanh>},
-    FunctionRow{"atan2", binary<std::atan2>}, FunctionRow{"exp", unary<std::exp>},    FunctionRow{"exp2", unary<std::exp2>},
-    FunctionRow{"expm1", unary<std::expm1>}, FunctionRow{"log1p", unary<pole_free_log1p>}, FunctionRow{"log", log},
-    FunctionRow{"log2", log_base<std::log2>}, FunctionRow{"log10", log_base<std::log10>}, FunctionRow{"sqrt", unary<std::sqrt>},
-    FunctionRow{"cbrt", unary<std::cbrt>},   FunctionRow{"fabs", unary<std::fabs>},   FunctionRow{"degrees", unary<degrees>},
-    FunctionRow{"radians", unary<radians>},  FunctionRow{"gamma", unary<gamma_function>}, FunctionRow{"lgamma", unary<log_gamma>},
-    FunctionRow{"erf", unary<std::erf>},     FunctionRow{"erfc", unary<std::erfc>},   FunctionRow{"pow", power_of},
-    FunctionRow{"fmod", fmod},               FunctionRow{"remainder", binary<std::remainder>},
-    FunctionRow{"copysign", binary<std::copysign>}, FunctionRow{"nextafter", binary<std::nextafter>},
-    FunctionRow{"floor", to_integer<std::floor>}, FunctionRow{"ceil", to_integer<std::ceil>}, FunctionRow{"trunc", to_integer<std::trunc>},
-    FunctionRow{"isnan", test<is_nan>},      FunctionRow{"isinf", test<is_infinite>}, FunctionRow{"isfinite", test<is_finite>},
-    FunctionRow{"hypot", hypot},             FunctionRow{"dist", dist},               FunctionRow{"fsum", fsum},
-    FunctionRow{"prod", prod},               FunctionRow{"factorial", factorial},     FunctionRow{"perm", permutations},
-    FunctionRow{"comb", combinations},       FunctionRow{"gcd", gcd},                 FunctionRow{"lcm", lcm},
-    FunctionRow{"isqrt", isqrt},             FunctionRow{"isclose", isclose},         FunctionRow{"frexp", frexp},
-    FunctionRow{"ldexp", ldexp},             FunctionRow{"modf", modf},
+    FunctionRow{"sin", unary<std::sin>},
+    FunctionRow{"cos", unary<std::cos>},
+    FunctionRow{"tan", unary<std::tan>},
+    FunctionRow{"asin", unary<std::asin>},
+    FunctionRow{"acos", unary<std::acos>},
+    FunctionRow{"atan", unary<std::atan>},
+    FunctionRow{"sinh", unary<std::sinh>},
+    FunctionRow{"cosh", unary<std::cosh>},
+    FunctionRow{"tanh", unary<std::tanh>},
+    FunctionRow{"asinh", unary<std::asinh>},
+    FunctionRow{"acosh", unary<std::acosh>},
+    FunctionRow{"atanh", unary<pole_free_atanh>},
+    FunctionRow{"atan2", binary<std::atan2>},
+    FunctionRow{"exp", unary<std::exp>},
+    FunctionRow{"exp2", unary<std::exp2>},
+    FunctionRow{"expm1", unary<std::expm1>},
+    FunctionRow{"log1p", unary<pole_free_log1p>},
+    FunctionRow{"log", log},
+    FunctionRow{"log2", log_base<std::log2>},
+    FunctionRow{"log10", log_base<std::log10>},
+    FunctionRow{"sqrt", unary<std::sqrt>},
+    FunctionRow{"cbrt", unary<std::cbrt>},
+    FunctionRow{"fabs", unary<std::fabs>},
+    FunctionRow{"degrees", unary<degrees>},
+    FunctionRow{"radians", unary<radians>},
+    FunctionRow{"gamma", unary<gamma_function>},
+    FunctionRow{"lgamma", unary<log_gamma>},
+    FunctionRow{"erf", unary<std::erf>},
+    FunctionRow{"erfc", unary<std::erfc>},
+    FunctionRow{"pow", power_of},
+    FunctionRow{"fmod", fmod},
+    FunctionRow{"remainder", binary<std::remainder>},
+    FunctionRow{"copysign", binary<std::copysign>},
+    FunctionRow{"nextafter", binary<std::nextafter>},
+    FunctionRow{"floor", to_integer<std::floor>},
+    FunctionRow{"ceil", to_integer<std::ceil>},
+    FunctionRow{"trunc", to_integer<std::trunc>},
+    FunctionRow{"isnan", test<is_nan>},
+    FunctionRow{"isinf", test<is_infinite>},
+    FunctionRow{"isfinite", test<is_finite>},
+    FunctionRow{"hypot", hypot},
+    FunctionRow{"dist", dist},
+    FunctionRow{"fsum", fsum},
+    FunctionRow{"prod", prod},
+    FunctionRow{"factorial", factorial},
+    FunctionRow{"perm", permutations},
+    FunctionRow{"comb", combinations},
+    FunctionRow{"gcd", gcd},
+    FunctionRow{"lcm", lcm},
+    FunctionRow{"isqrt", isqrt},
+    FunctionRow{"isclose", isclose},
+    FunctionRow{"frexp", frexp},
+    FunctionRow{"ldexp", ldexp},
+    FunctionRow{"modf", modf},
 };
 
 using Names = std::unordered_map<std::string_view, Value>;
@@ -351,7 +405,8 @@ using Names = std::unordered_map<std::string_view, Value>;
 Names make_math() {
   Names names;
   for (const FunctionRow& row : functions) {
-    names.emplace(row.name, Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
+    names.emplace(row.name,
+                  Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
   }
   names.emplace("pi", Value(std::numbers::pi));
   names.emplace("e", Value(std::numbers::e));
@@ -361,9 +416,9 @@ Names make_math() {
   return names;
 }
 
-constexpr std::array<std::string_view, 24> common = {"sin",  "cos",  "tan",   "asin",  "acos", "atan",  "atan2", "sinh",
-                                                     "cosh", "tanh", "exp",   "log",   "log10", "sqrt", "pi",    "ceil",
-                                                     "floor", "fabs", "fmod", "hypot", "radians", "degrees", "asinh", "acosh"};
+constexpr std::array<std::string_view, 24> common = {
+    "sin",   "cos",  "tan", "asin", "acos",  "atan", "atan2", "sinh",  "cosh",    "tanh",    "exp",   "log",
+    "log10", "sqrt", "pi",  "ceil", "floor", "fabs", "fmod",  "hypot", "radians", "degrees", "asinh", "acosh"};
 
 }  // namespace
 
@@ -371,7 +426,9 @@ const Value* common_math_value(std::string_view name) {
   return std::find(common.begin(), common.end(), name) == common.end() ? nullptr : math_value(name);
 }
 
-std::span<const FunctionRow> math_functions() { return functions; }
+std::span<const FunctionRow> math_functions() {
+  return functions;
+}
 
 const Value* math_value(std::string_view name) {
   static const Names names = make_math();

@@ -12,8 +12,9 @@ namespace comma::interpreter {
 namespace {
 
 /// Words that begin a statement and nothing else, so that a line beginning with one ends what came before.
-constexpr std::array statement_words = {"def", "while", "try", "import", "return", "class", "with", "del", "raise",
-                                        "assert", "global", "pass", "break", "continue", "elif", "except", "finally"};
+constexpr std::array statement_words = {"def",   "while",    "try",   "import", "return", "class",
+                                        "with",  "del",      "raise", "assert", "global", "pass",
+                                        "break", "continue", "elif",  "except", "finally"};
 
 std::size_t skip_word(std::string_view text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_')) ++at;
@@ -42,7 +43,8 @@ std::string_view closing_of(std::string_view opening) {
 
 bool is_operand(const Token& token) {
   if (token.kind == TokenKind::keyword) {
-    return token.text == "None" || token.text == "True" || token.text == "False" || token.text == "lambda" || token.text == "not";
+    return token.text == "None" || token.text == "True" || token.text == "False" || token.text == "lambda" ||
+           token.text == "not";
   }
   return token.kind == TokenKind::name || token.kind == TokenKind::number || token.kind == TokenKind::text ||
          token.kind == TokenKind::formatted_text;
@@ -127,7 +129,8 @@ void Parser::fail_here(std::string expected) {
   if (now_.kind == TokenKind::newline) {
     const std::string_view before = file_->text().substr(0, previous_end_);
     const bool steps = before.ends_with("++") || before.ends_with("--");
-    fail("syntax", "the line ends where " + expected + " is expected", span_of(now_), steps ? "write 'x += 1' or 'x -= 1'" : "");
+    fail("syntax", "the line ends where " + expected + " is expected", span_of(now_),
+         steps ? "write 'x += 1' or 'x -= 1'" : "");
   }
   if (now_.kind == TokenKind::end || now_.kind == TokenKind::dedent) {
     fail("syntax", "the text ends where " + expected + " is expected", span_of(now_));
@@ -135,7 +138,8 @@ void Parser::fail_here(std::string expected) {
   if (now_.kind == TokenKind::indent) fail("unexpected-indent", "this line is indented without need", span_of(now_));
   if (now_.text == ")" || now_.text == "]" || now_.text == "}") {
     if (open_brackets_.empty()) {
-      fail("unmatched-bracket", fmt::format("no bracket is open that '{}' could close", now_.text), span_of(now_), "remove it");
+      fail("unmatched-bracket", fmt::format("no bracket is open that '{}' could close", now_.text), span_of(now_),
+           "remove it");
     }
   }
   std::string hint;
@@ -147,10 +151,12 @@ void Parser::fail_here(std::string expected) {
 
 void Parser::expect_closing(std::string_view bracket) {
   if (accept(bracket)) return;
-  if (now_.kind == TokenKind::symbol && (now_.text == ")" || now_.text == "]" || now_.text == "}") && !open_brackets_.empty()) {
+  if (now_.kind == TokenKind::symbol && (now_.text == ")" || now_.text == "]" || now_.text == "}") &&
+      !open_brackets_.empty()) {
     const Token& opening = open_brackets_.back();
     report("unmatched-bracket",
-           fmt::format("'{}' does not close the '{}' of line {}", now_.text, opening.text, file_->position(opening.begin).line),
+           fmt::format("'{}' does not close the '{}' of line {}", now_.text, opening.text,
+                       file_->position(opening.begin).line),
            span_of(now_), fmt::format("write '{}'", bracket));
     advance();
     return;
@@ -210,7 +216,8 @@ void Parser::recover(Failure failure, const Token& start) {
     }
     advance();
   }
-  const bool never_closed = left_open && (at_next_statement || now_.kind == TokenKind::end) && now_.begin == failure.token_begin;
+  const bool never_closed =
+      left_open && (at_next_statement || now_.kind == TokenKind::end) && now_.begin == failure.token_begin;
   if (never_closed) {
     failure.finding = {Severity::error, "unclosed-bracket", fmt::format("this '{}' is never closed", left_open->text),
                        fmt::format("add '{}'", closing_of(left_open->text)), span_of(*left_open)};
@@ -259,7 +266,8 @@ void Parser::deepen(Node& node, const Node* child) {
   if (child == nullptr) return;
   node.depth = std::max(node.depth, child->depth + 1);
   if (node.depth > highest_tree) {
-    fail("too-deep", "this expression has too many terms", {file_, node.begin, node.begin + 1}, "build it in several statements");
+    fail("too-deep", "this expression has too many terms", {file_, node.begin, node.begin + 1},
+         "build it in several statements");
   }
 }
 
@@ -268,15 +276,16 @@ Block Parser::parse_file() {
   while (now_.kind != TokenKind::end) {
     parse_statements(block);
     if (errors_ >= most_errors) {
-      diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_), span_of(now_));
+      diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_),
+                         span_of(now_));
       break;
     }
     // Only a dedent that the lexer made of a wrong indentation ends the statements before the file does.
     if (now_.kind != TokenKind::end) advance();
   }
   for (const auto& name : scopes_->unbound_outer()) {
-    report("unknown-name", fmt::format("no function around this one has a variable {}", name.name), {file_, name.begin, name.end},
-           "use 'global' for a variable of the file");
+    report("unknown-name", fmt::format("no function around this one has a variable {}", name.name),
+           {file_, name.begin, name.end}, "use 'global' for a variable of the file");
   }
   return block;
 }
@@ -300,7 +309,8 @@ Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostic
   return ast;
 }
 
-NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics, std::vector<std::string>* names) {
+NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics,
+                         std::vector<std::string>* names) {
   Parser parser(file, diagnostics, true);
   NodePtr expression = parser.parse_only_expression();
   if (expression && names != nullptr) *names = parser.free_names();

@@ -141,7 +141,8 @@ std::string complex_part(double value) {
 
 std::string decimal_digits(const BigInteger& value) {
   if (static_cast<double>(value.bit_length()) > bits_of_most_digits) {
-    raise(ErrorKind::value, "Exceeds the limit (4300 digits) for integer string conversion", "show it as float, or with hex(...)");
+    raise(ErrorKind::value, "Exceeds the limit (4300 digits) for integer string conversion",
+          "show it as float, or with hex(...)");
   }
   return value.to_string();
 }

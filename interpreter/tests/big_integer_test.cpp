@@ -13,7 +13,9 @@ BigInteger random_integer(std::mt19937& random, int limbs) {
   BigInteger value;
   for (int i = 0; i < limbs; ++i) {
     // All-ones and zero limbs are where the quotient digit is guessed wrong.
-    const std::uint32_t limb = random() % 4 == 0 ? 0xFFFFFFFFU : random() % 4 == 0 ? 0U : static_cast<std::uint32_t>(random());
+    const std::uint32_t limb = random() % 4 == 0   ? 0xFFFFFFFFU
+                               : random() % 4 == 0 ? 0U
+                                                   : static_cast<std::uint32_t>(random());
     value = value.shifted_left(32) + BigInteger(static_cast<std::int64_t>(limb));
   }
   return random() % 2 == 0 ? value : -value;
@@ -71,7 +73,8 @@ TEST_CASE("Bitwise operations act on two's complement: a + b = (a ^ b) + 2 (a & 
 TEST_CASE("Conversion to double rounds to nearest even", "[big_integer]") {
   const BigInteger half = BigInteger(1).shifted_left(53);
   CHECK((half.shifted_left(20) + BigInteger(1).shifted_left(20)).to_double() == std::ldexp(1.0, 73));
-  CHECK((half.shifted_left(20) + BigInteger(1).shifted_left(20) + BigInteger(1)).to_double() == std::ldexp(std::ldexp(1.0, 53) + 2.0, 20));
+  CHECK((half.shifted_left(20) + BigInteger(1).shifted_left(20) + BigInteger(1)).to_double() ==
+        std::ldexp(std::ldexp(1.0, 53) + 2.0, 20));
   CHECK(std::isinf(BigInteger(1).shifted_left(5000).to_double()));
   CHECK(BigInteger::from_double(-1e30).to_double() == -1e30);
   CHECK(BigInteger::true_divide(BigInteger(1).shifted_left(3000), BigInteger(1).shifted_left(2999)) == 2.0);

@@ -5,8 +5,13 @@
 using namespace comma::interpreter;
 
 TEST_CASE("A finding shows its place, its line, a caret and a hint", "[diagnostic]") {
-  const auto file = std::make_shared<const SourceFile>("beam.comm", "\n\n\n\n\n\n\n\n\n\n\nMO = AFFE_MODELE(MAILAGE=MA)\n");
-  const Diagnostic finding{Severity::error, "unknown-keyword", "AFFE_MODELE has no keyword MAILAGE", "did you mean MAILLAGE?", {file, 28, 35}};
+  const auto file =
+      std::make_shared<const SourceFile>("beam.comm", "\n\n\n\n\n\n\n\n\n\n\nMO = AFFE_MODELE(MAILAGE=MA)\n");
+  const Diagnostic finding{Severity::error,
+                           "unknown-keyword",
+                           "AFFE_MODELE has no keyword MAILAGE",
+                           "did you mean MAILLAGE?",
+                           {file, 28, 35}};
   CHECK(render(finding) ==
         "beam.comm:12:18: error: AFFE_MODELE has no keyword MAILAGE [unknown-keyword]\n"
         "  12 | MO = AFFE_MODELE(MAILAGE=MA)\n"
@@ -16,7 +21,8 @@ TEST_CASE("A finding shows its place, its line, a caret and a hint", "[diagnosti
 
 TEST_CASE("The caret stands below its character after tabs and accents", "[diagnostic]") {
   const auto file = std::make_shared<const SourceFile>("a.comm", "\té = x");
-  CHECK(render({Severity::alarm, "c", "m", "", {file, 6, 7}}) == "a.comm:1:6: alarm: m [c]\n  1 | \té = x\n    | \t    ^");
+  CHECK(render({Severity::alarm, "c", "m", "", {file, 6, 7}}) ==
+        "a.comm:1:6: alarm: m [c]\n  1 | \té = x\n    | \t    ^");
 }
 
 TEST_CASE("A finding without place is one line", "[diagnostic]") {

@@ -29,7 +29,8 @@ std::string read(const std::filesystem::path& path) {
 nlohmann::json python_outputs() {
   const std::string python = COMMA_PYTHON3;
   if (python.empty()) return {};
-  const std::string command = "\"" + python + "\" \"" + (folder / "run_snippets.python").string() + "\" \"" + folder.string() + "\" 2>/dev/null";
+  const std::string command = "\"" + python + "\" \"" + (folder / "run_snippets.python").string() + "\" \"" +
+                              folder.string() + "\" 2>/dev/null";
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};
   std::string text;

@@ -66,7 +66,8 @@ TEST_CASE("Hints name what was meant", "[evaluator]") {
 
 TEST_CASE("All errors of a file come at once, those of one call too", "[evaluator]") {
   const Run run("x = 1 / 0\nAFFE_MODELE(A=nothing, B=1 / 0, C=_F(D='a' + 1))\ny = [][0]\nprint('end')\n");
-  CHECK(run.findings() == Findings{"zero-division 1:5", "unknown-name 2:15", "zero-division 2:26", "type-error 2:40", "index-error 3:5"});
+  CHECK(run.findings() ==
+        Findings{"zero-division 1:5", "unknown-name 2:15", "zero-division 2:26", "type-error 2:40", "index-error 3:5"});
   CHECK(run.output == "end\n");
   REQUIRE(run.host->calls.size() == 1);
   CHECK(run.host->calls[0].arguments[0].value->is_unknown());
@@ -104,22 +105,24 @@ TEST_CASE("Commands run at once inside try, and their failures are exceptions", 
   const auto attempt = [](const std::string& handler, const std::string& code) {
     auto host = std::make_unique<RecordingHost>();
     host->failure = code;
-    return Run("from code_aster import CA\nimport aster\ntry:\n    R = STAT_NON_LINE()\n    print('no')\nexcept " + handler +
-                   " as err:\n    print('caught', err, err.id_message)\nelse:\n    print('else')\n",
+    return Run("from code_aster import CA\nimport aster\ntry:\n    R = STAT_NON_LINE()\n    print('no')\nexcept " +
+                   handler + " as err:\n    print('caught', err, err.id_message)\nelse:\n    print('else')\n",
                std::move(host));
   };
   CHECK(attempt("CA.AsterError", "no-convergence").output == "caught step 3 does not converge MECANONLINE9_7\n");
   CHECK(attempt("aster.error", "contact-interpenetration").output == "caught step 3 does not converge CONTACT_93\n");
   CHECK(attempt("CA.ConvergenceError", "no-convergence").output == "caught step 3 does not converge MECANONLINE9_7\n");
   CHECK(attempt("CA.ContactError", "contact-anything").output == "caught step 3 does not converge contact-anything\n");
-  CHECK(attempt("(ValueError, CA.SolverError)", "singular-matrix").output == "caught step 3 does not converge FACTOR_11\n");
+  CHECK(attempt("(ValueError, CA.SolverError)", "singular-matrix").output ==
+        "caught step 3 does not converge FACTOR_11\n");
   const Run missed = attempt("CA.ContactError", "no-convergence");
   CHECK(missed.output.empty());
   CHECK(missed.findings() == Findings{"no-convergence 4:9"});
 }
 
 TEST_CASE("Outside try, commands wait", "[evaluator]") {
-  const Run run("A = LIRE_MAILLAGE()\ntry:\n    B = LIRE_MAILLAGE()\nexcept ValueError:\n    pass\nC = LIRE_MAILLAGE()\n");
+  const Run run(
+      "A = LIRE_MAILLAGE()\ntry:\n    B = LIRE_MAILLAGE()\nexcept ValueError:\n    pass\nC = LIRE_MAILLAGE()\n");
   CHECK(run.host->eager == std::vector<bool>{false, true, false});
 }
 
@@ -129,7 +132,8 @@ namespace {
 struct Table : ConceptData {
   Value subscript(const Value& key) const override { return Value(key.repr() + "!"); }
   Value call(const std::vector<Value>& arguments) const override { return Value(arguments.at(0).as_real() * 2); }
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override {
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override {
     return Value(std::string(name) + std::to_string(arguments.size()) + std::to_string(keywords.size()));
   }
 };
@@ -158,8 +162,10 @@ TEST_CASE("A concept without data reads as unknown", "[evaluator]") {
 }
 
 TEST_CASE("init and close of code_aster are the commands DEBUT and FIN", "[evaluator]") {
-  const Run run("import code_aster\nfrom code_aster import CA\nfrom code_aster.Commands import *\nfrom code_aster.Commands import LIRE_MAILLAGE\n"
-                "code_aster.init('--test', CODE=_F(NIV='X'), debug=True)\nCA.close()\n");
+  const Run run(
+      "import code_aster\nfrom code_aster import CA\nfrom code_aster.Commands import *\nfrom code_aster.Commands "
+      "import LIRE_MAILLAGE\n"
+      "code_aster.init('--test', CODE=_F(NIV='X'), debug=True)\nCA.close()\n");
   CHECK(run.findings().empty());
   REQUIRE(run.host->calls.size() == 2);
   CHECK(run.host->calls[0].name == "DEBUT");
@@ -174,7 +180,9 @@ TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
   std::string output;
   Evaluator evaluator(host, diagnostics, [&](std::string_view text) { output += text; });
   {
-    const Ast first = parse(std::make_shared<const SourceFile>("a.comm", "def f(x): return x + k\nk = 1\ng = (i for i in range(3))\n"), diagnostics);
+    const Ast first = parse(
+        std::make_shared<const SourceFile>("a.comm", "def f(x): return x + k\nk = 1\ng = (i for i in range(3))\n"),
+        diagnostics);
     evaluator.run(first);
   }
   const Ast second = parse(std::make_shared<const SourceFile>("a.com1", "print(f(2), list(g))\n"), diagnostics);

@@ -39,7 +39,8 @@ TEST_CASE("Indentation becomes indent and dedent, blank lines and comments do no
 
 TEST_CASE("Inside brackets lines are joined", "[lexer]") {
   using enum TokenKind;
-  CHECK(kinds_of("f(1,\n     2)\n") == std::vector<TokenKind>{name, symbol, number, symbol, number, symbol, newline, end});
+  CHECK(kinds_of("f(1,\n     2)\n") ==
+        std::vector<TokenKind>{name, symbol, number, symbol, number, symbol, newline, end});
 }
 
 TEST_CASE("A backslash joins lines", "[lexer]") {
@@ -49,7 +50,8 @@ TEST_CASE("A backslash joins lines", "[lexer]") {
 
 TEST_CASE("A file without a last line break ends its line and its blocks", "[lexer]") {
   using enum TokenKind;
-  CHECK(kinds_of("if a:\n  b") == std::vector<TokenKind>{keyword, name, symbol, newline, indent, name, newline, dedent, end});
+  CHECK(kinds_of("if a:\n  b") ==
+        std::vector<TokenKind>{keyword, name, symbol, newline, indent, name, newline, dedent, end});
 }
 
 TEST_CASE("Numbers have the value that Python gives them", "[lexer]") {
@@ -73,9 +75,10 @@ TEST_CASE("Strings are decoded", "[lexer]") {
 
 TEST_CASE("Each broken token is reported once and stands for an operand", "[lexer]") {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"x = 'abc\n", "unterminated-string"},   {"x = '''abc\n\n", "unterminated-string"}, {"x = 1abc\n", "invalid-number"},
-      {"x = 012\n", "invalid-number"},         {"x = $\n", "unexpected-character"},       {"x = b'a'\n", "not-supported"},
-      {"x = '\\xZZ'\n", "invalid-escape"},     {"if 1:\n    a\n  b\n", "bad-indentation"},
+      {"x = 'abc\n", "unterminated-string"}, {"x = '''abc\n\n", "unterminated-string"},
+      {"x = 1abc\n", "invalid-number"},      {"x = 012\n", "invalid-number"},
+      {"x = $\n", "unexpected-character"},   {"x = b'a'\n", "not-supported"},
+      {"x = '\\xZZ'\n", "invalid-escape"},   {"if 1:\n    a\n  b\n", "bad-indentation"},
   };
   for (const auto& [text, code] : cases) {
     INFO(text);

@@ -7,7 +7,6 @@
 using namespace comma::interpreter;
 using testing::Run;
 
-
 TEST_CASE("Whatever takes too much ends in a diagnostic", "[meter]") {
   Limits limits;
   limits.steps = 200'000;
@@ -45,7 +44,12 @@ TEST_CASE("Whatever takes too much ends in a diagnostic", "[meter]") {
 }
 
 TEST_CASE("Endless recursion is an exception that can be caught, in calls and in expressions", "[meter]") {
-  CHECK(Run("def f(n): return f(n + 1)\ntry:\n    f(0)\nexcept RecursionError:\n    print('deep')\n").output == "deep\n");
-  CHECK(Run("def f(n): return [f(i) for i in [n]]\ntry:\n    f(0)\nexcept RecursionError:\n    print('deep')\n").output == "deep\n");
-  CHECK(Run("def f(n): return sorted([1, 2], key=lambda v: f(v))\ntry:\n    f(0)\nexcept RecursionError:\n    print('deep')\n").output == "deep\n");
+  CHECK(Run("def f(n): return f(n + 1)\ntry:\n    f(0)\nexcept RecursionError:\n    print('deep')\n").output ==
+        "deep\n");
+  CHECK(
+      Run("def f(n): return [f(i) for i in [n]]\ntry:\n    f(0)\nexcept RecursionError:\n    print('deep')\n").output ==
+      "deep\n");
+  CHECK(Run("def f(n): return sorted([1, 2], key=lambda v: f(v))\ntry:\n    f(0)\nexcept RecursionError:\n    "
+            "print('deep')\n")
+            .output == "deep\n");
 }

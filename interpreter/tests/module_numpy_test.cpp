@@ -34,7 +34,8 @@ TEST_CASE("Arrays are sliced by rows and columns", "[numpy]") {
 TEST_CASE("Ranges and reductions agree with their definitions", "[numpy]") {
   CHECK(printed("np.linspace(0, 1, 5).tolist()") == "[0.0, 0.25, 0.5, 0.75, 1.0]");
   CHECK(printed("np.arange(0, 1, 0.25).tolist()") == "[0.0, 0.25, 0.5, 0.75]");
-  CHECK(printed("np.dot([1, 2], [3, 4]), np.linalg.norm([3., 4.]), np.cross([1, 0, 0], [0, 1, 0]).tolist()") == "11 5.0 [0, 0, 1]");
+  CHECK(printed("np.dot([1, 2], [3, 4]), np.linalg.norm([3., 4.]), np.cross([1, 0, 0], [0, 1, 0]).tolist()") ==
+        "11 5.0 [0, 0, 1]");
   CHECK(printed("np.array([3, 1, 2]).max(), np.argmin([3, 1, 2]), np.mean([1, 2]), np.sum([1, 2])") == "3 1 1.5 3");
   CHECK(printed("np.dot([[1, 2], [3, 4]], [1, 1]).tolist()") == "[3, 7]");
 }

@@ -31,8 +31,10 @@ std::string times(const std::string& text, int count) {
 
 TEST_CASE("One mistake makes one error, at its place", "[parser]") {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"MA = LIRE_MAILLAGE(FORMAT='MED'\nMO = AFFE_MODELE(MAILLAGE=MA,\n  AFFE=_F(TOUT='OUI'))\nx = 1\n", "unclosed-bracket 1:19"},
-      {"MA = LIRE_MAILLAGE(FORMAT='MED',\nMO = AFFE_MODELE(MAILLAGE=MA)\nRES = STAT_NON_LINE(MODELE=MO)\nFIN()\n", "unclosed-bracket 1:19"},
+      {"MA = LIRE_MAILLAGE(FORMAT='MED'\nMO = AFFE_MODELE(MAILLAGE=MA,\n  AFFE=_F(TOUT='OUI'))\nx = 1\n",
+       "unclosed-bracket 1:19"},
+      {"MA = LIRE_MAILLAGE(FORMAT='MED',\nMO = AFFE_MODELE(MAILLAGE=MA)\nRES = STAT_NON_LINE(MODELE=MO)\nFIN()\n",
+       "unclosed-bracket 1:19"},
       {"x = (1, 2\n", "unclosed-bracket 1:5"},
       {"x = [1, 2\ndef f():\n    return 1\n", "unclosed-bracket 1:5"},
       {"A(B=1 C=2)\n", "missing-comma 1:7"},
@@ -77,7 +79,8 @@ TEST_CASE("One mistake makes one error, at its place", "[parser]") {
 
 TEST_CASE("All errors of a file are told at once", "[parser]") {
   CHECK(findings("x = )\ny = 1\nif z\n    a = (1]\nfor i in 3:\n    b = = 2\nc = 'open\n") ==
-        Findings{"unmatched-bracket 1:5", "missing-colon 3:5", "unmatched-bracket 4:11", "syntax 6:9", "unterminated-string 7:5"});
+        Findings{"unmatched-bracket 1:5", "missing-colon 3:5", "unmatched-bracket 4:11", "syntax 6:9",
+                 "unterminated-string 7:5"});
 }
 
 TEST_CASE("Sound text has no findings", "[parser]") {
