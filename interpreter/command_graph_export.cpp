@@ -5,6 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "interpreter/graph_reduction.hpp"
+
 namespace comma::interpreter {
 namespace {
 
@@ -49,10 +51,9 @@ std::string to_dot(const CommandGraph& graph) {
   for (const CommandNode& node : graph.nodes())
     fmt::format_to(std::back_inserter(out), "  n{} [label={}, {}];\n", node.id, dot_text(label_of(node)),
                    style_of(needs[static_cast<std::size_t>(node.id)]));
-  for (const CommandNode& node : graph.nodes())
-    for (const Edge& edge : node.waits_for)
-      fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", edge.from, node.id,
-                     dot_text(edge.resource), edge.hazard == Hazard::read_after_write ? "" : ", style=dotted");
+  for (const Arrow& arrow : drawn_arrows(graph))
+    fmt::format_to(std::back_inserter(out), "  n{} -> n{} [label={}{}];\n", arrow.from, arrow.to, dot_text(arrow.label),
+                   arrow.carries ? "" : ", style=dotted");
   return out + "}\n";
 }
 

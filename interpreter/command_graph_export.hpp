@@ -8,7 +8,7 @@
 
 namespace comma::interpreter {
 
-/// A digraph: boxes are commands with their concept and line, arrows are concepts and files. What a verdict needs is
+/// A digraph, reduced to the arrows that no longer way implies: boxes are commands with their concept and line, arrows are concepts and files. What a verdict needs is
 /// drawn solid, what only an output needs dashed, the rest grey.
 std::string to_dot(const CommandGraph& graph);
 

@@ -5,6 +5,7 @@
 
 #include "interpreter/check.hpp"
 #include "interpreter/command_graph_export.hpp"
+#include "interpreter/graph_reduction.hpp"
 #include "interpreter/tests/little_catalogue.hpp"
 
 using namespace comma::interpreter;
@@ -52,6 +53,17 @@ TEST_CASE("A reader waits for the writer, through the concepts that it reads thr
   CHECK(builder.waits(0).empty());
   CHECK(builder.waits(1) == Waits{"0 raw MA"});
   CHECK(builder.waits(2) == Waits{"0 raw MA", "1 raw MO"});
+}
+
+TEST_CASE("A picture leaves out the arrows that a longer way implies") {
+  Builder builder;
+  const ConceptPtr mesh = builder.add("MESH", {}, "MA");
+  const ConceptPtr model = builder.add("MODEL", {{"MESH", Value(mesh)}}, "MO");
+  builder.add("SOLVE", {{"MODEL", Value(model)}}, "R");
+  const auto arrows = drawn_arrows(builder.graph);
+  REQUIRE(arrows.size() == 2);
+  CHECK((arrows[0].from == 0 && arrows[0].to == 1 && arrows[0].label == "MA" && arrows[0].carries));
+  CHECK((arrows[1].from == 1 && arrows[1].to == 2 && arrows[1].label == "MO"));
 }
 
 TEST_CASE("A writer in place waits for earlier readers and the earlier writer; later readers wait for it") {
