@@ -98,10 +98,9 @@ Value Evaluator::load_global(const NameNode& name) {
   }
   if (const auto found = globals_.find(name.id); found != globals_.end()) return found->second;
   if (const Value* value = builtin_value(name.id)) return *value;
-  if (strict_ > 0) {
-    if (const Value* value = math_value(name.id)) return *value;
-  }
   if (host_.is_command(name.id)) return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name.id)));
+  // A command file has the names of `math` without an import: sqrt, exp, pi. They come last, so that the user's own win.
+  if (const Value* value = math_value(name.id)) return *value;
   return unknown_name(name);
 }
 

@@ -59,7 +59,7 @@ Value Evaluator::evaluate_call(const CallNode& node) {
   if (node.callee->kind == NodeKind::name) {
     const auto& name = static_cast<const NameNode&>(*node.callee);
     const bool known = !name.global || (lookup_ != nullptr && (*lookup_)(name.id)) || globals_.contains(name.id) ||
-                       builtin_value(name.id) != nullptr || (strict_ > 0 && math_value(name.id) != nullptr) || host_.is_command(name.id);
+                       builtin_value(name.id) != nullptr || host_.is_command(name.id) || math_value(name.id) != nullptr;
     callee = known ? evaluate(name) : unknown_name(name, true);
   } else {
     callee = evaluate(*node.callee);

@@ -48,9 +48,13 @@ void Session::force(const ConceptPtr& handle) {
   if (writer >= 0 && may_run(writer)) executor_.force(writer);
 }
 
+void Session::judge(const Assertion& assertion) {
+  if (assertion_sink_) assertion_sink_(assertion);
+}
+
 void Session::finish() {
   const Need least = options_.only_tests ? Need::output : Need::nothing;
-  executor_.run_cheap(least);
+  executor_.run_cheap(least, options_.check_only, call_check_);
   if (options_.check_only || diagnostics_.has_errors()) return;
   executor_.run_all(least);
 }

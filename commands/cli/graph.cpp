@@ -44,7 +44,7 @@ int write(const interpreter::CommandGraph& graph, const std::string& format) {
 }  // namespace
 
 int graph(const GraphOptions& options) try {
-  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = false});
+  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = options.only_tests}, options.limits);
   pass.run();
   print_diagnostics(pass.diagnostics(), false);
   if (pass.diagnostics().has_errors()) return the_file_is_wrong;

@@ -8,6 +8,7 @@
 
 #include "commands/catalogue.hpp"
 #include "commands/cli/options.hpp"
+#include "commands/name_check.hpp"
 #include "commands/registry.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/parser.hpp"
@@ -47,15 +48,21 @@ Study open_study(const fs::path& file) {
   return Study{{file}, {}};
 }
 
-StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options)
+StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits)
     : study_(std::move(study)),
+      limits_(limits),
       context_{Files(study_.command_files.front(), study_.files, fs::current_path()), Console(verbosity), diagnostics_},
       commands_(make_command_table(context_)),
       catalogue_(catalogue_blobs()),
-      session_(catalogue_, commands_, diagnostics_, options) {}
+      session_(catalogue_, commands_, diagnostics_, options) {
+  session_.set_assertion_sink([this](const interpreter::Assertion& assertion) { context_.report(verdict_of(assertion)); });
+  session_.set_call_check([this](const interpreter::CommandNode& node) {
+    return check_names(node, session_.graph(), catalogue_, diagnostics_);
+  });
+}
 
 void StudyRun::run() {
-  interpreter::Evaluator evaluator(session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); });
+  interpreter::Evaluator evaluator(session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); }, limits_);
   for (const fs::path& file : study_.command_files) {
     const auto tree = interpreter::parse(interpreter::SourceFile::read(file.string()), diagnostics_);
     evaluator.run(tree);

@@ -8,6 +8,7 @@
 #include "commands/cli/export_file.hpp"
 #include "commands/cli/report.hpp"
 #include "commands/context.hpp"
+#include "interpreter/meter.hpp"
 #include "interpreter/session.hpp"
 
 namespace comma::commands {
@@ -18,7 +19,7 @@ Study open_study(const std::filesystem::path& file);
 /// What a pass needs and what it leaves: the graph, the verdicts, the diagnostics.
 class StudyRun {
  public:
-  StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options);
+  StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits = {});
 
   /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in diagnostics().
   void run();
@@ -29,6 +30,7 @@ class StudyRun {
 
  private:
   Study study_;
+  interpreter::Limits limits_;
   interpreter::Diagnostics diagnostics_;
   Context context_;
   interpreter::CommandTable commands_;
