@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/mesh/orientation.hpp"
 
 namespace comma::commands {
 
@@ -29,6 +32,8 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
   const solver::DofMap dofs(model);
   solver::UnilateralCondition condition;
   condition.nodes = selected_nodes(zone, *model.mesh);
+  const auto left_out = selected_nodes(zone, *model.mesh, {"", "SANS_GROUP_NO", "", "", ""});
+  std::erase_if(condition.nodes, [&](int node) { return std::find(left_out.begin(), left_out.end(), node) != left_out.end(); });
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
@@ -45,6 +50,16 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
 solver::NormalSide normal_side(const std::string& word) {
   if (word == "ESCL") return solver::NormalSide::slave;
   return word == "MAIT_ESCL" ? solver::NormalSide::average : solver::NormalSide::master;
+}
+
+// A gap has a sign only if the normals point out of the bodies (U4.44.11, VERI_NORM).
+void check_normals(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells, const solver::Mesh& mesh) {
+  const auto inward = solver::inward_skin(mesh, cells);
+  if (inward.empty()) return;
+  throw DiagnosticError("inward-normals",
+                        "DEFI_CONTACT: the normals of " + std::to_string(inward.size()) + " of these " + std::to_string(cells.size()) +
+                            " cells point into the body, that of " + mesh.cell_name(inward.front()) + " for one",
+                        zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
 solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
@@ -76,7 +91,12 @@ solver::ContactDefinition discrete_contact(const Call& call, const solver::Mesh&
   if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
-  for (const Keywords& zone : call.factors("ZONE")) definition.zones.push_back(contact_zone(zone, mesh));
+  for (const Keywords& keywords : call.factors("ZONE")) {
+    const solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    if (call.text("VERI_NORM") != "OUI") continue;
+    check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
+    check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
+  }
   return definition;
 }
 

@@ -44,8 +44,11 @@ void read_points(const Call& call, solver::TabulatedFunction& function) {
   }
 }
 
-// Code_Aster sorts the points by abscissa, and refuses two points at one (U4.31.02).
+// Abscissas rise unless VERIF="NON" lets comma sort them; two points never share one (U4.31.02).
 void sort_points(const Call& call, solver::TabulatedFunction& function) {
+  if (call.text("VERIF") == "CROISSANT" && !std::is_sorted(function.x.begin(), function.x.end())) {
+    throw DiagnosticError("wrong-order", "DEFI_FONCTION: the abscissas do not rise", call.span, "put the points in order, or give VERIF=\"NON\"");
+  }
   std::vector<std::size_t> order(function.x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });

@@ -73,9 +73,17 @@ solver::Origin origin_of(const Keywords& keywords, const std::string& keyword) {
 
 void add_imposed_displacements(const Keywords& keywords, const std::string& name, const LoadedModel& target, solver::Load& load) {
   const auto origin = origin_of(keywords, name);
-  each_component(keywords, displacement_keywords, target, [&](int node, Component component, double value) {
+  const auto impose = [&](int node, Component component, double value) {
     load.relations.push_back({{{node, component, 1.0}}, value, {}, origin});
-  });
+  };
+  each_component(keywords, displacement_keywords, target, impose);
+  if (!keywords.given("BLOCAGE")) return;
+  // BLOCAGE="DEPLACEMENT": every translation that a node has.
+  for (const int node : selected_nodes(keywords, *target.model.mesh)) {
+    for (const Component component : {Component::dx, Component::dy, Component::dz}) {
+      if (target.dofs.dof(node, component) >= 0) impose(node, component, 0.0);
+    }
+  }
 }
 
 void add_nodal_forces(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {

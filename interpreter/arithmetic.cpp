@@ -17,7 +17,8 @@ constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
   const std::string_view symbol = op == Operator::power ? "** or pow()" : symbol_of(op);
   std::string hint;
   if (a.is_none() || b.is_none()) hint = "one side has no value (None)";
-  if (a.is_text() != b.is_text() && (is_numeric(a) || is_numeric(b))) hint = "convert with str(...), int(...) or float(...)";
+  if (a.is_text() != b.is_text() && (is_numeric(a) || is_numeric(b)))
+    hint = "convert with str(...), int(...) or float(...)";
   raise(ErrorKind::type,
         fmt::format("unsupported operand type(s) for {}: '{}' and '{}'", symbol, a.type_name(), b.type_name()), hint);
 }
@@ -28,7 +29,9 @@ std::optional<std::int64_t> small_integer(const Value& value) {
   return std::nullopt;
 }
 
-bool is_integral(const Value& value) { return value.is_integer() || value.is_bool() || value.is_big_integer(); }
+bool is_integral(const Value& value) {
+  return value.is_integer() || value.is_bool() || value.is_big_integer();
+}
 
 double remainder_of(double a, double b) {
   const double rest = std::fmod(a, b);
@@ -91,12 +94,18 @@ Value complex_operation(Operator op, const Value& a, const Value& b) {
   const std::complex<double> x = a.is_complex() ? a.as_complex() : real_of(a);
   const std::complex<double> y = b.is_complex() ? b.as_complex() : real_of(b);
   switch (op) {
-    case Operator::add: return x + y;
-    case Operator::subtract: return x - y;
-    case Operator::multiply: return multiply_complex(x, y);
-    case Operator::divide: return divide_complex(x, y);
-    case Operator::power: return power_complex(x, y);
-    default: raise_operands(op, a, b);
+    case Operator::add:
+      return x + y;
+    case Operator::subtract:
+      return x - y;
+    case Operator::multiply:
+      return multiply_complex(x, y);
+    case Operator::divide:
+      return divide_complex(x, y);
+    case Operator::power:
+      return power_complex(x, y);
+    default:
+      raise_operands(op, a, b);
   }
 }
 
@@ -104,7 +113,8 @@ Value power_real(double x, double y) {
   if (x == 0.0 && y < 0.0) raise(ErrorKind::zero_division, "0.0 cannot be raised to a negative power");
   if (x < 0.0 && std::isfinite(x) && std::isfinite(y) && y != std::floor(y)) return power_complex(x, y);
   const double result = std::pow(x, y);
-  if (std::isinf(result) && std::isfinite(x) && std::isfinite(y)) raise(ErrorKind::overflow, "(34, 'Numerical result out of range')");
+  if (std::isinf(result) && std::isfinite(x) && std::isfinite(y))
+    raise(ErrorKind::overflow, "(34, 'Numerical result out of range')");
   return result;
 }
 
@@ -112,9 +122,12 @@ Value real_operation(Operator op, const Value& a, const Value& b) {
   const double x = real_of(a);
   const double y = real_of(b);
   switch (op) {
-    case Operator::add: return x + y;
-    case Operator::subtract: return x - y;
-    case Operator::multiply: return x * y;
+    case Operator::add:
+      return x + y;
+    case Operator::subtract:
+      return x - y;
+    case Operator::multiply:
+      return x * y;
     case Operator::divide:
       if (y == 0.0) raise(ErrorKind::zero_division, "float division by zero");
       return x / y;
@@ -124,8 +137,10 @@ Value real_operation(Operator op, const Value& a, const Value& b) {
     case Operator::modulo:
       if (y == 0.0) raise(ErrorKind::zero_division, "float modulo");
       return remainder_of(x, y);
-    case Operator::power: return power_real(x, y);
-    default: raise_operands(op, a, b);
+    case Operator::power:
+      return power_real(x, y);
+    default:
+      raise_operands(op, a, b);
   }
 }
 
@@ -133,40 +148,47 @@ Value power_integer(const Value& a, const Value& b, Meter& meter) {
   const BigInteger base = *integer_of(a);
   const BigInteger exponent = *integer_of(b);
   if (exponent.is_negative()) return power_real(real_of(a), real_of(b));
-  if (base.is_zero() || base == BigInteger(1)) return exponent.is_zero() ? Value(1) : a.is_bool() ? Value(static_cast<int>(a.as_bool())) : a;
+  if (base.is_zero() || base == BigInteger(1))
+    return exponent.is_zero() ? Value(1) : a.is_bool() ? Value(static_cast<int>(a.as_bool())) : a;
   if (base == BigInteger(-1)) return exponent.is_odd() ? Value(-1) : Value(1);
-  const std::uint64_t times = exponent.fits_int64() ? static_cast<std::uint64_t>(exponent.to_int64()) : std::numeric_limits<std::uint32_t>::max();
-  const std::uint64_t bytes = base.bit_length() * std::min<std::uint64_t>(times, std::numeric_limits<std::uint32_t>::max()) / 8;
-  // The product of two numbers of n limbs takes n^2 operations.
-  meter.allocate(bytes);
-  meter.allocate(std::min<std::uint64_t>(bytes * (bytes / 64), meter.limits().largest_object * 64) / 64);
+  const std::uint64_t times = exponent.fits_int64() ? static_cast<std::uint64_t>(exponent.to_int64())
+                                                    : std::numeric_limits<std::uint32_t>::max();
+  const std::uint64_t bits =
+      base.bit_length() * std::min<std::uint64_t>(times, std::numeric_limits<std::uint32_t>::max());
+  meter.check_integer(bits);
+  meter.work(bits / 32 * (bits / 32));
   return Value::integer(BigInteger::power(base, times));
 }
 
 Value big_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
   const BigInteger x = *integer_of(a);
   const BigInteger y = *integer_of(b);
-  const std::uint64_t bytes = (x.bit_length() + y.bit_length()) / 8;
   switch (op) {
-    case Operator::add: return Value::integer(x + y);
-    case Operator::subtract: return Value::integer(x - y);
+    case Operator::add:
+      return Value::integer(x + y);
+    case Operator::subtract:
+      return Value::integer(x - y);
     case Operator::multiply:
-      meter.allocate(bytes);
-      meter.allocate(std::min<std::uint64_t>(bytes * bytes / 64, meter.limits().largest_object));
+      meter.check_integer(x.bit_length() + y.bit_length());
       return Value::integer(x * y);
-    case Operator::bit_and: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::conjunction, x, y));
-    case Operator::bit_or: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::disjunction, x, y));
-    case Operator::bit_xor: return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::exclusive, x, y));
+    case Operator::bit_and:
+      return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::conjunction, x, y));
+    case Operator::bit_or:
+      return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::disjunction, x, y));
+    case Operator::bit_xor:
+      return Value::integer(BigInteger::bitwise(BigInteger::Bitwise::exclusive, x, y));
     case Operator::left_shift:
     case Operator::right_shift: {
       if (y.is_negative()) raise(ErrorKind::value, "negative shift count");
-      if (op == Operator::right_shift) return Value::integer(x.shifted_right(y.fits_int64() ? static_cast<std::uint64_t>(y.to_int64()) : ~0ULL));
+      if (op == Operator::right_shift)
+        return Value::integer(x.shifted_right(y.fits_int64() ? static_cast<std::uint64_t>(y.to_int64()) : ~0ULL));
       if (x.is_zero()) return 0;
       const std::uint64_t bits = y.fits_int64() ? static_cast<std::uint64_t>(y.to_int64()) : ~0ULL;
-      meter.allocate(bits / 8);
+      meter.check_integer(std::max(bits, bits + x.bit_length()));
       return Value::integer(x.shifted_left(bits));
     }
-    default: raise_operands(op, a, b);
+    default:
+      raise_operands(op, a, b);
   }
 }
 
@@ -174,13 +196,20 @@ Value big_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
 std::optional<Value> small_operation(Operator op, std::int64_t x, std::int64_t y) {
   std::int64_t result = 0;
   switch (op) {
-    case Operator::add: return __builtin_add_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
-    case Operator::subtract: return __builtin_sub_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
-    case Operator::multiply: return __builtin_mul_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
-    case Operator::bit_and: return Value(x & y);
-    case Operator::bit_or: return Value(x | y);
-    case Operator::bit_xor: return Value(x ^ y);
-    default: return std::nullopt;
+    case Operator::add:
+      return __builtin_add_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
+    case Operator::subtract:
+      return __builtin_sub_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
+    case Operator::multiply:
+      return __builtin_mul_overflow(x, y, &result) ? std::nullopt : std::optional<Value>(result);
+    case Operator::bit_and:
+      return Value(x & y);
+    case Operator::bit_or:
+      return Value(x | y);
+    case Operator::bit_xor:
+      return Value(x ^ y);
+    default:
+      return std::nullopt;
   }
 }
 
@@ -189,20 +218,33 @@ Value divide_integers(const Value& a, const Value& b) {
   if (y.is_zero()) raise(ErrorKind::zero_division, "division by zero");
   const auto small_x = small_integer(a);
   const auto small_y = small_integer(b);
-  const auto exact = [](const std::optional<std::int64_t>& n) { return n && *n >= -exact_in_double && *n <= exact_in_double; };
+  const auto exact = [](const std::optional<std::int64_t>& n) {
+    return n && *n >= -exact_in_double && *n <= exact_in_double;
+  };
   if (exact(small_x) && exact(small_y)) return static_cast<double>(*small_x) / static_cast<double>(*small_y);
   const double result = BigInteger::true_divide(*integer_of(a), y);
   if (std::isinf(result)) raise(ErrorKind::overflow, "integer division result too large for a float");
   return result;
 }
 
+/// Schoolbook products and quotients take the product of the lengths.
+void charge_long_operands(const Value& a, const Value& b, Meter& meter) {
+  if (!a.is_big_integer() && !b.is_big_integer()) return;
+  const auto limbs = [](const Value& value) {
+    return value.is_big_integer() ? value.as_big_integer().bit_length() / 32 + 1 : 1;
+  };
+  meter.work(limbs(a) * limbs(b) + limbs(a) + limbs(b));
+}
+
 Value integer_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
+  charge_long_operands(a, b, meter);
   if (op == Operator::divide) return divide_integers(a, b);
   if (op == Operator::floor_divide) return floor_divide(a, b);
   if (op == Operator::modulo) return modulo(a, b);
   if (op == Operator::power) return power_integer(a, b, meter);
   const bool logic = op == Operator::bit_and || op == Operator::bit_or || op == Operator::bit_xor;
-  if (logic && a.is_bool() && b.is_bool()) return Value(*integer_of(*small_operation(op, a.as_bool(), b.as_bool())) == BigInteger(1));
+  if (logic && a.is_bool() && b.is_bool())
+    return Value(*integer_of(*small_operation(op, a.as_bool(), b.as_bool())) == BigInteger(1));
   const auto x = small_integer(a);
   const auto y = small_integer(b);
   if (x && y) {
@@ -213,7 +255,9 @@ Value integer_operation(Operator op, const Value& a, const Value& b, Meter& mete
 
 }  // namespace
 
-bool is_numeric(const Value& value) { return value.is_bool() || value.is_number() || value.is_complex(); }
+bool is_numeric(const Value& value) {
+  return value.is_bool() || value.is_number() || value.is_complex();
+}
 
 std::optional<BigInteger> integer_of(const Value& value) {
   if (value.is_big_integer()) return value.as_big_integer();
@@ -263,7 +307,9 @@ Value modulo(const Value& a, const Value& b) {
   return Value::integer(BigInteger::floor_divide(*integer_of(a), *integer_of(b)).second);
 }
 
-Value power(const Value& a, const Value& b, Meter& meter) { return binary_operation(Operator::power, a, b, meter); }
+Value power(const Value& a, const Value& b, Meter& meter) {
+  return binary_operation(Operator::power, a, b, meter);
+}
 
 /// Arithmetic on two numbers; other kinds are an error here.
 Value number_operation(Operator op, const Value& a, const Value& b, Meter& meter) {

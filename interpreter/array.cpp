@@ -12,7 +12,9 @@ namespace comma::interpreter {
 
 namespace {
 
-bool is_integral(const Value& value) { return value.is_integer() || value.is_bool() || value.is_big_integer(); }
+bool is_integral(const Value& value) {
+  return value.is_integer() || value.is_bool() || value.is_big_integer();
+}
 
 void append_number(const Value& value, std::vector<double>& data, bool& integers) {
   if (!is_numeric(value) || value.is_complex()) {
@@ -48,24 +50,40 @@ Operand operand_of(const Value& value, Value& holder, Meter& meter) {
 
 double apply(Operator op, double a, double b) {
   switch (op) {
-    case Operator::add: return a + b;
-    case Operator::subtract: return a - b;
-    case Operator::multiply: return a * b;
-    case Operator::divide: return a / b;
-    case Operator::floor_divide: return std::floor(a / b);
-    case Operator::modulo: return a - b * std::floor(a / b);
-    case Operator::power: return std::pow(a, b);
-    case Operator::less: return a < b ? 1.0 : 0.0;
-    case Operator::less_equal: return a <= b ? 1.0 : 0.0;
-    case Operator::greater: return a > b ? 1.0 : 0.0;
-    case Operator::greater_equal: return a >= b ? 1.0 : 0.0;
-    case Operator::equal: return a == b ? 1.0 : 0.0;
-    case Operator::not_equal: return a != b ? 1.0 : 0.0;
-    default: raise(ErrorKind::type, fmt::format("arrays have no operator {} here", symbol_of(op)));
+    case Operator::add:
+      return a + b;
+    case Operator::subtract:
+      return a - b;
+    case Operator::multiply:
+      return a * b;
+    case Operator::divide:
+      return a / b;
+    case Operator::floor_divide:
+      return std::floor(a / b);
+    case Operator::modulo:
+      return a - b * std::floor(a / b);
+    case Operator::power:
+      return std::pow(a, b);
+    case Operator::less:
+      return a < b ? 1.0 : 0.0;
+    case Operator::less_equal:
+      return a <= b ? 1.0 : 0.0;
+    case Operator::greater:
+      return a > b ? 1.0 : 0.0;
+    case Operator::greater_equal:
+      return a >= b ? 1.0 : 0.0;
+    case Operator::equal:
+      return a == b ? 1.0 : 0.0;
+    case Operator::not_equal:
+      return a != b ? 1.0 : 0.0;
+    default:
+      raise(ErrorKind::type, fmt::format("arrays have no operator {} here", symbol_of(op)));
   }
 }
 
-std::size_t row_length(const ArrayObject& array) { return array.shape.size() == 2 ? array.shape[1] : 1; }
+std::size_t row_length(const ArrayObject& array) {
+  return array.shape.size() == 2 ? array.shape[1] : 1;
+}
 
 std::int64_t checked_index(const Value& index, std::size_t length) {
   const std::int64_t wanted = index_of(index);
@@ -86,7 +104,8 @@ Selection select(const Value& index, std::size_t length) {
   Selection selection;
   if (const auto* slice = index.as_object<SliceObject>()) {
     const SliceRange range = resolve_slice(*slice, static_cast<std::int64_t>(length));
-    for (std::int64_t i = 0; i < range.count; ++i) selection.places.push_back(static_cast<std::size_t>(range.start + i * range.step));
+    for (std::int64_t i = 0; i < range.count; ++i)
+      selection.places.push_back(static_cast<std::size_t>(range.start + i * range.step));
     return selection;
   }
   selection.places.push_back(static_cast<std::size_t>(checked_index(index, length)));
@@ -132,7 +151,8 @@ Value make_array(std::vector<double> data, std::vector<std::size_t> shape, bool 
 }
 
 Value make_array(const Value& source, Meter& meter) {
-  if (const auto* array = source.as_object<ArrayObject>()) return make_array(array->data, array->shape, array->integers);
+  if (const auto* array = source.as_object<ArrayObject>())
+    return make_array(array->data, array->shape, array->integers);
   std::vector<double> data;
   bool integers = true;
   const std::vector<Value> rows = list_of(source, meter);
@@ -178,14 +198,17 @@ Value ArrayObject::to_list() const {
   return Value::list(std::move(lists));
 }
 
-std::string ArrayObject::repr() const { return "array(" + to_list().repr() + ")"; }
+std::string ArrayObject::repr() const {
+  return "array(" + to_list().repr() + ")";
+}
 
 Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
   Value hold_a, hold_b;
   const Operand x = operand_of(a, hold_a, meter);
   const Operand y = operand_of(b, hold_b, meter);
   const auto& shape = x.data != nullptr ? x.shape : y.shape;
-  if (x.data != nullptr && y.data != nullptr && x.shape != y.shape) raise(ErrorKind::value, "operands could not be broadcast together");
+  if (x.data != nullptr && y.data != nullptr && x.shape != y.shape)
+    raise(ErrorKind::value, "operands could not be broadcast together");
   const std::size_t size = x.data != nullptr ? x.data->size() : y.data->size();
   meter.allocate(size * sizeof(double));
   std::vector<double> result(size);

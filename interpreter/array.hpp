@@ -1,4 +1,5 @@
-// The small part of numpy that command files use: arrays of numbers of one or two dimensions, computed element by element.
+// The small part of numpy that command files use: arrays of numbers of one or two dimensions, computed element by
+// element.
 #pragma once
 
 #include <cstddef>

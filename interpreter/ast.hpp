@@ -12,19 +12,61 @@
 namespace comma::interpreter {
 
 enum class Operator {
-  add, subtract, multiply, divide, floor_divide, modulo, power, matrix_multiply,
-  left_shift, right_shift, bit_and, bit_or, bit_xor,
-  plus, minus, invert, logical_not,
-  less, less_equal, greater, greater_equal, equal, not_equal, in, not_in, is, is_not,
+  add,
+  subtract,
+  multiply,
+  divide,
+  floor_divide,
+  modulo,
+  power,
+  matrix_multiply,
+  left_shift,
+  right_shift,
+  bit_and,
+  bit_or,
+  bit_xor,
+  plus,
+  minus,
+  invert,
+  logical_not,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  in,
+  not_in,
+  is,
+  is_not,
 };
 std::string_view symbol_of(Operator op);
 
 enum class NodeKind {
-  constant, name, formatted, tuple, list, set, dict, unary, binary, logical, compare, conditional, lambda, comprehension,
-  call, attribute, subscript, slice, starred, broken,
+  constant,
+  name,
+  formatted,
+  tuple,
+  list,
+  set,
+  dict,
+  unary,
+  binary,
+  logical,
+  compare,
+  conditional,
+  lambda,
+  comprehension,
+  call,
+  attribute,
+  subscript,
+  slice,
+  starred,
+  broken,
 };
 
-/// An expression. `depth` is the height of the tree below it: the parser bounds it, so that walking it needs bounded stack.
+/// An expression. `depth` is the height of the tree below it: the parser bounds it, so that walking it needs bounded
+/// stack.
 struct Node {
   Node(NodeKind which, std::uint32_t from, std::uint32_t to) : kind(which), begin(from), end(to) {}
   virtual ~Node() = default;
@@ -37,13 +79,16 @@ struct Node {
 using NodePtr = std::unique_ptr<Node>;
 
 struct ConstantNode : Node {
-  ConstantNode(Value content, std::uint32_t from, std::uint32_t to) : Node(NodeKind::constant, from, to), value(std::move(content)) {}
+  ConstantNode(Value content, std::uint32_t from, std::uint32_t to)
+      : Node(NodeKind::constant, from, to), value(std::move(content)) {}
   Value value;
 };
 
-/// A variable. Local ones live in slot `slot` of the function `hops` functions further out; global ones are found by name.
+/// A variable. Local ones live in slot `slot` of the function `hops` functions further out; global ones are found by
+/// name.
 struct NameNode : Node {
-  NameNode(std::string word, std::uint32_t from, std::uint32_t to) : Node(NodeKind::name, from, to), id(std::move(word)) {}
+  NameNode(std::string word, std::uint32_t from, std::uint32_t to)
+      : Node(NodeKind::name, from, to), id(std::move(word)) {}
   std::string id;
   bool global = true;
   int hops = 0;
@@ -162,8 +207,23 @@ struct ComprehensionNode : Node {
 };
 
 enum class StatementKind {
-  expression, assign, augmented, if_, while_, for_, function, return_, pass, break_, continue_, del, assert_, try_, raise,
-  import, import_from,
+  expression,
+  assign,
+  augmented,
+  if_,
+  while_,
+  for_,
+  function,
+  return_,
+  pass,
+  break_,
+  continue_,
+  del,
+  assert_,
+  try_,
+  raise,
+  import,
+  import_from,
 };
 
 struct Statement {

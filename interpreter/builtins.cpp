@@ -19,15 +19,16 @@ void expect_arguments(std::string_view function, const CallArguments& arguments,
                       std::initializer_list<std::string_view> keywords) {
   for (const auto& item : arguments.named) {
     if (std::find(keywords.begin(), keywords.end(), item.name) != keywords.end()) continue;
-    raise(ErrorKind::type, keywords.size() == 0 ? fmt::format("{}() takes no keyword arguments", function)
-                                                : fmt::format("'{}' is an invalid keyword argument for {}()", item.name, function));
+    raise(ErrorKind::type, keywords.size() == 0
+                               ? fmt::format("{}() takes no keyword arguments", function)
+                               : fmt::format("'{}' is an invalid keyword argument for {}()", item.name, function));
   }
   const std::size_t given = arguments.size();
   if (given >= fewest && given <= most) return;
   const std::size_t bound = given < fewest ? fewest : most;
   const std::string_view relation = fewest == most ? "exactly" : given < fewest ? "at least" : "at most";
-  raise(ErrorKind::type, fmt::format("{}() takes {} {} argument{} ({} given)", function, relation, bound == 1 ? "one" : std::to_string(bound),
-                                     bound == 1 ? "" : "s", given));
+  raise(ErrorKind::type, fmt::format("{}() takes {} {} argument{} ({} given)", function, relation,
+                                     bound == 1 ? "one" : std::to_string(bound), bound == 1 ? "" : "s", given));
 }
 
 namespace {
@@ -37,7 +38,8 @@ Value print(Evaluator& evaluator, const CallArguments& arguments) {
   const auto option = [&](std::string_view name, const char* fallback) {
     const Value* value = arguments.find(name);
     if (value == nullptr || value->is_none()) return std::string(fallback);
-    if (!value->is_text()) raise(ErrorKind::type, fmt::format("{} must be None or a string, not {}", name, value->type_name()));
+    if (!value->is_text())
+      raise(ErrorKind::type, fmt::format("{} must be None or a string, not {}", name, value->type_name()));
     return value->as_text();
   };
   const std::string separator = option("sep", " ");
@@ -99,7 +101,8 @@ Value round(Evaluator&, const CallArguments& arguments) {
   const Value& x = arguments[0];
   const Value* digits = arguments.size() > 1 ? &arguments[1] : arguments.find("ndigits");
   const bool whole = digits == nullptr || digits->is_none();
-  if (const auto integer = integer_of(x)) return whole ? Value::integer(*integer) : round_integer(*integer, index_of(*digits));
+  if (const auto integer = integer_of(x))
+    return whole ? Value::integer(*integer) : round_integer(*integer, index_of(*digits));
   if (!x.is_real()) raise(ErrorKind::type, fmt::format("type {} doesn't define __round__ method", x.type_name()));
   if (!whole) return round_real(x.as_real(), index_of(*digits));
   if (std::isnan(x.as_real())) raise(ErrorKind::value, "cannot convert float NaN to integer");
@@ -109,7 +112,8 @@ Value round(Evaluator&, const CallArguments& arguments) {
 
 bool is_instance(const Value& value, const Value& type) {
   if (type.is_tuple()) {
-    return std::any_of(type.items().begin(), type.items().end(), [&](const Value& one) { return is_instance(value, one); });
+    return std::any_of(type.items().begin(), type.items().end(),
+                       [&](const Value& one) { return is_instance(value, one); });
   }
   if (const auto* error = type.as_object<ExceptionClassObject>()) {
     const auto* object = value.as_object<ExceptionObject>();
@@ -143,7 +147,8 @@ Value ascii(Evaluator&, const CallArguments& arguments) {
 
 Value format(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("format", arguments, 1, 2);
-  if (arguments.size() == 2 && !arguments[1].is_text()) raise(ErrorKind::type, "format() argument 2 must be str, not " + arguments[1].type_name());
+  if (arguments.size() == 2 && !arguments[1].is_text())
+    raise(ErrorKind::type, "format() argument 2 must be str, not " + arguments[1].type_name());
   return format_value(arguments[0], arguments.size() == 2 ? arguments[1].as_text() : "", evaluator.meter());
 }
 
@@ -152,25 +157,30 @@ Value hash(Evaluator&, const CallArguments& arguments) {
   return static_cast<std::int64_t>(hash_of(arguments[0]) >> 3);
 }
 
-Value divmod(Evaluator&, const CallArguments& arguments) {
+Value divmod(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("divmod", arguments, 2, 2);
   for (const Value& value : arguments.positional) {
     if (!is_numeric(value) || value.is_complex()) {
-      raise(ErrorKind::type, fmt::format("unsupported operand type(s) for divmod(): '{}' and '{}'", arguments[0].type_name(), arguments[1].type_name()));
+      raise(ErrorKind::type, fmt::format("unsupported operand type(s) for divmod(): '{}' and '{}'",
+                                         arguments[0].type_name(), arguments[1].type_name()));
     }
   }
-  return Value::tuple({floor_divide(arguments[0], arguments[1]), modulo(arguments[0], arguments[1])});
+  return Value::tuple({binary_operation(Operator::floor_divide, arguments[0], arguments[1], evaluator.meter()),
+                       binary_operation(Operator::modulo, arguments[0], arguments[1], evaluator.meter())});
 }
 
 /// a**b modulo m, the square-and-multiply way.
-Value power_modulo(const Value& a, const Value& b, const Value& m) {
+Value power_modulo(const Value& a, const Value& b, const Value& m, Meter& meter) {
   const auto base = integer_of(a), exponent = integer_of(b), modulus = integer_of(m);
-  if (!base || !exponent || !modulus) raise(ErrorKind::type, "pow() 3rd argument not allowed unless all arguments are integers");
+  if (!base || !exponent || !modulus)
+    raise(ErrorKind::type, "pow() 3rd argument not allowed unless all arguments are integers");
   if (modulus->is_zero()) raise(ErrorKind::value, "pow() 3rd argument cannot be 0");
-  if (exponent->is_negative()) raise(ErrorKind::value, "pow() with a negative exponent and a modulus is not part of the command language");
+  if (exponent->is_negative())
+    raise(ErrorKind::value, "pow() with a negative exponent and a modulus is not part of the command language");
   const auto reduce = [&](const BigInteger& x) { return BigInteger::floor_divide(x, *modulus).second; };
   BigInteger result = reduce(BigInteger(1)), factor = reduce(*base);
   for (BigInteger n = *exponent; !n.is_zero(); n = n.shifted_right(1)) {
+    meter.work(2 * (modulus->bit_length() / 32 + 1) * (modulus->bit_length() / 32 + 1) + n.bit_length() / 32 + 16);
     if (n.is_odd()) result = reduce(result * factor);
     factor = reduce(factor * factor);
   }
@@ -179,25 +189,33 @@ Value power_modulo(const Value& a, const Value& b, const Value& m) {
 
 Value pow(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("pow", arguments, 2, 3);
-  if (arguments.size() == 3) return power_modulo(arguments[0], arguments[1], arguments[2]);
+  if (arguments.size() == 3) return power_modulo(arguments[0], arguments[1], arguments[2], evaluator.meter());
   return power(arguments[0], arguments[1], evaluator.meter());
 }
 
 Value in_base(const CallArguments& arguments, std::string_view function, int base, std::string_view prefix) {
   expect_arguments(function, arguments, 1, 1);
   const auto x = integer_of(arguments[0]);
-  if (!x) raise(ErrorKind::type, fmt::format("'{}' object cannot be interpreted as an integer", arguments[0].type_name()));
+  if (!x)
+    raise(ErrorKind::type, fmt::format("'{}' object cannot be interpreted as an integer", arguments[0].type_name()));
   return (x->is_negative() ? "-" : "") + std::string(prefix) + x->magnitude().to_string(base);
 }
 
-Value hex(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "hex", 16, "0x"); }
-Value oct(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "oct", 8, "0o"); }
-Value bin(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "bin", 2, "0b"); }
+Value hex(Evaluator&, const CallArguments& arguments) {
+  return in_base(arguments, "hex", 16, "0x");
+}
+Value oct(Evaluator&, const CallArguments& arguments) {
+  return in_base(arguments, "oct", 8, "0o");
+}
+Value bin(Evaluator&, const CallArguments& arguments) {
+  return in_base(arguments, "bin", 2, "0b");
+}
 
 Value chr(Evaluator&, const CallArguments& arguments) {
   expect_arguments("chr", arguments, 1, 1);
   const std::int64_t code = index_of(arguments[0]);
-  if (code < 0 || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) raise(ErrorKind::value, "chr() arg not in range(0x110000)");
+  if (code < 0 || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000))
+    raise(ErrorKind::value, "chr() arg not in range(0x110000)");
   std::string text;
   append_utf8(text, static_cast<char32_t>(code));
   return text;
@@ -205,9 +223,11 @@ Value chr(Evaluator&, const CallArguments& arguments) {
 
 Value ord(Evaluator&, const CallArguments& arguments) {
   expect_arguments("ord", arguments, 1, 1);
-  if (!arguments[0].is_text()) raise(ErrorKind::type, fmt::format("ord() expected string of length 1, but {} found", arguments[0].type_name()));
+  if (!arguments[0].is_text())
+    raise(ErrorKind::type, fmt::format("ord() expected string of length 1, but {} found", arguments[0].type_name()));
   const auto points = decode_utf8(arguments[0].as_text());
-  if (points.size() != 1) raise(ErrorKind::type, fmt::format("ord() expected a character, but string of length {} found", points.size()));
+  if (points.size() != 1)
+    raise(ErrorKind::type, fmt::format("ord() expected a character, but string of length {} found", points.size()));
   return static_cast<std::int64_t>(points[0]);
 }
 
@@ -242,14 +262,59 @@ Value identity(Evaluator&, const CallArguments& arguments) {
 }
 
 /// _F is made by the evaluator itself, which knows where its keywords stand.
-Value factor(Evaluator&, const CallArguments&) { return {}; }
+Value factor(Evaluator&, const CallArguments&) {
+  return {};
+}
+
+struct Refusal {
+  std::string_view name, reason;
+};
+
+constexpr std::string_view no_files = "a command file reaches no file: use LIRE_*, IMPR_* and the units of the .export";
+constexpr std::string_view no_code = "text is not run as code in a command file";
+constexpr std::string_view no_looking = "variables are not looked up by name: use a dict";
+constexpr std::array refusals = {
+    Refusal{"open", no_files},
+    Refusal{"input", "a command file asks nothing while it runs"},
+    Refusal{"eval", no_code},
+    Refusal{"exec", no_code},
+    Refusal{"compile", no_code},
+    Refusal{"__import__", "write 'import' on a line of its own"},
+    Refusal{"globals", no_looking},
+    Refusal{"locals", no_looking},
+    Refusal{"vars", no_looking},
+    Refusal{"dir", no_looking},
+    Refusal{"setattr", "attributes cannot be assigned"},
+    Refusal{"delattr", "attributes cannot be deleted"},
+    Refusal{"bytes", "texts are str"},
+    Refusal{"bytearray", "texts are str"},
+    Refusal{"super", "there are no classes"},
+    Refusal{"issubclass", "use isinstance(...)"},
+    Refusal{"exit", "use sys.exit() after 'import sys'"},
+    Refusal{"quit", "use sys.exit() after 'import sys'"},
+};
 
 constexpr std::array functions = {
-    FunctionRow{"print", print},   FunctionRow{"len", len},         FunctionRow{"abs", abs},         FunctionRow{"round", round},
-    FunctionRow{"isinstance", isinstance}, FunctionRow{"callable", callable}, FunctionRow{"repr", repr}, FunctionRow{"ascii", ascii},
-    FunctionRow{"format", format}, FunctionRow{"hash", hash},       FunctionRow{"divmod", divmod},   FunctionRow{"pow", pow},
-    FunctionRow{"hex", hex},       FunctionRow{"oct", oct},         FunctionRow{"bin", bin},         FunctionRow{"chr", chr},
-    FunctionRow{"ord", ord},       FunctionRow{"hasattr", hasattr}, FunctionRow{"getattr", getattr}, FunctionRow{"id", identity},
+    FunctionRow{"print", print},
+    FunctionRow{"len", len},
+    FunctionRow{"abs", abs},
+    FunctionRow{"round", round},
+    FunctionRow{"isinstance", isinstance},
+    FunctionRow{"callable", callable},
+    FunctionRow{"repr", repr},
+    FunctionRow{"ascii", ascii},
+    FunctionRow{"format", format},
+    FunctionRow{"hash", hash},
+    FunctionRow{"divmod", divmod},
+    FunctionRow{"pow", pow},
+    FunctionRow{"hex", hex},
+    FunctionRow{"oct", oct},
+    FunctionRow{"bin", bin},
+    FunctionRow{"chr", chr},
+    FunctionRow{"ord", ord},
+    FunctionRow{"hasattr", hasattr},
+    FunctionRow{"getattr", getattr},
+    FunctionRow{"id", identity},
     FunctionRow{"_F", factor},
 };
 
@@ -259,10 +324,13 @@ Names make_builtins() {
   Names names;
   for (const auto rows : {basic_functions(), sequence_functions()}) {
     for (const FunctionRow& row : rows) {
-      names.emplace(row.name, Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
+      names.emplace(
+          row.name,
+          Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
     }
   }
-  for (const char* type : {"int", "float", "str", "bool", "complex", "list", "tuple", "dict", "set", "frozenset", "type", "object", "range", "slice"}) {
+  for (const char* type : {"int", "float", "str", "bool", "complex", "list", "tuple", "dict", "set", "frozenset",
+                           "type", "object", "range", "slice"}) {
     names.emplace(type, Value(std::shared_ptr<Object>(std::make_shared<TypeObject>(type))));
   }
   for (int kind = 0; kind < static_cast<int>(ErrorKind::aster); ++kind) {
@@ -284,7 +352,15 @@ const Names& builtins() {
 
 }  // namespace
 
-std::span<const FunctionRow> basic_functions() { return functions; }
+std::span<const FunctionRow> basic_functions() {
+  return functions;
+}
+
+std::string_view refusal_of(std::string_view name) {
+  const auto found =
+      std::find_if(refusals.begin(), refusals.end(), [&](const Refusal& row) { return row.name == name; });
+  return found == refusals.end() ? std::string_view() : found->reason;
+}
 
 const Value* builtin_value(std::string_view name) {
   const auto found = builtins().find(name);

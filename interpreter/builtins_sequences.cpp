@@ -43,8 +43,10 @@ Value zip(Evaluator&, const CallArguments& arguments) {
         items.push_back(std::move(*value));
         continue;
       }
-      if (strict && !items.empty()) raise(ErrorKind::value, fmt::format("zip() argument {} is shorter than argument 1", items.size() + 1));
-      if (strict && std::any_of(iterators.begin() + 1, iterators.end(), [](const auto& other) { return other->next().has_value(); })) {
+      if (strict && !items.empty())
+        raise(ErrorKind::value, fmt::format("zip() argument {} is shorter than argument 1", items.size() + 1));
+      if (strict && std::any_of(iterators.begin() + 1, iterators.end(),
+                                [](const auto& other) { return other->next().has_value(); })) {
         raise(ErrorKind::value, "zip() argument 2 is longer than argument 1");
       }
       return std::nullopt;
@@ -55,26 +57,28 @@ Value zip(Evaluator&, const CallArguments& arguments) {
 
 Value map(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("map", arguments, 2, std::max<std::size_t>(arguments.size(), 2));
-  return make_iterator("map", [&evaluator, function = arguments[0], iterators = iterators_of(arguments, 1)]() -> std::optional<Value> {
-    CallArguments call;
-    for (const auto& iterator : iterators) {
-      auto value = iterator->next();
-      if (!value) return std::nullopt;
-      call.positional.push_back(std::move(*value));
-    }
-    return evaluator.call(function, call);
-  });
+  return make_iterator(
+      "map", [&evaluator, function = arguments[0], iterators = iterators_of(arguments, 1)]() -> std::optional<Value> {
+        CallArguments call;
+        for (const auto& iterator : iterators) {
+          auto value = iterator->next();
+          if (!value) return std::nullopt;
+          call.positional.push_back(std::move(*value));
+        }
+        return evaluator.call(function, call);
+      });
 }
 
 Value filter(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("filter", arguments, 2, 2);
-  return make_iterator("filter", [&evaluator, function = arguments[0], iterator = iterate(arguments[1])]() -> std::optional<Value> {
-    while (auto value = iterator->next()) {
-      const Value passes = function.is_none() ? *value : evaluator.call(function, CallArguments({*value}));
-      if (passes.is_unknown() || truth(passes)) return value;
-    }
-    return std::nullopt;
-  });
+  return make_iterator(
+      "filter", [&evaluator, function = arguments[0], iterator = iterate(arguments[1])]() -> std::optional<Value> {
+        while (auto value = iterator->next()) {
+          const Value passes = function.is_none() ? *value : evaluator.call(function, CallArguments({*value}));
+          if (passes.is_unknown() || truth(passes)) return value;
+        }
+        return std::nullopt;
+      });
 }
 
 Value reversed(Evaluator& evaluator, const CallArguments& arguments) {
@@ -85,10 +89,11 @@ Value reversed(Evaluator& evaluator, const CallArguments& arguments) {
   }
   std::vector<Value> items = list_of(source, evaluator.meter());
   std::reverse(items.begin(), items.end());
-  return make_iterator("list_reverseiterator", [items = std::move(items), i = std::size_t{0}]() mutable -> std::optional<Value> {
-    if (i >= items.size()) return std::nullopt;
-    return items[i++];
-  });
+  return make_iterator("list_reverseiterator",
+                       [items = std::move(items), i = std::size_t{0}]() mutable -> std::optional<Value> {
+                         if (i >= items.size()) return std::nullopt;
+                         return items[i++];
+                       });
 }
 
 Value sorted(Evaluator& evaluator, const CallArguments& arguments) {
@@ -114,7 +119,8 @@ Value sum(Evaluator& evaluator, const CallArguments& arguments) {
 Value extreme(Evaluator& evaluator, const CallArguments& arguments, std::string_view name, bool largest) {
   if (arguments.size() == 0) raise(ErrorKind::type, fmt::format("{} expected at least 1 argument, got 0", name));
   expect_arguments(name, arguments, 1, arguments.size(), {"key", "default"});
-  const std::vector<Value> items = arguments.size() == 1 ? list_of(arguments[0], evaluator.meter()) : arguments.positional;
+  const std::vector<Value> items =
+      arguments.size() == 1 ? list_of(arguments[0], evaluator.meter()) : arguments.positional;
   if (items.empty()) {
     if (const Value* fallback = arguments.find("default")) return *fallback;
     raise(ErrorKind::value, fmt::format("{}() arg is an empty sequence", name), "give default=...");
@@ -137,8 +143,12 @@ Value extreme(Evaluator& evaluator, const CallArguments& arguments, std::string_
   return best_key.is_unknown() ? best_key : best;
 }
 
-Value min(Evaluator& evaluator, const CallArguments& arguments) { return extreme(evaluator, arguments, "min", false); }
-Value max(Evaluator& evaluator, const CallArguments& arguments) { return extreme(evaluator, arguments, "max", true); }
+Value min(Evaluator& evaluator, const CallArguments& arguments) {
+  return extreme(evaluator, arguments, "min", false);
+}
+Value max(Evaluator& evaluator, const CallArguments& arguments) {
+  return extreme(evaluator, arguments, "max", true);
+}
 
 Value quantify(Evaluator& evaluator, const CallArguments& arguments, std::string_view name, bool wanted) {
   expect_arguments(name, arguments, 1, 1);
@@ -151,8 +161,12 @@ Value quantify(Evaluator& evaluator, const CallArguments& arguments, std::string
   return !wanted;
 }
 
-Value any(Evaluator& evaluator, const CallArguments& arguments) { return quantify(evaluator, arguments, "any", true); }
-Value all(Evaluator& evaluator, const CallArguments& arguments) { return quantify(evaluator, arguments, "all", false); }
+Value any(Evaluator& evaluator, const CallArguments& arguments) {
+  return quantify(evaluator, arguments, "any", true);
+}
+Value all(Evaluator& evaluator, const CallArguments& arguments) {
+  return quantify(evaluator, arguments, "all", false);
+}
 
 Value iter(Evaluator&, const CallArguments& arguments) {
   expect_arguments("iter", arguments, 1, 1);
@@ -162,7 +176,9 @@ Value iter(Evaluator&, const CallArguments& arguments) {
 Value next(Evaluator&, const CallArguments& arguments) {
   expect_arguments("next", arguments, 1, 2);
   auto* iterator = arguments[0].as_object<Iterator>();
-  if (iterator == nullptr) raise(ErrorKind::type, fmt::format("'{}' object is not an iterator", arguments[0].type_name()), "make one with iter(...)");
+  if (iterator == nullptr)
+    raise(ErrorKind::type, fmt::format("'{}' object is not an iterator", arguments[0].type_name()),
+          "make one with iter(...)");
   if (auto value = iterator->next()) return *value;
   if (arguments.size() > 1) return arguments[1];
   auto error = make_exception(ErrorKind::stop_iteration, "");
@@ -171,15 +187,26 @@ Value next(Evaluator&, const CallArguments& arguments) {
 }
 
 constexpr std::array functions = {
-    FunctionRow{"enumerate", enumerate}, FunctionRow{"zip", zip},       FunctionRow{"map", map}, FunctionRow{"filter", filter},
-    FunctionRow{"reversed", reversed},   FunctionRow{"sorted", sorted}, FunctionRow{"sum", sum}, FunctionRow{"min", min},
-    FunctionRow{"max", max},             FunctionRow{"any", any},       FunctionRow{"all", all}, FunctionRow{"iter", iter},
+    FunctionRow{"enumerate", enumerate},
+    FunctionRow{"zip", zip},
+    FunctionRow{"map", map},
+    FunctionRow{"filter", filter},
+    FunctionRow{"reversed", reversed},
+    FunctionRow{"sorted", sorted},
+    FunctionRow{"sum", sum},
+    FunctionRow{"min", min},
+    FunctionRow{"max", max},
+    FunctionRow{"any", any},
+    FunctionRow{"all", all},
+    FunctionRow{"iter", iter},
     FunctionRow{"next", next},
 };
 
 }  // namespace
 
-std::span<const FunctionRow> sequence_functions() { return functions; }
+std::span<const FunctionRow> sequence_functions() {
+  return functions;
+}
 
 Value make_set(const std::vector<Value>& items, bool frozen) {
   auto set = std::make_shared<Set>();

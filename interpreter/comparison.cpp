@@ -20,7 +20,9 @@ std::partial_ordering order_integer_and_real(const Value& integer, double real) 
   const auto whole = *integer_of(integer) <=> BigInteger::from_double(real);
   if (whole != 0) return whole;
   const double fraction = real - std::trunc(real);
-  return fraction > 0 ? std::partial_ordering::less : fraction < 0 ? std::partial_ordering::greater : std::partial_ordering::equivalent;
+  return fraction > 0   ? std::partial_ordering::less
+         : fraction < 0 ? std::partial_ordering::greater
+                        : std::partial_ordering::equivalent;
 }
 
 std::partial_ordering order_numbers(const Value& a, const Value& b) {
@@ -32,16 +34,22 @@ std::partial_ordering order_numbers(const Value& a, const Value& b) {
 }
 
 [[noreturn]] void raise_not_ordered(Operator op, const Value& a, const Value& b) {
-  raise(ErrorKind::type, fmt::format("'{}' not supported between instances of '{}' and '{}'", symbol_of(op), a.type_name(), b.type_name()),
-        a.is_text() != b.is_text() ? "convert one of them with str(...), int(...) or float(...)" : "");
+  raise(
+      ErrorKind::type,
+      fmt::format("'{}' not supported between instances of '{}' and '{}'", symbol_of(op), a.type_name(), b.type_name()),
+      a.is_text() != b.is_text() ? "convert one of them with str(...), int(...) or float(...)" : "");
 }
 
 bool fits(Operator op, std::partial_ordering order) {
   switch (op) {
-    case Operator::less: return order < 0;
-    case Operator::less_equal: return order <= 0;
-    case Operator::greater: return order > 0;
-    default: return order >= 0;
+    case Operator::less:
+      return order < 0;
+    case Operator::less_equal:
+      return order <= 0;
+    case Operator::greater:
+      return order > 0;
+    default:
+      return order >= 0;
   }
 }
 
@@ -52,10 +60,14 @@ bool is_subset(const Dict& a, const Dict& b) {
 
 bool order_sets(Operator op, const Dict& a, const Dict& b) {
   switch (op) {
-    case Operator::less: return a.size() < b.size() && is_subset(a, b);
-    case Operator::less_equal: return is_subset(a, b);
-    case Operator::greater: return order_sets(Operator::less, b, a);
-    default: return is_subset(b, a);
+    case Operator::less:
+      return a.size() < b.size() && is_subset(a, b);
+    case Operator::less_equal:
+      return is_subset(a, b);
+    case Operator::greater:
+      return order_sets(Operator::less, b, a);
+    default:
+      return is_subset(b, a);
   }
 }
 
@@ -74,14 +86,16 @@ bool ordered(Operator op, const Value& a, const Value& b, int depth) {
   if (a.is_unknown() || b.is_unknown()) return false;
   if (is_numeric(a) && is_numeric(b) && !a.is_complex() && !b.is_complex()) return fits(op, order_numbers(a, b));
   if (a.is_text() && b.is_text()) return fits(op, a.as_text() <=> b.as_text());
-  if ((a.is_list() && b.is_list()) || (a.is_tuple() && b.is_tuple())) return order_sequences(op, a.items(), b.items(), depth);
+  if ((a.is_list() && b.is_list()) || (a.is_tuple() && b.is_tuple()))
+    return order_sequences(op, a.items(), b.items(), depth);
   if (a.is_set() && b.is_set()) return order_sets(op, a.as_set(), b.as_set());
   raise_not_ordered(op, a, b);
 }
 
 bool contains_text(const Value& container, const Value& item) {
   if (!item.is_text()) {
-    raise(ErrorKind::type, "'in <string>' requires string as left operand, not " + item.type_name(), "write a tuple, with a comma: ('A',)");
+    raise(ErrorKind::type, "'in <string>' requires string as left operand, not " + item.type_name(),
+          "write a tuple, with a comma: ('A',)");
   }
   return container.as_text().find(item.as_text()) != std::string::npos;
 }
@@ -94,7 +108,8 @@ bool truth(const Value& value) {
   if (value.is_integer()) return value.as_integer() != 0;
   if (value.is_real()) return value.as_real() != 0.0;
   if (value.is_complex()) return value.as_complex() != 0.0;
-  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->data.size() == 1) return array->data[0] != 0.0;
+  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->data.size() == 1)
+    return array->data[0] != 0.0;
   if (value.as_object<ArrayObject>() != nullptr) {
     raise(ErrorKind::value, "the truth of an array with several elements is ambiguous", "use any(...) or all(...)");
   }
@@ -102,7 +117,9 @@ bool truth(const Value& value) {
   return !length || *length > 0;
 }
 
-bool less_than(const Value& a, const Value& b) { return ordered(Operator::less, a, b, 0); }
+bool less_than(const Value& a, const Value& b) {
+  return ordered(Operator::less, a, b, 0);
+}
 
 bool identical(const Value& a, const Value& b) {
   if (a.storage().index() != b.storage().index()) return false;
@@ -122,7 +139,8 @@ bool contains(const Value& container, const Value& item) {
   if (container.is_set()) return container.as_set().find(item) != nullptr;
   if (container.is_factor()) {
     const auto& arguments = container.as_factor().arguments;
-    return item.is_text() && std::any_of(arguments.begin(), arguments.end(), [&](const Argument& a) { return a.name == item.as_text(); });
+    return item.is_text() &&
+           std::any_of(arguments.begin(), arguments.end(), [&](const Argument& a) { return a.name == item.as_text(); });
   }
   if (const auto* view = container.as_object<DictView>(); view != nullptr && view->kind == DictView::Kind::keys) {
     return view->dict->find(item) != nullptr;

@@ -65,8 +65,10 @@ std::optional<double> real_from_text(std::string_view text) {
     if (low.empty() || !((low[0] >= '0' && low[0] <= '9') || low[0] == '.')) return std::nullopt;
     const auto result = std::from_chars(low.data(), low.data() + low.size(), value);
     if (result.ptr != low.data() + low.size()) return std::nullopt;
-    if (result.ec == std::errc::result_out_of_range) value = std::strtod(low.c_str(), nullptr);
-    else if (result.ec != std::errc()) return std::nullopt;
+    if (result.ec == std::errc::result_out_of_range)
+      value = std::strtod(low.c_str(), nullptr);
+    else if (result.ec != std::errc())
+      return std::nullopt;
   }
   return negative ? -value : value;
 }
@@ -86,7 +88,9 @@ Value make_integer(const CallArguments& arguments) {
   if (base != nullptr) raise(ErrorKind::type, "int() can't convert non-string with explicit base");
   if (const auto integer = integer_of(source)) return Value::integer(*integer);
   if (!source.is_real()) {
-    raise(ErrorKind::type, fmt::format("int() argument must be a string, a bytes-like object or a real number, not '{}'", source.type_name()));
+    raise(ErrorKind::type,
+          fmt::format("int() argument must be a string, a bytes-like object or a real number, not '{}'",
+                      source.type_name()));
   }
   if (std::isnan(source.as_real())) raise(ErrorKind::value, "cannot convert float NaN to integer");
   if (std::isinf(source.as_real())) raise(ErrorKind::overflow, "cannot convert float infinity to integer");
@@ -103,7 +107,8 @@ Value make_real(const CallArguments& arguments) {
           source.as_text().find(',') != std::string::npos ? "the decimal sign is the point" : "");
   }
   if (!is_numeric(source) || source.is_complex()) {
-    raise(ErrorKind::type, fmt::format("float() argument must be a string or a real number, not '{}'", source.type_name()));
+    raise(ErrorKind::type,
+          fmt::format("float() argument must be a string or a real number, not '{}'", source.type_name()));
   }
   return real_of(source);
 }
@@ -113,7 +118,8 @@ Value make_complex(const CallArguments& arguments) {
   const auto part = [&](std::size_t index, const char* name) -> std::complex<double> {
     const Value* value = arguments.size() > index ? &arguments[index] : arguments.find(name);
     if (value == nullptr) return 0.0;
-    if (!is_numeric(*value)) raise(ErrorKind::type, fmt::format("complex() argument must be a number, not '{}'", value->type_name()));
+    if (!is_numeric(*value))
+      raise(ErrorKind::type, fmt::format("complex() argument must be a number, not '{}'", value->type_name()));
     return value->is_complex() ? value->as_complex() : real_of(*value);
   };
   const auto real = part(0, "real"), imaginary = part(1, "imag");
@@ -121,7 +127,8 @@ Value make_complex(const CallArguments& arguments) {
 }
 
 Value make_dict(Evaluator& evaluator, const CallArguments& arguments) {
-  if (arguments.size() > 1) raise(ErrorKind::type, fmt::format("dict expected at most 1 argument, got {}", arguments.size()));
+  if (arguments.size() > 1)
+    raise(ErrorKind::type, fmt::format("dict expected at most 1 argument, got {}", arguments.size()));
   auto dict = std::make_shared<Dict>();
   if (arguments.size() == 1 && arguments[0].is_dict()) {
     for (const Value& key : arguments[0].as_dict().keys()) dict->set(key, *arguments[0].as_dict().find(key));
@@ -132,7 +139,8 @@ Value make_dict(Evaluator& evaluator, const CallArguments& arguments) {
     for (const Value& pair : list_of(arguments[0], evaluator.meter())) {
       const std::vector<Value> parts = list_of(pair, evaluator.meter());
       if (parts.size() != 2) {
-        raise(ErrorKind::value, fmt::format("dictionary update sequence element #{} has length {}; 2 is required", index, parts.size()));
+        raise(ErrorKind::value,
+              fmt::format("dictionary update sequence element #{} has length {}; 2 is required", index, parts.size()));
       }
       dict->set(parts[0], parts[1]);
       ++index;
@@ -171,7 +179,8 @@ Value type_of(const CallArguments& arguments) {
     return Value(std::shared_ptr<Object>(std::make_shared<ExceptionClassObject>(error->kind)));
   }
   const std::string name = arguments[0].type_name();
-  if (const Value* known = builtin_value(name); known != nullptr && known->as_object<TypeObject>() != nullptr) return *known;
+  if (const Value* known = builtin_value(name); known != nullptr && known->as_object<TypeObject>() != nullptr)
+    return *known;
   return Value(std::shared_ptr<Object>(std::make_shared<TypeObject>(name)));
 }
 

@@ -38,7 +38,8 @@ void Evaluator::run(const Ast& ast) {
   frame_.reset();
 }
 
-Value Evaluator::evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup) {
+Value Evaluator::evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file,
+                          const VariableLookup& lookup) {
   const char here = 0;
   stack_base_ = &here;
   file_ = file;
@@ -64,7 +65,9 @@ const Value* Evaluator::global(std::string_view name) const {
   return found == globals_.end() ? nullptr : &found->second;
 }
 
-void Evaluator::set_global(const std::string& name, Value value) { globals_[name] = std::move(value); }
+void Evaluator::set_global(const std::string& name, Value value) {
+  globals_[name] = std::move(value);
+}
 
 std::vector<std::string> Evaluator::global_names() const {
   std::vector<std::string> names;
@@ -86,10 +89,13 @@ Value Evaluator::load(const NameNode& name) {
   const std::optional<Value>& slot = frame_of(name).slots[static_cast<std::size_t>(name.slot)];
   if (slot) return *slot;
   if (name.hops == 0) {
-    raise(ErrorKind::unbound_local, fmt::format("cannot access local variable '{}' where it is not associated with a value", name.id),
+    raise(ErrorKind::unbound_local,
+          fmt::format("cannot access local variable '{}' where it is not associated with a value", name.id),
           "it is assigned in this function, but not before this line");
   }
-  raise(ErrorKind::name, fmt::format("cannot access free variable '{}' where it is not associated with a value in enclosing scope", name.id));
+  raise(ErrorKind::name,
+        fmt::format("cannot access free variable '{}' where it is not associated with a value in enclosing scope",
+                    name.id));
 }
 
 Value Evaluator::load_global(const NameNode& name) {
@@ -98,16 +104,21 @@ Value Evaluator::load_global(const NameNode& name) {
   }
   if (const auto found = globals_.find(name.id); found != globals_.end()) return found->second;
   if (const Value* value = builtin_value(name.id)) return *value;
+  if (const Value* value = math_name(name.id)) return *value;
   if (host_.is_command(name.id)) return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name.id)));
-  // A command file has the names of `math` without an import: sqrt, exp, pi. They come last, so that the user's own win.
-  if (const Value* value = math_value(name.id)) return *value;
   return unknown_name(name);
+}
+
+/// In a formula all of math is at hand; a file has the usual part of it.
+const Value* Evaluator::math_name(std::string_view name) const {
+  return strict_ > 0 ? math_value(name) : common_math_value(name);
 }
 
 /// A name is reported once; its later uses belong to the same mistake.
 Value Evaluator::unknown_name(const NameNode& name, bool called) {
   const auto& word = name.id;
-  const bool like_a_command = called && std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; });
+  const bool like_a_command =
+      called && std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; });
   std::vector<std::string> known = global_names();
   const std::vector<std::string> commands = host_.command_names();
   const std::vector<std::string> builtins = builtin_names();
@@ -115,12 +126,17 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   known.insert(known.end(), commands.begin(), commands.end());
   if (!like_a_command) known.insert(known.end(), builtins.begin(), builtins.end());
   const std::string near = nearest(word, known);
-  std::string hint = near.empty() ? "" : fmt::format("did you mean {}?", near);
-  const std::string message = fmt::format("name '{}' is not defined", word);
+  const std::string_view refusal = refusal_of(word);
+  std::string hint = !near.empty() ? fmt::format("did you mean {}?", near) : "";
+  if (math_value(word) != nullptr) hint = fmt::format("write 'from math import {}' before", word);
+  if (!refusal.empty()) hint = refusal;
+  const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
+                                              : fmt::format("'{}' is not part of the command language", word);
   if (!recovering()) raise(ErrorKind::name, message, std::move(hint));
   if (!reported_names_.insert(word).second) return Value::unknown();
-  report({Severity::error, like_a_command ? "unknown-command" : "unknown-name",
-          like_a_command ? fmt::format("there is no command {}", word) : message, std::move(hint), span_of(name)});
+  const char* code = like_a_command ? "unknown-command" : refusal.empty() ? "unknown-name" : "not-supported";
+  report({Severity::error, code, like_a_command ? fmt::format("there is no command {}", word) : message,
+          std::move(hint), span_of(name)});
   return Value::unknown();
 }
 
@@ -137,16 +153,19 @@ void Evaluator::store(const NameNode& name, Value value) {
 }
 
 void Evaluator::erase(const NameNode& name) {
-  const bool existed = name.global ? globals_.erase(name.id) > 0 : frame_of(name).slots[static_cast<std::size_t>(name.slot)].has_value();
+  const bool existed =
+      name.global ? globals_.erase(name.id) > 0 : frame_of(name).slots[static_cast<std::size_t>(name.slot)].has_value();
   if (!name.global) frame_of(name).slots[static_cast<std::size_t>(name.slot)].reset();
   if (!existed) raise(ErrorKind::name, fmt::format("name '{}' is not defined", name.id));
 }
 
 void Evaluator::assign(const Node& target, const Value& value) {
   switch (target.kind) {
-    case NodeKind::name: return store(static_cast<const NameNode&>(target), value);
+    case NodeKind::name:
+      return store(static_cast<const NameNode&>(target), value);
     case NodeKind::tuple:
-    case NodeKind::list: return assign_items(static_cast<const SequenceNode&>(target), value);
+    case NodeKind::list:
+      return assign_items(static_cast<const SequenceNode&>(target), value);
     case NodeKind::subscript: {
       const auto& node = static_cast<const SubscriptNode&>(target);
       const Value object = evaluate(*node.object);
@@ -159,7 +178,8 @@ void Evaluator::assign(const Node& target, const Value& value) {
       raise(ErrorKind::attribute, fmt::format("'{}' object attribute '{}' is read-only", object.type_name(), node.name),
             "attributes cannot be assigned in a command file");
     }
-    default: return;
+    default:
+      return;
   }
 }
 
@@ -179,19 +199,23 @@ void Evaluator::assign_items(const SequenceNode& target, const Value& value) {
     }
   }
   std::vector<Value> items = list_of(value, meter_);
-  const auto star = std::find_if(targets.begin(), targets.end(), [](const NodePtr& item) { return item->kind == NodeKind::starred; });
+  const auto star =
+      std::find_if(targets.begin(), targets.end(), [](const NodePtr& item) { return item->kind == NodeKind::starred; });
   const auto before = static_cast<std::size_t>(star - targets.begin());
   const bool starred = star != targets.end();
   const std::size_t fixed = starred ? targets.size() - 1 : targets.size();
   if (items.size() < fixed) {
-    raise(ErrorKind::value, fmt::format("not enough values to unpack (expected {}{}, got {})", starred ? "at least " : "", fixed, items.size()));
+    raise(ErrorKind::value, fmt::format("not enough values to unpack (expected {}{}, got {})",
+                                        starred ? "at least " : "", fixed, items.size()));
   }
-  if (!starred && items.size() > fixed) raise(ErrorKind::value, fmt::format("too many values to unpack (expected {})", fixed));
+  if (!starred && items.size() > fixed)
+    raise(ErrorKind::value, fmt::format("too many values to unpack (expected {})", fixed));
   const std::size_t taken = items.size() - fixed;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (i == before && starred) {
       const auto first = items.begin() + static_cast<std::ptrdiff_t>(i);
-      assign(*static_cast<const StarredNode&>(*targets[i]).value, Value::list({first, first + static_cast<std::ptrdiff_t>(taken)}));
+      assign(*static_cast<const StarredNode&>(*targets[i]).value,
+             Value::list({first, first + static_cast<std::ptrdiff_t>(taken)}));
     } else {
       assign(*targets[i], items[i < before ? i : starred ? i + taken - 1 : i]);
     }

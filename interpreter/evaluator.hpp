@@ -1,6 +1,6 @@
 // From the tree to values and command calls. Walks the statements in order; a command call is handed to the host, which
-// checks it and adds it to the graph. A statement that fails is reported, what it would have bound becomes unknown, and the
-// walk goes on, so that all errors of a file come at once and one mistake makes one error.
+// checks it and adds it to the graph. A statement that fails is reported, what it would have bound becomes unknown, and
+// the walk goes on, so that all errors of a file come at once and one mistake makes one error.
 #pragma once
 
 #include <functional>
@@ -83,6 +83,7 @@ class Evaluator {
   // Variables (evaluator.cpp).
   Value load(const NameNode& name);
   Value load_global(const NameNode& name);
+  const Value* math_name(std::string_view name) const;
   Value unknown_name(const NameNode& name, bool called = false);
   void store(const NameNode& name, Value value);
   void assign(const Node& target, const Value& value);
@@ -139,7 +140,8 @@ class Evaluator {
   const VariableLookup* lookup_ = nullptr;
   std::shared_ptr<const SourceFile> file_;
   std::shared_ptr<Frame> frame_;
-  std::vector<std::weak_ptr<Frame>> closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
+  std::vector<std::weak_ptr<Frame>>
+      closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
   Value returned_;
   std::vector<std::shared_ptr<ExceptionObject>> handled_;  ///< for a bare `raise`
   std::set<std::string> reported_names_;

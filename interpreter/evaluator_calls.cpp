@@ -36,13 +36,13 @@ std::map<std::string, Value> keyword_map(const CallArguments& arguments) {
     if (parameter.default_index < 0) ++fewest;
   }
   const std::string range = fewest == most ? std::to_string(most) : fmt::format("from {} to {}", fewest, most);
-  raise(ErrorKind::type, fmt::format("{}() takes {} positional argument{} but {} {} given", code.name, range, most == 1 ? "" : "s", given,
-                                     given == 1 ? "was" : "were"));
+  raise(ErrorKind::type, fmt::format("{}() takes {} positional argument{} but {} {} given", code.name, range,
+                                     most == 1 ? "" : "s", given, given == 1 ? "was" : "were"));
 }
 
 [[noreturn]] void raise_missing(const FunctionCode& code, const std::vector<std::string>& names, const char* kind) {
-  raise(ErrorKind::type, fmt::format("{}() missing {} required {} argument{}: {}", code.name, names.size(), kind, names.size() == 1 ? "" : "s",
-                                     list_names(names)));
+  raise(ErrorKind::type, fmt::format("{}() missing {} required {} argument{}: {}", code.name, names.size(), kind,
+                                     names.size() == 1 ? "" : "s", list_names(names)));
 }
 
 /// A failure of one part of a call is told at once; the call goes on with the rest.
@@ -59,7 +59,7 @@ Value Evaluator::evaluate_call(const CallNode& node) {
   if (node.callee->kind == NodeKind::name) {
     const auto& name = static_cast<const NameNode&>(*node.callee);
     const bool known = !name.global || (lookup_ != nullptr && (*lookup_)(name.id)) || globals_.contains(name.id) ||
-                       builtin_value(name.id) != nullptr || host_.is_command(name.id) || math_value(name.id) != nullptr;
+                       builtin_value(name.id) != nullptr || math_name(name.id) != nullptr || host_.is_command(name.id);
     callee = known ? evaluate(name) : unknown_name(name, true);
   } else {
     callee = evaluate(*node.callee);
@@ -86,16 +86,22 @@ CallArguments Evaluator::evaluate_arguments(const CallNode& node, bool tolerant)
   for (const CallNode::Item& item : node.arguments) {
     Value value = evaluate_argument(*item.value, tolerant);
     switch (item.kind) {
-      case CallNode::Kind::positional: arguments.positional.push_back(std::move(value)); break;
+      case CallNode::Kind::positional:
+        arguments.positional.push_back(std::move(value));
+        break;
       case CallNode::Kind::keyword:
-        arguments.named.push_back({item.name, std::move(value), span_of(item.name_begin, item.name_end), span_of(*item.value)});
+        arguments.named.push_back(
+            {item.name, std::move(value), span_of(item.name_begin, item.name_end), span_of(*item.value)});
         break;
       case CallNode::Kind::spread:
-        if (value.is_unknown()) arguments.positional.push_back(value);
+        if (value.is_unknown())
+          arguments.positional.push_back(value);
         else
           for (Value& part : list_of(value, meter_)) arguments.positional.push_back(std::move(part));
         break;
-      case CallNode::Kind::spread_keywords: spread_mapping(arguments, value, span_of(*item.value)); break;
+      case CallNode::Kind::spread_keywords:
+        spread_mapping(arguments, value, span_of(*item.value));
+        break;
     }
   }
   return arguments;
@@ -103,15 +109,18 @@ CallArguments Evaluator::evaluate_arguments(const CallNode& node, bool tolerant)
 
 void Evaluator::spread_mapping(CallArguments& arguments, const Value& mapping, const Span& span) {
   const auto add = [&](const std::string& name, const Value& value, const Span& name_span, const Span& value_span) {
-    if (arguments.find(name) != nullptr) raise(ErrorKind::type, fmt::format("got multiple values for keyword argument '{}'", name));
+    if (arguments.find(name) != nullptr)
+      raise(ErrorKind::type, fmt::format("got multiple values for keyword argument '{}'", name));
     arguments.named.push_back({name, value, name_span, value_span});
   };
   if (mapping.is_unknown()) return;
   if (mapping.is_factor()) {
-    for (const Argument& item : mapping.as_factor().arguments) add(item.name, *item.value, item.name_span, item.value_span);
+    for (const Argument& item : mapping.as_factor().arguments)
+      add(item.name, *item.value, item.name_span, item.value_span);
     return;
   }
-  if (!mapping.is_dict()) raise(ErrorKind::type, fmt::format("argument after ** must be a mapping, not {}", mapping.type_name()));
+  if (!mapping.is_dict())
+    raise(ErrorKind::type, fmt::format("argument after ** must be a mapping, not {}", mapping.type_name()));
   for (const Dict::Entry& entry : mapping.as_dict().entries()) {
     if (!entry.live) continue;
     if (!entry.key.is_text()) raise(ErrorKind::type, "keywords must be strings");
@@ -135,12 +144,15 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   }
   if (const auto* unbound = callee.as_object<UnboundMethod>()) {
     if (arguments.any_unknown()) return Value::unknown();
-    if (arguments.positional.empty()) raise(ErrorKind::type, fmt::format("unbound method {}() needs an argument", unbound->name));
+    if (arguments.positional.empty())
+      raise(ErrorKind::type, fmt::format("unbound method {}() needs an argument", unbound->name));
     CallArguments rest = arguments;
     rest.positional.erase(rest.positional.begin());
     // Looked up again: the object decides which type's method it is.
     const Method method = find_method(arguments[0], unbound->name);
-    if (method != unbound->method) raise(ErrorKind::type, fmt::format("{}() does not apply to a '{}' object", unbound->name, arguments[0].type_name()));
+    if (method != unbound->method)
+      raise(ErrorKind::type,
+            fmt::format("{}() does not apply to a '{}' object", unbound->name, arguments[0].type_name()));
     return method(*this, arguments[0], rest);
   }
   if (const auto* type = callee.as_object<TypeObject>()) {
@@ -215,7 +227,8 @@ Value Evaluator::make_function(const std::shared_ptr<const FunctionCode>& code, 
 void Evaluator::remember_frame(const std::shared_ptr<Frame>& frame) {
   if (!closures_.empty() && closures_.back().lock() == frame) return;
   // Forget the dead ones whenever the list has doubled.
-  if (closures_.size() == closures_.capacity()) std::erase_if(closures_, [](const auto& weak) { return weak.expired(); });
+  if (closures_.size() == closures_.capacity())
+    std::erase_if(closures_, [](const auto& weak) { return weak.expired(); });
   closures_.push_back(frame);
 }
 
@@ -230,11 +243,14 @@ void Evaluator::bind_arguments(const FunctionObject& function, const CallArgumen
     if (parameters[i].kind == Parameter::Kind::keywords) keywords = i;
   }
   if (given < arguments.size() && !rest) raise_too_many(code, arguments.size());
-  if (rest) frame.slots[*rest] = Value::tuple({arguments.positional.begin() + static_cast<std::ptrdiff_t>(given), arguments.positional.end()});
+  if (rest)
+    frame.slots[*rest] =
+        Value::tuple({arguments.positional.begin() + static_cast<std::ptrdiff_t>(given), arguments.positional.end()});
   auto more = std::make_shared<Dict>();
   for (const auto& item : arguments.named) {
     const auto match = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
-      return p.name == item.name && !p.positional_only && (p.kind == Parameter::Kind::normal || p.kind == Parameter::Kind::keyword_only);
+      return p.name == item.name && !p.positional_only &&
+             (p.kind == Parameter::Kind::normal || p.kind == Parameter::Kind::keyword_only);
     });
     if (match == parameters.end()) {
       if (keywords) {
@@ -255,8 +271,10 @@ void Evaluator::bind_arguments(const FunctionObject& function, const CallArgumen
   std::vector<std::string> missing, missing_keywords;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (frame.slots[i]) continue;
-    if (parameters[i].default_index >= 0) frame.slots[i] = function.defaults[static_cast<std::size_t>(parameters[i].default_index)];
-    else (parameters[i].kind == Parameter::Kind::normal ? missing : missing_keywords).push_back(parameters[i].name);
+    if (parameters[i].default_index >= 0)
+      frame.slots[i] = function.defaults[static_cast<std::size_t>(parameters[i].default_index)];
+    else
+      (parameters[i].kind == Parameter::Kind::normal ? missing : missing_keywords).push_back(parameters[i].name);
   }
   if (!missing.empty()) raise_missing(code, missing, "positional");
   if (!missing_keywords.empty()) raise_missing(code, missing_keywords, "keyword-only");
@@ -273,7 +291,9 @@ Value Evaluator::call_function(const FunctionObject& function, const CallArgumen
   frame->slots.resize(function.code->slots.size());
   bind_arguments(function, arguments, *frame);
   struct Scope {
-    explicit Scope(Evaluator& owner) : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_) { ++self.calls_; }
+    explicit Scope(Evaluator& owner) : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_) {
+      ++self.calls_;
+    }
     ~Scope() {
       --self.calls_;
       self.frame_ = std::move(frame);

@@ -27,13 +27,18 @@ Value Evaluator::evaluate(const Node& node) {
 Value Evaluator::evaluate_node(const Node& node) {
   check_stack();
   switch (node.kind) {
-    case NodeKind::constant: return static_cast<const ConstantNode&>(node).value;
-    case NodeKind::name: return load(static_cast<const NameNode&>(node));
-    case NodeKind::formatted: return evaluate_formatted(static_cast<const FormattedNode&>(node));
+    case NodeKind::constant:
+      return static_cast<const ConstantNode&>(node).value;
+    case NodeKind::name:
+      return load(static_cast<const NameNode&>(node));
+    case NodeKind::formatted:
+      return evaluate_formatted(static_cast<const FormattedNode&>(node));
     case NodeKind::tuple:
     case NodeKind::list:
-    case NodeKind::set: return evaluate_sequence(static_cast<const SequenceNode&>(node));
-    case NodeKind::dict: return evaluate_dict(static_cast<const DictNode&>(node));
+    case NodeKind::set:
+      return evaluate_sequence(static_cast<const SequenceNode&>(node));
+    case NodeKind::dict:
+      return evaluate_dict(static_cast<const DictNode&>(node));
     case NodeKind::unary: {
       const auto& unary = static_cast<const UnaryNode&>(node);
       return unary_operation(unary.op, evaluate(*unary.operand));
@@ -43,20 +48,30 @@ Value Evaluator::evaluate_node(const Node& node) {
       const Value left = evaluate(*binary.left);
       return binary_operation(binary.op, left, evaluate(*binary.right), meter_);
     }
-    case NodeKind::logical: return evaluate_logical(static_cast<const LogicalNode&>(node));
-    case NodeKind::compare: return evaluate_compare(static_cast<const CompareNode&>(node));
-    case NodeKind::conditional: return evaluate_conditional(static_cast<const ConditionalNode&>(node));
-    case NodeKind::lambda: return evaluate_lambda(static_cast<const LambdaNode&>(node));
-    case NodeKind::comprehension: return evaluate_comprehension(static_cast<const ComprehensionNode&>(node));
-    case NodeKind::call: return evaluate_call(static_cast<const CallNode&>(node));
+    case NodeKind::logical:
+      return evaluate_logical(static_cast<const LogicalNode&>(node));
+    case NodeKind::compare:
+      return evaluate_compare(static_cast<const CompareNode&>(node));
+    case NodeKind::conditional:
+      return evaluate_conditional(static_cast<const ConditionalNode&>(node));
+    case NodeKind::lambda:
+      return evaluate_lambda(static_cast<const LambdaNode&>(node));
+    case NodeKind::comprehension:
+      return evaluate_comprehension(static_cast<const ComprehensionNode&>(node));
+    case NodeKind::call:
+      return evaluate_call(static_cast<const CallNode&>(node));
     case NodeKind::attribute: {
       const auto& access = static_cast<const AttributeNode&>(node);
       return attribute(evaluate(*access.object), access.name);
     }
-    case NodeKind::subscript: return evaluate_subscript(static_cast<const SubscriptNode&>(node));
-    case NodeKind::slice: return evaluate_slice(static_cast<const SliceNode&>(node));
-    case NodeKind::starred: raise(ErrorKind::syntax, "can't use starred expression here");
-    case NodeKind::broken: return Value::unknown();
+    case NodeKind::subscript:
+      return evaluate_subscript(static_cast<const SubscriptNode&>(node));
+    case NodeKind::slice:
+      return evaluate_slice(static_cast<const SliceNode&>(node));
+    case NodeKind::starred:
+      raise(ErrorKind::syntax, "can't use starred expression here");
+    case NodeKind::broken:
+      return Value::unknown();
   }
   return Value::unknown();
 }
@@ -145,7 +160,9 @@ Value Evaluator::evaluate_conditional(const ConditionalNode& node) {
   return evaluate(truth(condition) ? *node.then : *node.otherwise);
 }
 
-Value Evaluator::evaluate_lambda(const LambdaNode& node) { return make_function(node.code, node.defaults); }
+Value Evaluator::evaluate_lambda(const LambdaNode& node) {
+  return make_function(node.code, node.defaults);
+}
 
 Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   const Value object = evaluate(*node.object);
@@ -159,7 +176,9 @@ Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   });
 }
 
-Value Evaluator::evaluate_or_none(const NodePtr& node) { return node ? evaluate(*node) : Value(); }
+Value Evaluator::evaluate_or_none(const NodePtr& node) {
+  return node ? evaluate(*node) : Value();
+}
 
 Value Evaluator::evaluate_slice(const SliceNode& node) {
   auto slice = std::make_shared<SliceObject>();

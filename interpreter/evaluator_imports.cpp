@@ -16,19 +16,24 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return near.empty() ? "" : fmt::format("did you mean {}?", near);
 }
 
-Value module_value(const std::shared_ptr<ModuleObject>& module) { return Value(std::shared_ptr<Object>(module)); }
+Value module_value(const std::shared_ptr<ModuleObject>& module) {
+  return Value(std::shared_ptr<Object>(module));
+}
 
 std::optional<Value> exception_attribute(const ExceptionObject& error, std::string_view name) {
   if (name == "args") return Value::tuple(error.arguments);
   if (name == "id_message" && error.failure) return Value(std::string(message_id_of(error.failure->code)));
   if (name == "message" || name == "msg") return Value(error.text());
-  if (name == "code" && error.kind == ErrorKind::system_exit) return error.arguments.empty() ? Value() : error.arguments[0];
+  if (name == "code" && error.kind == ErrorKind::system_exit)
+    return error.arguments.empty() ? Value() : error.arguments[0];
   return std::nullopt;
 }
 
 std::optional<Value> number_attribute(const Value& value, std::string_view name) {
-  if (name == "real") return value.is_complex() ? Value(value.as_complex().real()) : unary_operation(Operator::plus, value);
-  if (name == "imag") return value.is_complex() ? Value(value.as_complex().imag()) : value.is_real() ? Value(0.0) : Value(0);
+  if (name == "real")
+    return value.is_complex() ? Value(value.as_complex().real()) : unary_operation(Operator::plus, value);
+  if (name == "imag")
+    return value.is_complex() ? Value(value.as_complex().imag()) : value.is_real() ? Value(0.0) : Value(0);
   if (name == "numerator" && integer_of(value)) return unary_operation(Operator::plus, value);
   if (name == "denominator" && integer_of(value)) return Value(1);
   return std::nullopt;
@@ -49,7 +54,8 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
   if (const auto* array = value.as_object<ArrayObject>()) return array_attribute(*array, name);
   if (name == "__name__") {
     if (const auto* type = value.as_object<TypeObject>()) return Value(type->name);
-    if (const auto* type = value.as_object<ExceptionClassObject>()) return Value(std::string(class_of(type->kind).name));
+    if (const auto* type = value.as_object<ExceptionClassObject>())
+      return Value(std::string(class_of(type->kind).name));
     if (const auto* function = value.as_object<FunctionObject>()) return Value(function->code->name);
     if (const auto* function = value.as_object<BuiltinObject>()) return Value(function->name);
   }
@@ -78,7 +84,8 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
   if (const auto* module = object.as_object<ModuleObject>()) {
     if (const auto member = module->members.find(name); member != module->members.end()) return member->second;
     if (auto inner = find_module(module->name + "." + name)) return module_value(inner);
-    if (module->brings_commands && host_.is_command(name)) return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name)));
+    if (module->brings_commands && host_.is_command(name))
+      return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name)));
     std::vector<std::string> names;
     for (const auto& [member, value] : module->members) names.push_back(member);
     std::string hint = did_you_mean(name, names);
@@ -136,7 +143,8 @@ void Evaluator::execute_import_from(const ImportStatement& statement) {
     try {
       store(static_cast<const NameNode&>(*item.name), attribute(value, item.path));
     } catch (const RaisedError& error) {
-      auto refused = make_exception(ErrorKind::import, fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
+      auto refused = make_exception(ErrorKind::import,
+                                    fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
                                     error.object()->hint);
       refused->span = span_of(item.begin, item.end);
       throw RaisedError(std::move(refused));

@@ -46,20 +46,43 @@ Evaluator::Flow Evaluator::execute(const Statement& statement) {
   try {
     meter_.step();
     switch (statement.kind) {
-      case StatementKind::expression: evaluate(*static_cast<const ValueStatement&>(statement).value); return Flow::next;
-      case StatementKind::assign: execute_assign(static_cast<const AssignStatement&>(statement)); return Flow::next;
-      case StatementKind::augmented: execute_augmented(static_cast<const AugmentedStatement&>(statement)); return Flow::next;
-      case StatementKind::function: execute_function(static_cast<const FunctionStatement&>(statement)); return Flow::next;
-      case StatementKind::return_: execute_return(static_cast<const ValueStatement&>(statement)); return Flow::return_;
-      case StatementKind::pass: return Flow::next;
-      case StatementKind::break_: return Flow::break_;
-      case StatementKind::continue_: return Flow::continue_;
-      case StatementKind::del: execute_delete(*static_cast<const ValueStatement&>(statement).value); return Flow::next;
-      case StatementKind::assert_: execute_assert(static_cast<const AssertStatement&>(statement)); return Flow::next;
-      case StatementKind::raise: execute_raise(static_cast<const RaiseStatement&>(statement));
-      case StatementKind::import: execute_import(static_cast<const ImportStatement&>(statement)); return Flow::next;
-      case StatementKind::import_from: execute_import_from(static_cast<const ImportStatement&>(statement)); return Flow::next;
-      default: return execute_compound(statement);
+      case StatementKind::expression:
+        evaluate(*static_cast<const ValueStatement&>(statement).value);
+        return Flow::next;
+      case StatementKind::assign:
+        execute_assign(static_cast<const AssignStatement&>(statement));
+        return Flow::next;
+      case StatementKind::augmented:
+        execute_augmented(static_cast<const AugmentedStatement&>(statement));
+        return Flow::next;
+      case StatementKind::function:
+        execute_function(static_cast<const FunctionStatement&>(statement));
+        return Flow::next;
+      case StatementKind::return_:
+        execute_return(static_cast<const ValueStatement&>(statement));
+        return Flow::return_;
+      case StatementKind::pass:
+        return Flow::next;
+      case StatementKind::break_:
+        return Flow::break_;
+      case StatementKind::continue_:
+        return Flow::continue_;
+      case StatementKind::del:
+        execute_delete(*static_cast<const ValueStatement&>(statement).value);
+        return Flow::next;
+      case StatementKind::assert_:
+        execute_assert(static_cast<const AssertStatement&>(statement));
+        return Flow::next;
+      case StatementKind::raise:
+        execute_raise(static_cast<const RaiseStatement&>(statement));
+      case StatementKind::import:
+        execute_import(static_cast<const ImportStatement&>(statement));
+        return Flow::next;
+      case StatementKind::import_from:
+        execute_import_from(static_cast<const ImportStatement&>(statement));
+        return Flow::next;
+      default:
+        return execute_compound(statement);
     }
   } catch (const RaisedError& error) {
     if (!error.object()->span) error.object()->span = span_of(statement.begin, statement.end);
@@ -75,17 +98,22 @@ Evaluator::Flow Evaluator::execute(const Statement& statement) {
 Evaluator::Flow Evaluator::execute_compound(const Statement& statement) {
   check_stack();
   switch (statement.kind) {
-    case StatementKind::if_: return execute_if(static_cast<const IfStatement&>(statement));
-    case StatementKind::while_: return execute_while(static_cast<const WhileStatement&>(statement));
-    case StatementKind::for_: return execute_for(static_cast<const ForStatement&>(statement));
-    default: return execute_try(static_cast<const TryStatement&>(statement));
+    case StatementKind::if_:
+      return execute_if(static_cast<const IfStatement&>(statement));
+    case StatementKind::while_:
+      return execute_while(static_cast<const WhileStatement&>(statement));
+    case StatementKind::for_:
+      return execute_for(static_cast<const ForStatement&>(statement));
+    default:
+      return execute_try(static_cast<const TryStatement&>(statement));
   }
 }
 
 /// What a statement would have bound is unknown from here on.
 void Evaluator::forget_bound(const Statement& statement) {
   for (const NameNode* name : bound_names(statement)) {
-    if (!name->global || globals_.contains(name->id) || builtin_value(name->id) == nullptr) store(*name, Value::unknown());
+    if (!name->global || globals_.contains(name->id) || builtin_value(name->id) == nullptr)
+      store(*name, Value::unknown());
   }
 }
 
@@ -117,7 +145,8 @@ void Evaluator::execute_augmented(const AugmentedStatement& statement) {
     const Value object = evaluate(*place.object);
     const Value index = evaluate(*place.index);
     const Value before = subscript(object, index, meter_);
-    return store_subscript(object, index, augmented_operation(statement.op, before, evaluate(*statement.value), meter_), meter_);
+    return store_subscript(object, index, augmented_operation(statement.op, before, evaluate(*statement.value), meter_),
+                           meter_);
   }
   assign(*statement.target, evaluate(*statement.value));
 }
@@ -224,10 +253,12 @@ bool Evaluator::handles(const TryStatement::Handler& handler, const ExceptionObj
   if (!handler.type) return true;
   const Value type = evaluate(*handler.type);
   if (type.is_unknown()) return true;
-  const std::vector<Value> types = type.is_tuple() ? std::vector<Value>(type.items().begin(), type.items().end()) : std::vector<Value>{type};
+  const std::vector<Value> types =
+      type.is_tuple() ? std::vector<Value>(type.items().begin(), type.items().end()) : std::vector<Value>{type};
   for (const Value& candidate : types) {
     const auto* wanted = candidate.as_object<ExceptionClassObject>();
-    if (wanted == nullptr) raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
+    if (wanted == nullptr)
+      raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
     if (is_subclass(error.kind, wanted->kind)) return true;
   }
   return false;
@@ -240,8 +271,10 @@ Evaluator::Flow Evaluator::execute_handler(const TryStatement::Handler& handler,
     ~Restore() {
       self.handled_.pop_back();
       if (name == nullptr) return;
-      if (name->global) self.globals_.erase(name->id);
-      else self.frame_of(*name).slots[static_cast<std::size_t>(name->slot)].reset();
+      if (name->global)
+        self.globals_.erase(name->id);
+      else
+        self.frame_of(*name).slots[static_cast<std::size_t>(name->slot)].reset();
     }
   };
   const auto* name = static_cast<const NameNode*>(handler.name.get());
@@ -260,7 +293,8 @@ void Evaluator::execute_raise(const RaiseStatement& statement) {
   if (statement.cause) evaluate(*statement.cause);
   if (error.is_unknown()) throw RaisedError(make_exception(ErrorKind::exception, "unknown"));
   if (error.as_object<ExceptionClassObject>() != nullptr) error = call(error, CallArguments());
-  if (error.as_object<ExceptionObject>() == nullptr) raise(ErrorKind::type, "exceptions must derive from BaseException");
+  if (error.as_object<ExceptionObject>() == nullptr)
+    raise(ErrorKind::type, "exceptions must derive from BaseException");
   auto object = std::dynamic_pointer_cast<ExceptionObject>(std::get<std::shared_ptr<Object>>(error.storage()));
   object->span = span_of(statement.begin, statement.end);
   throw RaisedError(std::move(object));

@@ -41,7 +41,8 @@ Expression::Expression(std::string text, std::string origin) : text_(std::move(t
     first.code = "syntax";
     throw DiagnosticError(std::move(first));
   }
-  if (!tree->root) throw DiagnosticError("syntax", "this is no expression", {tree->file, 0, static_cast<std::uint32_t>(text_.size())});
+  if (!tree->root)
+    throw DiagnosticError("syntax", "this is no expression", {tree->file, 0, static_cast<std::uint32_t>(text_.size())});
   for (const std::string& name : names) {
     const bool known = builtin_value(name) != nullptr || math_value(name) != nullptr;
     if (!known && std::find(variables_.begin(), variables_.end(), name) == variables_.end()) variables_.push_back(name);

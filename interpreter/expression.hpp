@@ -26,8 +26,8 @@ class Expression {
   /// `origin` names the text in messages. Throws DiagnosticError (code "syntax") when it is no expression.
   explicit Expression(std::string text, std::string origin = "<expression>");
 
-  /// The value with the variables given by `lookup`; names it does not know are looked for among the builtins and `math`.
-  /// Throws DiagnosticError ("unknown-name", "type-error", "zero-division" ...) with a span in the text.
+  /// The value with the variables given by `lookup`; names it does not know are looked for among the builtins and
+  /// `math`. Throws DiagnosticError ("unknown-name", "type-error", "zero-division" ...) with a span in the text.
   Value evaluate(const VariableLookup& lookup) const;
 
   /// Python's truth of the value.

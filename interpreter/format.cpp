@@ -32,7 +32,9 @@ struct Spec {
   char type = 0;
 };
 
-bool is_align(char c) { return c == '<' || c == '>' || c == '^' || c == '='; }
+bool is_align(char c) {
+  return c == '<' || c == '>' || c == '^' || c == '=';
+}
 
 int read_number(std::string_view spec, std::size_t& at) {
   int number = -1;
@@ -72,7 +74,8 @@ Spec parse_spec(std::string_view text, const Value& value) {
   }
   if (at < text.size()) spec.type = text[at++];
   if (at < text.size()) {
-    raise(ErrorKind::value, fmt::format("Invalid format specifier '{}' for object of type '{}'", text, value.type_name()),
+    raise(ErrorKind::value,
+          fmt::format("Invalid format specifier '{}' for object of type '{}'", text, value.type_name()),
           "a spec is [[fill]align][sign][width][.precision][type], as in >10.3f");
   }
   return spec;
@@ -106,8 +109,8 @@ std::string group_digits(const std::string& digits, char separator, std::size_t 
 }
 
 /// Sign, prefix, whole digits and the rest put together; '=' fills between sign and digits.
-std::string assemble(bool negative, const std::string& prefix, std::string whole, const std::string& rest, const Spec& spec,
-                     std::size_t group = 3) {
+std::string assemble(bool negative, const std::string& prefix, std::string whole, const std::string& rest,
+                     const Spec& spec, std::size_t group = 3) {
   std::string sign = negative ? "-" : spec.sign == '-' ? "" : std::string(1, spec.sign);
   sign += prefix;
   const bool fill_inside = spec.align == '=';
@@ -115,7 +118,8 @@ std::string assemble(bool negative, const std::string& prefix, std::string whole
     // Zeros that fill a grouped number are grouped too: format(1234, '09,') is '0,001,234'.
     if (fill_inside && spec.fill == "0") {
       const auto fixed = static_cast<int>(sign.size() + rest.size());
-      while (static_cast<int>(group_digits("0" + whole, spec.grouping, group).size()) + fixed <= spec.width) whole.insert(0, "0");
+      while (static_cast<int>(group_digits("0" + whole, spec.grouping, group).size()) + fixed <= spec.width)
+        whole.insert(0, "0");
       if (static_cast<int>(group_digits(whole, spec.grouping, group).size()) + fixed < spec.width) whole.insert(0, "0");
     }
     whole = group_digits(whole, spec.grouping, group);
@@ -134,12 +138,19 @@ std::string real_digits(double value, char type, int precision, bool alternate) 
   if (std::isinf(value)) return type >= 'a' ? "inf" : "INF";
   precision = std::min(precision, most_digits);
   switch (type) {
-    case 'e': return alternate ? fmt::format("{:#.{}e}", value, precision) : fmt::format("{:.{}e}", value, precision);
-    case 'E': return alternate ? fmt::format("{:#.{}E}", value, precision) : fmt::format("{:.{}E}", value, precision);
+    case 'e':
+      return alternate ? fmt::format("{:#.{}e}", value, precision) : fmt::format("{:.{}e}", value, precision);
+    case 'E':
+      return alternate ? fmt::format("{:#.{}E}", value, precision) : fmt::format("{:.{}E}", value, precision);
     case 'f':
-    case 'F': return alternate ? fmt::format("{:#.{}f}", value, precision) : fmt::format("{:.{}f}", value, precision);
-    case 'G': return alternate ? fmt::format("{:#.{}G}", value, std::max(precision, 1)) : fmt::format("{:.{}G}", value, std::max(precision, 1));
-    default: return alternate ? fmt::format("{:#.{}g}", value, std::max(precision, 1)) : fmt::format("{:.{}g}", value, std::max(precision, 1));
+    case 'F':
+      return alternate ? fmt::format("{:#.{}f}", value, precision) : fmt::format("{:.{}f}", value, precision);
+    case 'G':
+      return alternate ? fmt::format("{:#.{}G}", value, std::max(precision, 1))
+                       : fmt::format("{:.{}G}", value, std::max(precision, 1));
+    default:
+      return alternate ? fmt::format("{:#.{}g}", value, std::max(precision, 1))
+                       : fmt::format("{:.{}g}", value, std::max(precision, 1));
   }
 }
 
@@ -175,11 +186,13 @@ std::string format_real(double value, Spec spec, const Value& shown) {
   } else if (spec.type == '%') {
     digits = real_digits(size * 100.0, 'f', spec.precision < 0 ? 6 : spec.precision, spec.alternate) + "%";
   } else if (std::string_view("eEfFgGn").find(spec.type) != std::string_view::npos) {
-    digits = real_digits(size, spec.type == 'n' ? 'g' : spec.type, spec.precision < 0 ? 6 : spec.precision, spec.alternate);
+    digits =
+        real_digits(size, spec.type == 'n' ? 'g' : spec.type, spec.precision < 0 ? 6 : spec.precision, spec.alternate);
   } else {
     raise_unknown_type(spec, shown);
   }
-  const std::size_t end = std::isfinite(value) ? std::min(digits.find_first_not_of("0123456789"), digits.size()) : digits.size();
+  const std::size_t end =
+      std::isfinite(value) ? std::min(digits.find_first_not_of("0123456789"), digits.size()) : digits.size();
   if (!std::isfinite(value)) spec.grouping = 0;
   return assemble(negative, "", digits.substr(0, end), digits.substr(end), spec);
 }
@@ -188,7 +201,8 @@ std::string format_integer(const Value& value, Spec spec) {
   if (spec.type != 0 && std::string_view("eEfFgG%").find(spec.type) != std::string_view::npos) {
     return format_real(real_of(value), spec, value);
   }
-  if (spec.precision >= 0) raise(ErrorKind::value, "Precision not allowed in integer format specifier", "use f, e or g");
+  if (spec.precision >= 0)
+    raise(ErrorKind::value, "Precision not allowed in integer format specifier", "use f, e or g");
   const BigInteger number = *integer_of(value);
   if (spec.type == 'c') {
     std::string character;
@@ -197,13 +211,19 @@ std::string format_integer(const Value& value, Spec spec) {
   }
   int base = 10;
   std::string prefix;
-  if (spec.type == 'x' || spec.type == 'X') base = 16;
-  else if (spec.type == 'o') base = 8;
-  else if (spec.type == 'b') base = 2;
-  else if (spec.type != 0 && spec.type != 'd' && spec.type != 'n') raise_unknown_type(spec, value);
+  if (spec.type == 'x' || spec.type == 'X')
+    base = 16;
+  else if (spec.type == 'o')
+    base = 8;
+  else if (spec.type == 'b')
+    base = 2;
+  else if (spec.type != 0 && spec.type != 'd' && spec.type != 'n')
+    raise_unknown_type(spec, value);
   if (spec.alternate && base != 10) prefix = std::string("0") + spec.type;
-  std::string digits = number.magnitude().to_string(base);
-  if (spec.type == 'X') std::transform(digits.begin(), digits.end(), digits.begin(), [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
+  std::string digits = base == 10 ? decimal_digits(number.magnitude()) : number.magnitude().to_string(base);
+  if (spec.type == 'X')
+    std::transform(digits.begin(), digits.end(), digits.begin(),
+                   [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
   return assemble(number.is_negative(), prefix, digits, "", spec, base == 10 ? 3 : 4);
 }
 
@@ -246,8 +266,10 @@ std::string format_value(const Value& value, std::string_view text, Meter& meter
   if (integer_of(value)) return format_integer(value, spec);
   if (value.is_real()) return format_real(value.as_real(), spec, value);
   if (value.is_complex()) return format_complex(value.as_complex(), spec, value);
-  if (value.is_concept() || value.as_object<ExceptionObject>() != nullptr) return format_text(text_of(value), spec, value);
-  raise(ErrorKind::type, "unsupported format string passed to " + value.type_name() + ".__format__", "convert it with str(...) first");
+  if (value.is_concept() || value.as_object<ExceptionObject>() != nullptr)
+    return format_text(text_of(value), spec, value);
+  raise(ErrorKind::type, "unsupported format string passed to " + value.type_name() + ".__format__",
+        "convert it with str(...) first");
 }
 
 Value convert_value(const Value& value, char conversion) {
@@ -256,10 +278,14 @@ Value convert_value(const Value& value, char conversion) {
   if (conversion == 'r') return repr_of(value);
   std::string out;
   for (char32_t c : decode_utf8(repr_of(value))) {
-    if (c < 0x80) out += static_cast<char>(c);
-    else if (c < 0x100) out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
-    else if (c < 0x10000) out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else out += fmt::format("\\U{:08x}", static_cast<unsigned>(c));
+    if (c < 0x80)
+      out += static_cast<char>(c);
+    else if (c < 0x100)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    else if (c < 0x10000)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += fmt::format("\\U{:08x}", static_cast<unsigned>(c));
   }
   return out;
 }

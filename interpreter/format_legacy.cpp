@@ -36,9 +36,11 @@ class PercentFormatter {
       }
       out += conversion();
     }
-    const bool leftover = arguments_.is_tuple() ? drawn_ < arguments_.items().size()
-                                                : drawn_ == 0 && !by_name_ && !arguments_.is_dict() && !arguments_.is_list();
-    if (leftover) raise(ErrorKind::type, "not all arguments converted during string formatting", "count the % in the text");
+    const bool leftover = arguments_.is_tuple()
+                              ? drawn_ < arguments_.items().size()
+                              : drawn_ == 0 && !by_name_ && !arguments_.is_dict() && !arguments_.is_list();
+    if (leftover)
+      raise(ErrorKind::type, "not all arguments converted during string formatting", "count the % in the text");
     return out;
   }
 
@@ -60,7 +62,8 @@ class PercentFormatter {
       return static_cast<int>(std::clamp<std::int64_t>(index_of(width), -widest_field, widest_field));
     }
     int number = 0;
-    while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9') number = std::min(number * 10 + (text_[at_++] - '0'), widest_field);
+    while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9')
+      number = std::min(number * 10 + (text_[at_++] - '0'), widest_field);
     return number;
   }
 
@@ -78,7 +81,8 @@ class PercentFormatter {
     std::optional<Value> value;
     if (at_ < text_.size() && text_[at_] == '(') value = named_value();
     std::string flags;
-    while (at_ < text_.size() && std::string_view("-+ #0").find(text_[at_]) != std::string_view::npos) flags += text_[at_++];
+    while (at_ < text_.size() && std::string_view("-+ #0").find(text_[at_]) != std::string_view::npos)
+      flags += text_[at_++];
     int width = number_or_star();
     if (width < 0) {
       flags += '-';
@@ -93,7 +97,9 @@ class PercentFormatter {
     if (at_ >= text_.size()) raise(ErrorKind::value, "incomplete format");
     const char type = text_[at_++];
     if (std::string_view("diouxXeEfFgGcrsa").find(type) == std::string_view::npos) {
-      raise(ErrorKind::value, fmt::format("unsupported format character '{}' (0x{:x}) at index {}", type, static_cast<unsigned char>(type), at_ - 1),
+      raise(ErrorKind::value,
+            fmt::format("unsupported format character '{}' (0x{:x}) at index {}", type,
+                        static_cast<unsigned char>(type), at_ - 1),
             "write %% for the character itself");
     }
     if (!value) value = draw();
@@ -124,7 +130,8 @@ class PercentFormatter {
   }
 
   std::string real(const Value& value, char type, const std::string& flags, int precision) {
-    if (!is_numeric(value) || value.is_complex()) raise(ErrorKind::type, "must be real number, not " + value.type_name());
+    if (!is_numeric(value) || value.is_complex())
+      raise(ErrorKind::type, "must be real number, not " + value.type_name());
     std::string spec = sign_spec(flags) + (flags.find('#') != std::string::npos ? "#" : "");
     spec += fmt::format(".{}{}", precision < 0 ? 6 : precision, type);
     return format_value(Value(real_of(value)), spec, meter_);
@@ -138,13 +145,17 @@ class PercentFormatter {
       if (std::isinf(value.as_real())) raise(ErrorKind::overflow, "cannot convert float infinity to integer");
       number = Value::integer(BigInteger::from_double(value.as_real()));
     } else if (!integer_of(value)) {
-      raise(ErrorKind::type, fmt::format("%{} format: {} is required, not {}", type, decimal ? "a real number" : "an integer", value.type_name()));
+      raise(ErrorKind::type, fmt::format("%{} format: {} is required, not {}", type,
+                                         decimal ? "a real number" : "an integer", value.type_name()));
     }
     const BigInteger big = *integer_of(number);
     const int base = decimal ? 10 : type == 'o' ? 8 : 16;
-    std::string digits = big.magnitude().to_string(base);
-    if (precision > static_cast<int>(digits.size())) digits.insert(0, static_cast<std::size_t>(precision) - digits.size(), '0');
-    if (type == 'X') std::transform(digits.begin(), digits.end(), digits.begin(), [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
+    std::string digits = base == 10 ? decimal_digits(big.magnitude()) : big.magnitude().to_string(base);
+    if (precision > static_cast<int>(digits.size()))
+      digits.insert(0, static_cast<std::size_t>(precision) - digits.size(), '0');
+    if (type == 'X')
+      std::transform(digits.begin(), digits.end(), digits.begin(),
+                     [](char c) { return c >= 'a' ? static_cast<char>(c - 32) : c; });
     const std::string prefix = flags.find('#') != std::string::npos && !decimal ? std::string("0") + type : "";
     return (big.is_negative() ? "-" : sign_spec(flags)) + prefix + digits;
   }
@@ -198,7 +209,8 @@ Field split_field(std::string_view inside) {
   return field;
 }
 
-std::string format_level(std::string_view text, const std::function<Value(std::string_view)>& value_of, Meter& meter, int level) {
+std::string format_level(std::string_view text, const std::function<Value(std::string_view)>& value_of, Meter& meter,
+                         int level) {
   if (level > 1) raise(ErrorKind::value, "Max string recursion exceeded");
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -216,7 +228,10 @@ std::string format_level(std::string_view text, const std::function<Value(std::s
         if (text[close] == '{') ++depth;
         if (text[close] == '}') --depth;
       }
-      if (close >= text.size()) raise(ErrorKind::value, i + 1 < text.size() ? "expected '}' before end of string" : "Single '{' encountered in format string", "write {{ for the character itself");
+      if (close >= text.size())
+        raise(ErrorKind::value,
+              i + 1 < text.size() ? "expected '}' before end of string" : "Single '{' encountered in format string",
+              "write {{ for the character itself");
       const Field field = split_field(text.substr(i + 1, close - i - 1));
       Value value = value_of(field.name);
       if (field.conversion != 0) value = convert_value(value, field.conversion);

@@ -15,53 +15,85 @@ namespace comma::interpreter {
 namespace {
 
 constexpr std::array keywords = {
-    "False",  "None",  "True",    "and",    "as",   "assert", "async",  "await",    "break", "class",  "continue", "def",
-    "del",    "elif",  "else",    "except", "for",  "finally", "from",  "global",   "if",    "import", "in",       "is",
-    "lambda", "nonlocal", "not",  "or",     "pass", "raise",  "return", "try",      "while", "with",   "yield"};
+    "False",  "None",     "True", "and",    "as",   "assert",  "async",  "await",  "break", "class",  "continue", "def",
+    "del",    "elif",     "else", "except", "for",  "finally", "from",   "global", "if",    "import", "in",       "is",
+    "lambda", "nonlocal", "not",  "or",     "pass", "raise",   "return", "try",    "while", "with",   "yield"};
 
 // Longest first, so that the first match is the right one.
-constexpr std::array symbols = {"**=", "//=", ">>=", "<<=", "...", "!=", "<>", "**", "//", ">>", "<<", "<=", ">=", "==",
-                                "->",  "+=",  "-=",  "*=",  "/=",  "%=", "&=", "|=", "^=", "@=", ":=", "+",  "-",  "*",
-                                "/",   "%",   "&",   "|",   "^",   "~",  "<",  ">",  "(",  ")",  "[",  "]",  "{",  "}",
-                                ",",   ":",   ".",   ";",   "@",   "="};
+constexpr std::array symbols = {
+    "**=", "//=", ">>=", "<<=", "...", "!=", "<>", "**", "//", ">>", "<<", "<=", ">=", "==", "->", "+=",
+    "-=",  "*=",  "/=",  "%=",  "&=",  "|=", "^=", "@=", ":=", "+",  "-",  "*",  "/",  "%",  "&",  "|",
+    "^",   "~",   "<",   ">",   "(",   ")",  "[",  "]",  "{",  "}",  ",",  ":",  ".",  ";",  "@",  "="};
 
 constexpr int tab_width = 8;
 /// A number with more digits than this is a mistake; reading it would take quadratic time.
 constexpr std::size_t longest_number = 5000;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 
 /// Letters beyond ASCII may stand in names; punctuation, blanks and symbols may not.
-bool is_letter(char32_t c) { return c >= 0xC0 && !(c >= 0x2000 && c < 0x2C00) && c != 0x3000 && c != 0xFEFF && c != 0xD7 && c != 0xF7; }
+bool is_letter(char32_t c) {
+  return c >= 0xC0 && !(c >= 0x2000 && c < 0x2C00) && c != 0x3000 && c != 0xFEFF && c != 0xD7 && c != 0xF7;
+}
 
 bool is_text_prefix(std::string_view word) {
   if (word.size() > 2) return false;
   std::string low;
   for (char c : word) low += static_cast<char>(c | 0x20);
-  return low == "r" || low == "u" || low == "b" || low == "f" || low == "br" || low == "rb" || low == "fr" || low == "rf";
+  return low == "r" || low == "u" || low == "b" || low == "f" || low == "br" || low == "rb" || low == "fr" ||
+         low == "rf";
 }
 
 std::string hint_for(char32_t c) {
   switch (c) {
-    case 0x2018: case 0x2019: case 0x201C: case 0x201D: case 0xAB: case 0xBB:
+    case 0x2018:
+    case 0x2019:
+    case 0x201C:
+    case 0x201D:
+    case 0xAB:
+    case 0xBB:
       return "strings stand in straight quotes: ' or \"";
-    case 0xA0: case 0x202F: case 0x2007: case 0x3000: return "this is a no-break space: replace it by a plain space";
-    case 0x2013: case 0x2014: case 0x2212: return "the minus sign is '-'";
-    case 0xD7: return "the sign of multiplication is '*'";
-    case '!': return "write 'not', or '!=' to compare";
-    case '$': case '?': case '`': return "remove it";
-    default: return {};
+    case 0xA0:
+    case 0x202F:
+    case 0x2007:
+    case 0x3000:
+      return "this is a no-break space: replace it by a plain space";
+    case 0x2013:
+    case 0x2014:
+    case 0x2212:
+      return "the minus sign is '-'";
+    case 0xD7:
+      return "the sign of multiplication is '*'";
+    case '!':
+      return "write 'not', or '!=' to compare";
+    case '$':
+    case '?':
+    case '`':
+      return "remove it";
+    default:
+      return {};
   }
 }
 
 }  // namespace
 
-bool is_keyword(std::string_view word) { return std::find(keywords.begin(), keywords.end(), word) != keywords.end(); }
+bool is_keyword(std::string_view word) {
+  return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
+}
 
 Lexer::Lexer(std::shared_ptr<const SourceFile> file, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end,
              bool inside_brackets)
-    : file_(std::move(file)), text_(file_->text()), diagnostics_(diagnostics), at_(begin), end_(end), piece_(inside_brackets) {
+    : file_(std::move(file)),
+      text_(file_->text()),
+      diagnostics_(diagnostics),
+      at_(begin),
+      end_(end),
+      piece_(inside_brackets) {
   line_start_ = !piece_;
   if (piece_) depth_ = 1;
 }
@@ -91,10 +123,14 @@ void Lexer::restart_at(const Token& first_of_line) {
 int Lexer::measure_indentation() {
   int column = 0;
   for (; at_ < end_; ++at_) {
-    if (text_[at_] == ' ') ++column;
-    else if (text_[at_] == '\t') column = (column / tab_width + 1) * tab_width;
-    else if (text_[at_] == '\f') column = 0;
-    else break;
+    if (text_[at_] == ' ')
+      ++column;
+    else if (text_[at_] == '\t')
+      column = (column / tab_width + 1) * tab_width;
+    else if (text_[at_] == '\f')
+      column = 0;
+    else
+      break;
   }
   return column;
 }
@@ -124,8 +160,8 @@ Token Lexer::lex_line_start() {
       ++pending_dedents_;
     }
     if (effective != indents_.back()) {
-      error("bad-indentation", "this line is indented less than its block but more than the one around it", at_, at_ + 1,
-            fmt::format("indent it by {} or by {} blanks", indents_.back(), effective));
+      error("bad-indentation", "this line is indented less than its block but more than the one around it", at_,
+            at_ + 1, fmt::format("indent it by {} or by {} blanks", indents_.back(), effective));
       indents_.push_back(effective);
       --pending_dedents_;
     }
@@ -201,10 +237,14 @@ Token Lexer::next() {
   const char c = peek();
   Token token;
   std::size_t length = 1;
-  if (is_letter(c) || (static_cast<unsigned char>(c) >= 0x80 && is_letter(code_point_at(text_, at_, length)))) token = lex_name();
-  else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) token = lex_number();
-  else if (c == '"' || c == '\'') token = lex_text(at_, {});
-  else token = lex_symbol();
+  if (is_letter(c) || (static_cast<unsigned char>(c) >= 0x80 && is_letter(code_point_at(text_, at_, length))))
+    token = lex_name();
+  else if (is_digit(c) || (c == '.' && is_digit(peek(1))))
+    token = lex_number();
+  else if (c == '"' || c == '\'')
+    token = lex_text(at_, {});
+  else
+    token = lex_symbol();
   token.starts_line = starts_line;
   return token;
 }
@@ -293,7 +333,8 @@ Token Lexer::lex_number() {
 Token Lexer::lex_symbol() {
   const std::uint32_t begin = at_;
   const std::string_view rest = text_.substr(at_, std::min<std::uint32_t>(end_ - at_, 3));
-  const auto match = std::find_if(symbols.begin(), symbols.end(), [&](std::string_view s) { return rest.starts_with(s); });
+  const auto match =
+      std::find_if(symbols.begin(), symbols.end(), [&](std::string_view s) { return rest.starts_with(s); });
   if (match == symbols.end()) return lex_strange_character();
   const std::string_view symbol = *match;
   at_ += static_cast<std::uint32_t>(symbol.size());
@@ -307,12 +348,29 @@ Token Lexer::lex_strange_character() {
   std::size_t length = 1;
   const char32_t character = code_point_at(text_, at_, length);
   at_ += static_cast<std::uint32_t>(length);
+  const std::uint32_t character_end = at_;
+  if (character == 0x2018 || character == 0x201C || character == 0xAB) skip_typographic_text(character);
   std::string shown;
-  if (character < 0x20) shown = fmt::format("\\x{:02x}", static_cast<unsigned>(character));
-  else append_utf8(shown, character);
-  error("unexpected-character", fmt::format("the character {} (U+{:04X}) has no meaning here", shown, static_cast<unsigned>(character)),
-        begin, at_, hint_for(character));
+  if (character < 0x20)
+    shown = fmt::format("\\x{:02x}", static_cast<unsigned>(character));
+  else
+    append_utf8(shown, character);
+  error("unexpected-character",
+        fmt::format("the character {} (U+{:04X}) has no meaning here", shown, static_cast<unsigned>(character)), begin,
+        character_end, hint_for(character));
   return make(TokenKind::broken, begin);
+}
+
+/// To the quote that closes a typographic one, if it is on the line: its text is no code.
+void Lexer::skip_typographic_text(char32_t opening) {
+  const char32_t closing = opening == 0xAB ? 0xBB : opening + 1;
+  std::size_t length = 1;
+  for (std::uint32_t i = at_; i < end_ && text_[i] != '\n' && text_[i] != '\r';
+       i += static_cast<std::uint32_t>(length)) {
+    if (code_point_at(text_, i, length) != closing) continue;
+    at_ = i + static_cast<std::uint32_t>(length);
+    return;
+  }
 }
 
 }  // namespace comma::interpreter

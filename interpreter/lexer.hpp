@@ -35,6 +35,7 @@ class Lexer {
   Token lex_text(std::uint32_t begin, std::string_view prefix);
   Token lex_symbol();
   Token lex_strange_character();
+  void skip_typographic_text(char32_t opening);
   std::optional<Token> lex_line_end();
   std::optional<Token> skip_blanks();
   int measure_indentation();

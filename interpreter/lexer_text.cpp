@@ -37,15 +37,26 @@ std::int64_t hex_code(std::string_view digits_text, std::size_t digits) {
 /// The character of a one-letter escape, or 0.
 char plain_escape(char c) {
   switch (c) {
-    case 'n': return '\n';
-    case 't': return '\t';
-    case 'r': return '\r';
-    case 'a': return '\a';
-    case 'b': return '\b';
-    case 'f': return '\f';
-    case 'v': return '\v';
-    case '\\': case '\'': case '"': return c;
-    default: return '\0';
+    case 'n':
+      return '\n';
+    case 't':
+      return '\t';
+    case 'r':
+      return '\r';
+    case 'a':
+      return '\a';
+    case 'b':
+      return '\b';
+    case 'f':
+      return '\f';
+    case 'v':
+      return '\v';
+    case '\\':
+    case '\'':
+    case '"':
+      return c;
+    default:
+      return '\0';
   }
 }
 
@@ -69,8 +80,8 @@ Token Lexer::lex_text(std::uint32_t begin, std::string_view prefix) {
     if (closed) break;
   }
   if (!closed) {
-    error("unterminated-string", triple ? "this string is never closed" : "this string is not closed on its line", begin,
-          triple ? begin + static_cast<std::uint32_t>(prefix.size()) + quotes : at_,
+    error("unterminated-string", triple ? "this string is never closed" : "this string is not closed on its line",
+          begin, triple ? begin + static_cast<std::uint32_t>(prefix.size()) + quotes : at_,
           fmt::format("close it with {}", std::string(quotes, quote)));
     return make(TokenKind::broken, begin);
   }
@@ -121,7 +132,8 @@ std::string decode_escapes(std::string_view body, const std::shared_ptr<const So
     } else if (c >= '0' && c <= '7') {
       unsigned code = 0;
       std::size_t digits = 0;
-      for (; digits < 3 && i < body.size() && body[i] >= '0' && body[i] <= '7'; ++digits, ++i) code = code * 8 + static_cast<unsigned>(body[i] - '0');
+      for (; digits < 3 && i < body.size() && body[i] >= '0' && body[i] <= '7'; ++digits, ++i)
+        code = code * 8 + static_cast<unsigned>(body[i] - '0');
       --i;
       append_utf8(out, code);
     } else if (c == 'x' || c == 'u' || c == 'U') {
@@ -132,8 +144,8 @@ std::string decode_escapes(std::string_view body, const std::shared_ptr<const So
         i += digits;
       } else {
         const auto where = begin + static_cast<std::uint32_t>(escape);
-        diagnostics.error("invalid-escape", fmt::format("\\{} needs {} hexadecimal digits", c, digits), {file, where, where + 2},
-                          "write \\\\ for a backslash");
+        diagnostics.error("invalid-escape", fmt::format("\\{} needs {} hexadecimal digits", c, digits),
+                          {file, where, where + 2}, "write \\\\ for a backslash");
       }
     } else if (c == 'N' && i + 1 < body.size() && body[i + 1] == '{') {
       const auto where = begin + static_cast<std::uint32_t>(escape);

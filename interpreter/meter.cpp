@@ -16,6 +16,8 @@ namespace {
 
 /// Memory written in about the time of one step of the evaluator.
 constexpr std::uint64_t bytes_per_step = 64;
+/// Limb operations in about the time of one step.
+constexpr std::uint64_t operations_per_step = 16;
 /// Between two looks at the clock and at the memory: about a millisecond of work.
 constexpr std::uint64_t steps_between_looks = 8192;
 
@@ -61,6 +63,19 @@ void Meter::allocate(std::uint64_t bytes) {
   }
   steps_ += bytes / bytes_per_step;
   if (steps_ >= next_look_) look();
+}
+
+void Meter::work(std::uint64_t operations) {
+  steps_ += operations / operations_per_step;
+  if (steps_ >= next_look_) look();
+}
+
+void Meter::check_integer(std::uint64_t bits) const {
+  if (bits <= limits_.integer_bits) return;
+  throw LimitReached(
+      "limit-memory",
+      fmt::format("this makes an integer of more than {} bits: the run is stopped", limits_.integer_bits), {},
+      "compute with float where the last digit does not matter");
 }
 
 Meter::Pause::Pause(Meter& meter) : meter_(meter), begun_(Clock::now()) {}

@@ -10,7 +10,8 @@ namespace comma::interpreter {
 /// The work of commands does not count: it is the evaluator's own steps, memory and time that are bounded.
 struct Limits {
   std::uint64_t steps = 50'000'000;            ///< statements, loop turns, calls, and bulk work in proportion
-  std::uint64_t largest_object = 64U << 20;    ///< bytes of one text, list or integer
+  std::uint64_t largest_object = 64U << 20;    ///< bytes of one text or list
+  std::uint64_t integer_bits = 1U << 20;       ///< of one integer: a product of two such takes about a second
   std::uint64_t memory = std::uint64_t{2} << 30;  ///< bytes by which the evaluator may make the process grow
   double seconds = 60.0;                       ///< wall-clock time
   int call_depth = 1000;                       ///< functions within functions: Python's own limit
@@ -28,6 +29,10 @@ class Meter {
   void allocate(std::uint64_t bytes);
   /// `count` items of a list or a tuple.
   void allocate_items(std::uint64_t count) { allocate(count * 24); }
+  /// Before arithmetic on long integers: `operations` on 32-bit limbs.
+  void work(std::uint64_t operations);
+  /// Before an integer of that many bits is made.
+  void check_integer(std::uint64_t bits) const;
   const Limits& limits() const { return limits_; }
 
   /// While it lives, someone else works: neither the time nor the memory counts.

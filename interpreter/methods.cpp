@@ -28,12 +28,18 @@ Method find_method(const Value& value, std::string_view name) {
   for (const MethodRow& row : methods_of(value)) {
     if (row.name == name) return row.method;
   }
+  if (!value.is_text()) return nullptr;
+  for (const MethodRow& row : letter_methods()) {
+    if (row.name == name) return row.method;
+  }
   return nullptr;
 }
 
 std::vector<std::string> method_names(const Value& value) {
   std::vector<std::string> names;
   for (const MethodRow& row : methods_of(value)) names.emplace_back(row.name);
+  if (!value.is_text()) return names;
+  for (const MethodRow& row : letter_methods()) names.emplace_back(row.name);
   return names;
 }
 

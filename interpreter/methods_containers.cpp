@@ -55,7 +55,8 @@ Value list_pop(Evaluator&, const Value& self, const CallArguments& arguments) {
 Value list_remove(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("remove", arguments, 1, 1);
   auto& items = self.as_list();
-  const auto found = std::find_if(items.begin(), items.end(), [&](const Value& item) { return equal(item, arguments[0]); });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Value& item) { return equal(item, arguments[0]); });
   if (found == items.end()) raise(ErrorKind::value, "list.remove(x): x not in list");
   items.erase(found);
   return {};
@@ -66,7 +67,9 @@ Value list_clear(Evaluator&, const Value& self, const CallArguments&) {
   return {};
 }
 
-Value list_copy(Evaluator& evaluator, const Value& self, const CallArguments&) { return Value::list(list_of(self, evaluator.meter())); }
+Value list_copy(Evaluator& evaluator, const Value& self, const CallArguments&) {
+  return Value::list(list_of(self, evaluator.meter()));
+}
 
 Value reverse(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("reverse", arguments, 0, 0);
@@ -92,26 +95,36 @@ Value sequence_index(Evaluator& evaluator, const Value& self, const CallArgument
   for (std::int64_t i = range.start; i < range.start + range.count; ++i) {
     if (equal(items[static_cast<std::size_t>(i)], arguments[0])) return i;
   }
-  raise(ErrorKind::value, self.is_tuple() ? "tuple.index(x): x not in tuple" : fmt::format("{} is not in {}", arguments[0].repr(), self.type_name()));
+  raise(ErrorKind::value, self.is_tuple() ? "tuple.index(x): x not in tuple"
+                                          : fmt::format("{} is not in {}", arguments[0].repr(), self.type_name()));
 }
 
 Value sequence_count(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   expect_arguments("count", arguments, 1, 1);
   const std::vector<Value> items = list_of(self, evaluator.meter());
-  return static_cast<std::int64_t>(std::count_if(items.begin(), items.end(), [&](const Value& item) { return equal(item, arguments[0]); }));
+  return static_cast<std::int64_t>(
+      std::count_if(items.begin(), items.end(), [&](const Value& item) { return equal(item, arguments[0]); }));
 }
 
 // dict
 
-std::shared_ptr<Dict> shared_dict(const Value& self) { return std::get<std::shared_ptr<Dict>>(self.storage()); }
+std::shared_ptr<Dict> shared_dict(const Value& self) {
+  return std::get<std::shared_ptr<Dict>>(self.storage());
+}
 
 Value view(const Value& self, DictView::Kind kind) {
   return Value(std::shared_ptr<Object>(std::make_shared<DictView>(shared_dict(self), kind)));
 }
 
-Value keys(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::keys); }
-Value values(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::values); }
-Value items(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::items); }
+Value keys(Evaluator&, const Value& self, const CallArguments&) {
+  return view(self, DictView::Kind::keys);
+}
+Value values(Evaluator&, const Value& self, const CallArguments&) {
+  return view(self, DictView::Kind::values);
+}
+Value items(Evaluator&, const Value& self, const CallArguments&) {
+  return view(self, DictView::Kind::items);
+}
 
 Value get(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("get", arguments, 1, 2);
@@ -161,19 +174,23 @@ Value dict_clear(Evaluator&, const Value& self, const CallArguments&) {
   return {};
 }
 
-Value dict_copy(Evaluator& evaluator, const Value& self, const CallArguments&) { return construct(evaluator, "dict", CallArguments({self})); }
+Value dict_copy(Evaluator& evaluator, const Value& self, const CallArguments&) {
+  return construct(evaluator, "dict", CallArguments({self}));
+}
 
 Value fromkeys(Evaluator& evaluator, const Value&, const CallArguments& arguments) {
   expect_arguments("fromkeys", arguments, 1, 2);
   auto dict = std::make_shared<Dict>();
-  for (const Value& key : list_of(arguments[0], evaluator.meter())) dict->set(key, arguments.size() > 1 ? arguments[1] : Value());
+  for (const Value& key : list_of(arguments[0], evaluator.meter()))
+    dict->set(key, arguments.size() > 1 ? arguments[1] : Value());
   return Value(std::move(dict));
 }
 
 // set
 
 void expect_mutable(const Value& self, std::string_view name) {
-  if (self.type_name() == "frozenset") raise(ErrorKind::attribute, fmt::format("'frozenset' object has no attribute '{}'", name));
+  if (self.type_name() == "frozenset")
+    raise(ErrorKind::attribute, fmt::format("'frozenset' object has no attribute '{}'", name));
 }
 
 Value add(Evaluator&, const Value& self, const CallArguments& arguments) {
@@ -213,7 +230,9 @@ Value set_clear(Evaluator&, const Value& self, const CallArguments&) {
   return {};
 }
 
-Value set_copy(Evaluator&, const Value& self, const CallArguments&) { return make_set(self.as_set().keys(), self.type_name() == "frozenset"); }
+Value set_copy(Evaluator&, const Value& self, const CallArguments&) {
+  return make_set(self.as_set().keys(), self.type_name() == "frozenset");
+}
 
 Value set_update(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   expect_mutable(self, "update");
@@ -233,18 +252,31 @@ Value combine(Evaluator& evaluator, const Value& self, const CallArguments& argu
   return result;
 }
 
-Value set_union(Evaluator& e, const Value& self, const CallArguments& a) { return combine(e, self, a, Operator::bit_or); }
-Value set_intersection(Evaluator& e, const Value& self, const CallArguments& a) { return combine(e, self, a, Operator::bit_and); }
-Value set_difference(Evaluator& e, const Value& self, const CallArguments& a) { return combine(e, self, a, Operator::subtract); }
-Value set_symmetric(Evaluator& e, const Value& self, const CallArguments& a) { return combine(e, self, a, Operator::bit_xor); }
+Value set_union(Evaluator& e, const Value& self, const CallArguments& a) {
+  return combine(e, self, a, Operator::bit_or);
+}
+Value set_intersection(Evaluator& e, const Value& self, const CallArguments& a) {
+  return combine(e, self, a, Operator::bit_and);
+}
+Value set_difference(Evaluator& e, const Value& self, const CallArguments& a) {
+  return combine(e, self, a, Operator::subtract);
+}
+Value set_symmetric(Evaluator& e, const Value& self, const CallArguments& a) {
+  return combine(e, self, a, Operator::bit_xor);
+}
 
-Value relation(Evaluator& evaluator, const Value& self, const CallArguments& arguments, std::string_view name, Operator op) {
+Value relation(Evaluator& evaluator, const Value& self, const CallArguments& arguments, std::string_view name,
+               Operator op) {
   expect_arguments(name, arguments, 1, 1);
   return compare(op, self, make_set(list_of(arguments[0], evaluator.meter())));
 }
 
-Value issubset(Evaluator& e, const Value& self, const CallArguments& a) { return relation(e, self, a, "issubset", Operator::less_equal); }
-Value issuperset(Evaluator& e, const Value& self, const CallArguments& a) { return relation(e, self, a, "issuperset", Operator::greater_equal); }
+Value issubset(Evaluator& e, const Value& self, const CallArguments& a) {
+  return relation(e, self, a, "issubset", Operator::less_equal);
+}
+Value issuperset(Evaluator& e, const Value& self, const CallArguments& a) {
+  return relation(e, self, a, "issuperset", Operator::greater_equal);
+}
 
 Value isdisjoint(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   expect_arguments("isdisjoint", arguments, 1, 1);
@@ -253,29 +285,55 @@ Value isdisjoint(Evaluator& evaluator, const Value& self, const CallArguments& a
 }
 
 constexpr std::array of_lists = {
-    MethodRow{"append", append}, MethodRow{"extend", extend},   MethodRow{"insert", insert}, MethodRow{"pop", list_pop},
-    MethodRow{"remove", list_remove}, MethodRow{"clear", list_clear}, MethodRow{"copy", list_copy}, MethodRow{"reverse", reverse},
-    MethodRow{"sort", sort},     MethodRow{"index", sequence_index}, MethodRow{"count", sequence_count},
+    MethodRow{"append", append},        MethodRow{"extend", extend},        MethodRow{"insert", insert},
+    MethodRow{"pop", list_pop},         MethodRow{"remove", list_remove},   MethodRow{"clear", list_clear},
+    MethodRow{"copy", list_copy},       MethodRow{"reverse", reverse},      MethodRow{"sort", sort},
+    MethodRow{"index", sequence_index}, MethodRow{"count", sequence_count},
 };
 constexpr std::array of_tuples = {MethodRow{"index", sequence_index}, MethodRow{"count", sequence_count}};
 constexpr std::array of_dicts = {
-    MethodRow{"keys", keys}, MethodRow{"values", values}, MethodRow{"items", items}, MethodRow{"get", get},
-    MethodRow{"pop", dict_pop}, MethodRow{"popitem", popitem}, MethodRow{"setdefault", setdefault}, MethodRow{"update", dict_update},
-    MethodRow{"clear", dict_clear}, MethodRow{"copy", dict_copy}, MethodRow{"fromkeys", fromkeys},
+    MethodRow{"keys", keys},
+    MethodRow{"values", values},
+    MethodRow{"items", items},
+    MethodRow{"get", get},
+    MethodRow{"pop", dict_pop},
+    MethodRow{"popitem", popitem},
+    MethodRow{"setdefault", setdefault},
+    MethodRow{"update", dict_update},
+    MethodRow{"clear", dict_clear},
+    MethodRow{"copy", dict_copy},
+    MethodRow{"fromkeys", fromkeys},
 };
 constexpr std::array of_sets = {
-    MethodRow{"add", add}, MethodRow{"discard", discard}, MethodRow{"remove", set_remove}, MethodRow{"pop", set_pop},
-    MethodRow{"clear", set_clear}, MethodRow{"copy", set_copy}, MethodRow{"update", set_update}, MethodRow{"union", set_union},
-    MethodRow{"intersection", set_intersection}, MethodRow{"difference", set_difference},
-    MethodRow{"symmetric_difference", set_symmetric}, MethodRow{"issubset", issubset}, MethodRow{"issuperset", issuperset},
+    MethodRow{"add", add},
+    MethodRow{"discard", discard},
+    MethodRow{"remove", set_remove},
+    MethodRow{"pop", set_pop},
+    MethodRow{"clear", set_clear},
+    MethodRow{"copy", set_copy},
+    MethodRow{"update", set_update},
+    MethodRow{"union", set_union},
+    MethodRow{"intersection", set_intersection},
+    MethodRow{"difference", set_difference},
+    MethodRow{"symmetric_difference", set_symmetric},
+    MethodRow{"issubset", issubset},
+    MethodRow{"issuperset", issuperset},
     MethodRow{"isdisjoint", isdisjoint},
 };
 
 }  // namespace
 
-std::span<const MethodRow> list_methods() { return of_lists; }
-std::span<const MethodRow> tuple_methods() { return of_tuples; }
-std::span<const MethodRow> dict_methods() { return of_dicts; }
-std::span<const MethodRow> set_methods() { return of_sets; }
+std::span<const MethodRow> list_methods() {
+  return of_lists;
+}
+std::span<const MethodRow> tuple_methods() {
+  return of_tuples;
+}
+std::span<const MethodRow> dict_methods() {
+  return of_dicts;
+}
+std::span<const MethodRow> set_methods() {
+  return of_sets;
+}
 
 }  // namespace comma::interpreter

@@ -1,4 +1,4 @@
-// The methods of str. Letters are those of ASCII and Latin-1 where case matters.
+// The methods of str that cut, join, search and fill; those that look at letters are in methods_letters.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,59 +15,11 @@ namespace {
 
 using Points = std::vector<char32_t>;
 
-bool is_blank(char32_t c) { return c == ' ' || (c >= 9 && c <= 13) || (c >= 0x1C && c <= 0x1F) || c == 0x85 || c == 0xA0; }
-bool is_lower(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 0xDF && c <= 0xFF && c != 0xF7); }
-bool is_upper(char32_t c) { return (c >= 'A' && c <= 'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7); }
-bool is_digit(char32_t c) { return c >= '0' && c <= '9'; }
-bool is_alpha(char32_t c) { return is_lower(c) || is_upper(c) || c == 0xAA || c == 0xB5 || c == 0xBA || c >= 0x100; }
-char32_t to_lower(char32_t c) { return is_upper(c) ? c + 32 : c; }
-char32_t to_upper(char32_t c) { return is_lower(c) && c != 0xDF && c != 0xFF ? c - 32 : c; }
-
 const std::string& text_argument(const CallArguments& arguments, std::size_t index, std::string_view function) {
   const Value& value = arguments[index];
-  if (!value.is_text()) raise(ErrorKind::type, fmt::format("{} argument {} must be str, not {}", function, index + 1, value.type_name()));
+  if (!value.is_text())
+    raise(ErrorKind::type, fmt::format("{} argument {} must be str, not {}", function, index + 1, value.type_name()));
   return value.as_text();
-}
-
-template <class Change>
-Value change_characters(const Value& self, Change change) {
-  Points points = decode_utf8(self.as_text());
-  change(points);
-  return encode_utf8(points);
-}
-
-Value upper(Evaluator&, const Value& self, const CallArguments& arguments) {
-  expect_arguments("upper", arguments, 0, 0);
-  std::string out;
-  for (char32_t c : decode_utf8(self.as_text())) {
-    if (c == 0xDF) out += "SS";
-    else append_utf8(out, to_upper(c));
-  }
-  return out;
-}
-
-Value lower(Evaluator&, const Value& self, const CallArguments& arguments) {
-  expect_arguments("lower", arguments, 0, 0);
-  return change_characters(self, [](Points& p) { std::transform(p.begin(), p.end(), p.begin(), to_lower); });
-}
-
-Value swapcase(Evaluator&, const Value& self, const CallArguments& arguments) {
-  expect_arguments("swapcase", arguments, 0, 0);
-  return change_characters(self, [](Points& p) { std::transform(p.begin(), p.end(), p.begin(), [](char32_t c) { return is_upper(c) ? to_lower(c) : to_upper(c); }); });
-}
-
-Value capitalize(Evaluator&, const Value& self, const CallArguments& arguments) {
-  expect_arguments("capitalize", arguments, 0, 0);
-  return change_characters(self, [](Points& p) {
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = i == 0 ? to_upper(p[i]) : to_lower(p[i]);
-  });
-}
-
-Value title(Evaluator&, const Value& self, const CallArguments& arguments) {
-  expect_arguments("title", arguments, 0, 0);
-  return change_characters(self, [](Points& p) {
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = i > 0 && is_alpha(p[i - 1]) ? to_lower(p[i]) : to_upper(p[i]);
-  });
 }
 
 enum class Side { both, left, right };
@@ -76,17 +28,28 @@ Value strip_side(const Value& self, const CallArguments& arguments, std::string_
   expect_arguments(name, arguments, 0, 1);
   const bool chosen = arguments.size() == 1 && !arguments[0].is_none();
   const Points which = chosen ? decode_utf8(text_argument(arguments, 0, fmt::format("{}()", name))) : Points();
-  const auto goes = [&](char32_t c) { return chosen ? std::find(which.begin(), which.end(), c) != which.end() : is_blank(c); };
+  const auto goes = [&](char32_t c) {
+    return chosen ? std::find(which.begin(), which.end(), c) != which.end() : is_blank_character(c);
+  };
   const Points points = decode_utf8(self.as_text());
   std::size_t begin = 0, end = points.size();
-  if (side != Side::right) while (begin < end && goes(points[begin])) ++begin;
-  if (side != Side::left) while (end > begin && goes(points[end - 1])) --end;
-  return encode_utf8({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
+  if (side != Side::right)
+    while (begin < end && goes(points[begin])) ++begin;
+  if (side != Side::left)
+    while (end > begin && goes(points[end - 1])) --end;
+  return encode_utf8(
+      {points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
 }
 
-Value strip(Evaluator&, const Value& self, const CallArguments& arguments) { return strip_side(self, arguments, "strip", Side::both); }
-Value lstrip(Evaluator&, const Value& self, const CallArguments& arguments) { return strip_side(self, arguments, "lstrip", Side::left); }
-Value rstrip(Evaluator&, const Value& self, const CallArguments& arguments) { return strip_side(self, arguments, "rstrip", Side::right); }
+Value strip(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return strip_side(self, arguments, "strip", Side::both);
+}
+Value lstrip(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return strip_side(self, arguments, "lstrip", Side::left);
+}
+Value rstrip(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return strip_side(self, arguments, "rstrip", Side::right);
+}
 
 std::int64_t most_splits(const CallArguments& arguments) {
   const Value* limit = arguments.size() > 1 ? &arguments[1] : arguments.find("maxsplit");
@@ -103,15 +66,16 @@ std::vector<Value> split_blanks(const Points& points, std::int64_t most) {
   std::vector<Value> parts;
   std::size_t i = 0;
   while (true) {
-    while (i < points.size() && is_blank(points[i])) ++i;
+    while (i < points.size() && is_blank_character(points[i])) ++i;
     if (i >= points.size()) return parts;
     std::size_t end = i;
     if (static_cast<std::int64_t>(parts.size()) < most) {
-      while (end < points.size() && !is_blank(points[end])) ++end;
+      while (end < points.size() && !is_blank_character(points[end])) ++end;
     } else {
       end = points.size();  // the rest as it stands, trailing blanks and all
     }
-    parts.emplace_back(encode_utf8({points.begin() + static_cast<std::ptrdiff_t>(i), points.begin() + static_cast<std::ptrdiff_t>(end)}));
+    parts.emplace_back(encode_utf8(
+        {points.begin() + static_cast<std::ptrdiff_t>(i), points.begin() + static_cast<std::ptrdiff_t>(end)}));
     if (end >= points.size() || static_cast<std::int64_t>(parts.size()) > most) return parts;
     i = end;
   }
@@ -133,7 +97,8 @@ Value split(Evaluator& evaluator, const Value& self, const CallArguments& argume
   const std::string by = checked_separator(*separator);
   std::vector<Value> parts;
   std::size_t from = 0;
-  for (std::size_t at = text.find(by); at != std::string::npos && static_cast<std::int64_t>(parts.size()) < most; at = text.find(by, from)) {
+  for (std::size_t at = text.find(by); at != std::string::npos && static_cast<std::int64_t>(parts.size()) < most;
+       at = text.find(by, from)) {
     parts.emplace_back(text.substr(from, at - from));
     from = at + by.size();
   }
@@ -192,7 +157,8 @@ Value join(Evaluator& evaluator, const Value& self, const CallArguments& argumen
   for (const Value& item : list_of(arguments[0], evaluator.meter())) {
     if (item.is_unknown()) return item;
     if (!item.is_text()) {
-      raise(ErrorKind::type, fmt::format("sequence item {}: expected str instance, {} found", index, item.type_name()), "convert the items with str(...)");
+      raise(ErrorKind::type, fmt::format("sequence item {}: expected str instance, {} found", index, item.type_name()),
+            "convert the items with str(...)");
     }
     if (index++ > 0) out += self.as_text();
     out += item.as_text();
@@ -229,7 +195,8 @@ Value replace(Evaluator& evaluator, const Value& self, const CallArguments& argu
 }
 
 /// Python's start and end arguments, as byte offsets; nothing when they exclude every place.
-std::optional<std::pair<std::size_t, std::size_t>> byte_range(const std::string& text, const CallArguments& arguments, std::size_t first) {
+std::optional<std::pair<std::size_t, std::size_t>> byte_range(const std::string& text, const CallArguments& arguments,
+                                                              std::size_t first) {
   SliceObject slice;
   if (arguments.size() > first) slice.start = arguments[first];
   if (arguments.size() > first + 1) slice.stop = arguments[first + 1];
@@ -256,8 +223,12 @@ std::int64_t find_in(const Value& self, const CallArguments& arguments, std::str
   return static_cast<std::int64_t>(count_code_points(std::string_view(text).substr(0, range->first + at)));
 }
 
-Value find(Evaluator&, const Value& self, const CallArguments& arguments) { return find_in(self, arguments, "find", false); }
-Value rfind(Evaluator&, const Value& self, const CallArguments& arguments) { return find_in(self, arguments, "rfind", true); }
+Value find(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return find_in(self, arguments, "find", false);
+}
+Value rfind(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return find_in(self, arguments, "rfind", true);
+}
 
 Value index(Evaluator&, const Value& self, const CallArguments& arguments) {
   const std::int64_t place = find_in(self, arguments, "index", false);
@@ -289,15 +260,20 @@ bool matches_edge(const Value& self, const CallArguments& arguments, std::string
   if (!range) return false;
   const std::string part = self.as_text().substr(range->first, range->second - range->first);
   const auto fits = [&](const Value& edge) {
-    if (!edge.is_text()) raise(ErrorKind::type, fmt::format("{} first arg must be str or a tuple of str, not {}", name, edge.type_name()));
+    if (!edge.is_text())
+      raise(ErrorKind::type, fmt::format("{} first arg must be str or a tuple of str, not {}", name, edge.type_name()));
     return start ? part.starts_with(edge.as_text()) : part.ends_with(edge.as_text());
   };
   if (!arguments[0].is_tuple()) return fits(arguments[0]);
   return std::any_of(arguments[0].items().begin(), arguments[0].items().end(), fits);
 }
 
-Value startswith(Evaluator&, const Value& self, const CallArguments& arguments) { return matches_edge(self, arguments, "startswith", true); }
-Value endswith(Evaluator&, const Value& self, const CallArguments& arguments) { return matches_edge(self, arguments, "endswith", false); }
+Value startswith(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return matches_edge(self, arguments, "startswith", true);
+}
+Value endswith(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return matches_edge(self, arguments, "endswith", false);
+}
 
 Value removeprefix(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("removeprefix", arguments, 1, 1);
@@ -308,10 +284,12 @@ Value removeprefix(Evaluator&, const Value& self, const CallArguments& arguments
 Value removesuffix(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("removesuffix", arguments, 1, 1);
   const std::string& part = text_argument(arguments, 0, "removesuffix()");
-  return self.as_text().ends_with(part) ? self.as_text().substr(0, self.as_text().size() - part.size()) : self.as_text();
+  return self.as_text().ends_with(part) ? self.as_text().substr(0, self.as_text().size() - part.size())
+                                        : self.as_text();
 }
 
-Value adjust(Evaluator& evaluator, const Value& self, const CallArguments& arguments, std::string_view name, char align) {
+Value adjust(Evaluator& evaluator, const Value& self, const CallArguments& arguments, std::string_view name,
+             char align) {
   expect_arguments(name, arguments, 1, 2);
   const std::int64_t width = index_of(arguments[0]);
   std::string fill = arguments.size() > 1 ? text_argument(arguments, 1, fmt::format("{}()", name)) : " ";
@@ -329,9 +307,15 @@ Value adjust(Evaluator& evaluator, const Value& self, const CallArguments& argum
   return out;
 }
 
-Value ljust(Evaluator& evaluator, const Value& self, const CallArguments& arguments) { return adjust(evaluator, self, arguments, "ljust", '<'); }
-Value rjust(Evaluator& evaluator, const Value& self, const CallArguments& arguments) { return adjust(evaluator, self, arguments, "rjust", '>'); }
-Value center(Evaluator& evaluator, const Value& self, const CallArguments& arguments) { return adjust(evaluator, self, arguments, "center", '^'); }
+Value ljust(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
+  return adjust(evaluator, self, arguments, "ljust", '<');
+}
+Value rjust(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
+  return adjust(evaluator, self, arguments, "rjust", '>');
+}
+Value center(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
+  return adjust(evaluator, self, arguments, "center", '^');
+}
 
 Value zfill(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   expect_arguments("zfill", arguments, 1, 1);
@@ -352,35 +336,12 @@ Value partition_at(const Value& self, const CallArguments& arguments, std::strin
   return Value::tuple({Value(text.substr(0, at)), Value(by), Value(text.substr(at + by.size()))});
 }
 
-Value partition(Evaluator&, const Value& self, const CallArguments& arguments) { return partition_at(self, arguments, "partition", false); }
-Value rpartition(Evaluator&, const Value& self, const CallArguments& arguments) { return partition_at(self, arguments, "rpartition", true); }
-
-template <class Test>
-bool all_characters(const Value& self, Test test) {
-  const Points points = decode_utf8(self.as_text());
-  return !points.empty() && std::all_of(points.begin(), points.end(), test);
+Value partition(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return partition_at(self, arguments, "partition", false);
 }
-
-Value isdigit(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_digit); }
-Value isalpha(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_alpha); }
-Value isalnum(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, [](char32_t c) { return is_alpha(c) || is_digit(c); }); }
-Value isspace(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_blank); }
-
-Value isupper(Evaluator&, const Value& self, const CallArguments&) {
-  const Points points = decode_utf8(self.as_text());
-  return std::any_of(points.begin(), points.end(), is_upper) && std::none_of(points.begin(), points.end(), is_lower);
+Value rpartition(Evaluator&, const Value& self, const CallArguments& arguments) {
+  return partition_at(self, arguments, "rpartition", true);
 }
-
-Value islower(Evaluator&, const Value& self, const CallArguments&) {
-  const Points points = decode_utf8(self.as_text());
-  return std::any_of(points.begin(), points.end(), is_lower) && std::none_of(points.begin(), points.end(), is_upper);
-}
-
-Value isidentifier(Evaluator&, const Value& self, const CallArguments&) {
-  const Points points = decode_utf8(self.as_text());
-  return !points.empty() && !is_digit(points[0]) && all_characters(self, [](char32_t c) { return is_alpha(c) || is_digit(c) || c == '_'; });
-}
-
 Value expandtabs(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   expect_arguments("expandtabs", arguments, 0, 1, {"tabsize"});
   const Value* option = arguments.size() > 0 ? &arguments[0] : arguments.find("tabsize");
@@ -420,8 +381,10 @@ class FieldReader {
       const std::size_t close = rest.find(']');
       if (close == rest.npos) raise(ErrorKind::value, "Missing ']' in format string");
       const std::string key(rest.substr(1, close - 1));
-      const bool number = !key.empty() && key.size() < 10 && std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
-      value = subscript(value, number ? Value(static_cast<std::int64_t>(std::stoll(key))) : Value(key), evaluator_.meter());
+      const bool number = !key.empty() && key.size() < 10 &&
+                          std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
+      value =
+          subscript(value, number ? Value(static_cast<std::int64_t>(std::stoll(key))) : Value(key), evaluator_.meter());
       rest.remove_prefix(close + 1);
     }
     return value;
@@ -438,8 +401,9 @@ class FieldReader {
     }
     if (name.size() > 6) raise(ErrorKind::value, "Too many decimal digits in format string");
     if (name.empty() ? manual_ : automatic_) {
-      raise(ErrorKind::value, name.empty() ? "cannot switch from manual field specification to automatic field numbering"
-                                           : "cannot switch from automatic field numbering to manual field specification");
+      raise(ErrorKind::value, name.empty()
+                                  ? "cannot switch from manual field specification to automatic field numbering"
+                                  : "cannot switch from automatic field numbering to manual field specification");
     }
     (name.empty() ? automatic_ : manual_) = true;
     const std::size_t index = name.empty() ? next_++ : static_cast<std::size_t>(std::stoul(std::string(name)));
@@ -455,28 +419,41 @@ class FieldReader {
 
 Value format(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   FieldReader reader(evaluator, arguments);
-  return format_fields(self.as_text(), [&](std::string_view name) { return reader(name); }, evaluator.meter());
+  return format_fields(
+      self.as_text(), [&](std::string_view name) { return reader(name); }, evaluator.meter());
 }
-
 constexpr std::array methods = {
-    MethodRow{"upper", upper},           MethodRow{"lower", lower},         MethodRow{"capitalize", capitalize},
-    MethodRow{"title", title},           MethodRow{"swapcase", swapcase},   MethodRow{"strip", strip},
-    MethodRow{"lstrip", lstrip},         MethodRow{"rstrip", rstrip},       MethodRow{"split", split},
-    MethodRow{"rsplit", rsplit},         MethodRow{"splitlines", splitlines}, MethodRow{"join", join},
-    MethodRow{"replace", replace},       MethodRow{"find", find},           MethodRow{"rfind", rfind},
-    MethodRow{"index", index},           MethodRow{"rindex", rindex},       MethodRow{"count", count},
-    MethodRow{"startswith", startswith}, MethodRow{"endswith", endswith},   MethodRow{"removeprefix", removeprefix},
-    MethodRow{"removesuffix", removesuffix}, MethodRow{"ljust", ljust},     MethodRow{"rjust", rjust},
-    MethodRow{"center", center},         MethodRow{"zfill", zfill},         MethodRow{"partition", partition},
-    MethodRow{"rpartition", rpartition}, MethodRow{"isdigit", isdigit},     MethodRow{"isdecimal", isdigit},
-    MethodRow{"isnumeric", isdigit},     MethodRow{"isalpha", isalpha},     MethodRow{"isalnum", isalnum},
-    MethodRow{"isspace", isspace},       MethodRow{"isupper", isupper},     MethodRow{"islower", islower},
-    MethodRow{"isidentifier", isidentifier}, MethodRow{"expandtabs", expandtabs}, MethodRow{"format", format},
-    MethodRow{"casefold", lower},
+    MethodRow{"strip", strip},
+    MethodRow{"lstrip", lstrip},
+    MethodRow{"rstrip", rstrip},
+    MethodRow{"split", split},
+    MethodRow{"rsplit", rsplit},
+    MethodRow{"splitlines", splitlines},
+    MethodRow{"join", join},
+    MethodRow{"replace", replace},
+    MethodRow{"find", find},
+    MethodRow{"rfind", rfind},
+    MethodRow{"index", index},
+    MethodRow{"rindex", rindex},
+    MethodRow{"count", count},
+    MethodRow{"startswith", startswith},
+    MethodRow{"endswith", endswith},
+    MethodRow{"removeprefix", removeprefix},
+    MethodRow{"removesuffix", removesuffix},
+    MethodRow{"ljust", ljust},
+    MethodRow{"rjust", rjust},
+    MethodRow{"center", center},
+    MethodRow{"zfill", zfill},
+    MethodRow{"partition", partition},
+    MethodRow{"rpartition", rpartition},
+    MethodRow{"expandtabs", expandtabs},
+    MethodRow{"format", format},
 };
 
 }  // namespace
 
-std::span<const MethodRow> text_methods() { return methods; }
+std::span<const MethodRow> text_methods() {
+  return methods;
+}
 
 }  // namespace comma::interpreter

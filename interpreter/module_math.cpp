@@ -16,11 +16,13 @@ namespace comma::interpreter {
 namespace {
 
 double real_argument(const Value& value) {
-  if (value.is_text() || !is_numeric(value) || value.is_complex()) raise(ErrorKind::type, "must be real number, not " + value.type_name());
+  if (value.is_text() || !is_numeric(value) || value.is_complex())
+    raise(ErrorKind::type, "must be real number, not " + value.type_name());
   return real_of(value);
 }
 
-/// nan out of numbers is outside the function's domain, infinity out of finite numbers is an overflow: as Python tells them.
+/// nan out of numbers is outside the function's domain, infinity out of finite numbers is an overflow: as Python tells
+/// them.
 Value checked(double result, double x, double y = 0.0) {
   if (std::isnan(result) && !std::isnan(x) && !std::isnan(y)) raise(ErrorKind::value, "math domain error");
   if (std::isinf(result) && std::isfinite(x) && std::isfinite(y)) raise(ErrorKind::overflow, "math range error");
@@ -42,8 +44,12 @@ Value binary(Evaluator&, const CallArguments& arguments) {
   return checked(Function(x, y), x, y);
 }
 
-double degrees(double x) { return x * (180.0 / std::numbers::pi); }
-double radians(double x) { return x * (std::numbers::pi / 180.0); }
+double degrees(double x) {
+  return x * (180.0 / std::numbers::pi);
+}
+double radians(double x) {
+  return x * (std::numbers::pi / 180.0);
+}
 
 double gamma_function(double x) {
   if (x == std::trunc(x) && x <= 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -56,8 +62,12 @@ double log_gamma(double x) {
 }
 
 /// atanh(+-1) and log1p(-1) are poles: Python calls them domain errors.
-double pole_free_atanh(double x) { return std::abs(x) >= 1.0 ? std::numeric_limits<double>::quiet_NaN() : std::atanh(x); }
-double pole_free_log1p(double x) { return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x); }
+double pole_free_atanh(double x) {
+  return std::abs(x) >= 1.0 ? std::numeric_limits<double>::quiet_NaN() : std::atanh(x);
+}
+double pole_free_log1p(double x) {
+  return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x);
+}
 
 /// Logarithm of any positive int, however large.
 double natural_log(const Value& value) {
@@ -120,9 +130,15 @@ Value test(Evaluator&, const CallArguments& arguments) {
   return Test(real_argument(arguments[0]));
 }
 
-bool is_nan(double x) { return std::isnan(x); }
-bool is_infinite(double x) { return std::isinf(x); }
-bool is_finite(double x) { return std::isfinite(x); }
+bool is_nan(double x) {
+  return std::isnan(x);
+}
+bool is_infinite(double x) {
+  return std::isinf(x);
+}
+bool is_finite(double x) {
+  return std::isfinite(x);
+}
 
 Value hypot(Evaluator&, const CallArguments& arguments) {
   std::vector<double> parts;
@@ -142,7 +158,8 @@ Value dist(Evaluator& evaluator, const CallArguments& arguments) {
   const auto b = list_of(arguments[1], evaluator.meter());
   if (a.size() != b.size()) raise(ErrorKind::value, "both points must have the same number of dimensions");
   CallArguments differences;
-  for (std::size_t i = 0; i < a.size(); ++i) differences.positional.emplace_back(real_argument(a[i]) - real_argument(b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    differences.positional.emplace_back(real_argument(a[i]) - real_argument(b[i]));
   return hypot(evaluator, differences);
 }
 
@@ -199,14 +216,19 @@ std::int64_t count_argument(const Value& value, std::string_view function) {
   return n;
 }
 
+void grow(BigInteger& product, std::int64_t factor, Meter& meter) {
+  meter.step();
+  meter.check_integer(product.bit_length() + 64);
+  meter.work(product.bit_length() / 32);
+  product = product * BigInteger(factor);
+}
+
 Value factorial(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("factorial", arguments, 1, 1);
   const std::int64_t n = count_argument(arguments[0], "factorial");
   BigInteger product(1);
   for (std::int64_t i = 2; i <= n; ++i) {
-    evaluator.meter().step();
-    evaluator.meter().allocate(product.bit_length() / 8);
-    product = product * BigInteger(i);
+    grow(product, i, evaluator.meter());
   }
   return Value::integer(product);
 }
@@ -218,8 +240,7 @@ Value permutations(Evaluator& evaluator, const CallArguments& arguments) {
   if (k > n) return 0;
   BigInteger product(1);
   for (std::int64_t i = n - k + 1; i <= n; ++i) {
-    evaluator.meter().allocate(64 + product.bit_length() / 8);
-    product = product * BigInteger(i);
+    grow(product, i, evaluator.meter());
   }
   return Value::integer(product);
 }
@@ -232,8 +253,8 @@ Value combinations(Evaluator& evaluator, const CallArguments& arguments) {
   k = std::min(k, n - k);
   BigInteger result(1);
   for (std::int64_t i = 1; i <= k; ++i) {
-    evaluator.meter().allocate(64 + result.bit_length() / 8);
-    result = BigInteger::floor_divide(result * BigInteger(n - k + i), BigInteger(i)).first;
+    grow(result, n - k + i, evaluator.meter());
+    result = BigInteger::floor_divide(result, BigInteger(i)).first;
   }
   return Value::integer(result);
 }
@@ -243,8 +264,9 @@ BigInteger integer_argument(const Value& value) {
   raise(ErrorKind::type, fmt::format("'{}' object cannot be interpreted as an integer", value.type_name()));
 }
 
-BigInteger common_divisor(BigInteger a, BigInteger b) {
+BigInteger common_divisor(BigInteger a, BigInteger b, Meter& meter) {
   while (!b.is_zero()) {
+    meter.work(16 + (a.bit_length() + b.bit_length()) / 32);
     BigInteger rest = BigInteger::floor_divide(a, b).second;
     a = std::move(b);
     b = std::move(rest);
@@ -252,23 +274,26 @@ BigInteger common_divisor(BigInteger a, BigInteger b) {
   return a.magnitude();
 }
 
-Value gcd(Evaluator&, const CallArguments& arguments) {
+Value gcd(Evaluator& evaluator, const CallArguments& arguments) {
   BigInteger result;
-  for (const Value& value : arguments.positional) result = common_divisor(result, integer_argument(value));
+  for (const Value& value : arguments.positional)
+    result = common_divisor(result, integer_argument(value), evaluator.meter());
   return Value::integer(result);
 }
 
-Value lcm(Evaluator&, const CallArguments& arguments) {
+Value lcm(Evaluator& evaluator, const CallArguments& arguments) {
   BigInteger result(1);
   for (const Value& value : arguments.positional) {
     const BigInteger x = integer_argument(value).magnitude();
     if (x.is_zero()) return 0;
-    result = BigInteger::floor_divide(result * x, common_divisor(result, x)).first;
+    evaluator.meter().check_integer(result.bit_length() + x.bit_length());
+    evaluator.meter().work((result.bit_length() / 32 + 1) * (x.bit_length() / 32 + 1));
+    result = BigInteger::floor_divide(result * x, common_divisor(result, x, evaluator.meter())).first;
   }
   return Value::integer(result);
 }
 
-Value isqrt(Evaluator&, const CallArguments& arguments) {
+Value isqrt(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("isqrt", arguments, 1, 1);
   const BigInteger n = integer_argument(arguments[0]);
   if (n.is_negative()) raise(ErrorKind::value, "isqrt() argument must be nonnegative");
@@ -276,6 +301,7 @@ Value isqrt(Evaluator&, const CallArguments& arguments) {
   // Newton's iteration from above decreases until it has passed the root.
   BigInteger x = BigInteger(1).shifted_left((n.bit_length() + 1) / 2);
   while (true) {
+    evaluator.meter().work((n.bit_length() / 32 + 1) * (n.bit_length() / 32 + 1));
     const BigInteger y = (x + BigInteger::floor_divide(n, x).first).shifted_right(1);
     if (y >= x) return Value::integer(x);
     x = y;
@@ -291,7 +317,8 @@ Value isclose(Evaluator&, const CallArguments& arguments) {
   if (a == b) return true;
   if (std::isinf(a) || std::isinf(b)) return false;
   const double scale = std::max(std::abs(a), std::abs(b));
-  const double allowed = std::max((relative != nullptr ? real_argument(*relative) : 1e-9) * scale, absolute != nullptr ? real_argument(*absolute) : 0.0);
+  const double allowed = std::max((relative != nullptr ? real_argument(*relative) : 1e-9) * scale,
+                                  absolute != nullptr ? real_argument(*absolute) : 0.0);
   return std::abs(a - b) <= allowed;
 }
 
@@ -317,25 +344,60 @@ Value modf(Evaluator&, const CallArguments& arguments) {
 }
 
 constexpr std::array functions = {
-    FunctionRow{"sin", unary<std::sin>},     FunctionRow{"cos", unary<std::cos>},     FunctionRow{"tan", unary<std::tan>},
-    FunctionRow{"asin", unary<std::asin>},   FunctionRow{"acos", unary<std::acos>},   FunctionRow{"atan", unary<std::atan>},
-    FunctionRow{"sinh", unary<std::sinh>},   FunctionRow{"cosh", unary<std::cosh>},   FunctionRow{"tanh", unary<std::tanh>},
-    FunctionRow{"asinh", unary<std::asinh>}, FunctionRow{"acosh", unary<std::acosh>}, FunctionRow{"atanh", unary<pole_free_atanh>},
-    FunctionRow{"atan2", binary<std::atan2>}, FunctionRow{"exp", unary<std::exp>},    FunctionRow{"exp2", unary<std::exp2>},
-    FunctionRow{"expm1", unary<std::expm1>}, FunctionRow{"log1p", unary<pole_free_log1p>}, FunctionRow{"log", log},
-    FunctionRow{"log2", log_base<std::log2>}, FunctionRow{"log10", log_base<std::log10>}, FunctionRow{"sqrt", unary<std::sqrt>},
-    FunctionRow{"cbrt", unary<std::cbrt>},   FunctionRow{"fabs", unary<std::fabs>},   FunctionRow{"degrees", unary<degrees>},
-    FunctionRow{"radians", unary<radians>},  FunctionRow{"gamma", unary<gamma_function>}, FunctionRow{"lgamma", unary<log_gamma>},
-    FunctionRow{"erf", unary<std::erf>},     FunctionRow{"erfc", unary<std::erfc>},   FunctionRow{"pow", power_of},
-    FunctionRow{"fmod", fmod},               FunctionRow{"remainder", binary<std::remainder>},
-    FunctionRow{"copysign", binary<std::copysign>}, FunctionRow{"nextafter", binary<std::nextafter>},
-    FunctionRow{"floor", to_integer<std::floor>}, FunctionRow{"ceil", to_integer<std::ceil>}, FunctionRow{"trunc", to_integer<std::trunc>},
-    FunctionRow{"isnan", test<is_nan>},      FunctionRow{"isinf", test<is_infinite>}, FunctionRow{"isfinite", test<is_finite>},
-    FunctionRow{"hypot", hypot},             FunctionRow{"dist", dist},               FunctionRow{"fsum", fsum},
-    FunctionRow{"prod", prod},               FunctionRow{"factorial", factorial},     FunctionRow{"perm", permutations},
-    FunctionRow{"comb", combinations},       FunctionRow{"gcd", gcd},                 FunctionRow{"lcm", lcm},
-    FunctionRow{"isqrt", isqrt},             FunctionRow{"isclose", isclose},         FunctionRow{"frexp", frexp},
-    FunctionRow{"ldexp", ldexp},             FunctionRow{"modf", modf},
+    FunctionRow{"sin", unary<std::sin>},
+    FunctionRow{"cos", unary<std::cos>},
+    FunctionRow{"tan", unary<std::tan>},
+    FunctionRow{"asin", unary<std::asin>},
+    FunctionRow{"acos", unary<std::acos>},
+    FunctionRow{"atan", unary<std::atan>},
+    FunctionRow{"sinh", unary<std::sinh>},
+    FunctionRow{"cosh", unary<std::cosh>},
+    FunctionRow{"tanh", unary<std::tanh>},
+    FunctionRow{"asinh", unary<std::asinh>},
+    FunctionRow{"acosh", unary<std::acosh>},
+    FunctionRow{"atanh", unary<pole_free_atanh>},
+    FunctionRow{"atan2", binary<std::atan2>},
+    FunctionRow{"exp", unary<std::exp>},
+    FunctionRow{"exp2", unary<std::exp2>},
+    FunctionRow{"expm1", unary<std::expm1>},
+    FunctionRow{"log1p", unary<pole_free_log1p>},
+    FunctionRow{"log", log},
+    FunctionRow{"log2", log_base<std::log2>},
+    FunctionRow{"log10", log_base<std::log10>},
+    FunctionRow{"sqrt", unary<std::sqrt>},
+    FunctionRow{"cbrt", unary<std::cbrt>},
+    FunctionRow{"fabs", unary<std::fabs>},
+    FunctionRow{"degrees", unary<degrees>},
+    FunctionRow{"radians", unary<radians>},
+    FunctionRow{"gamma", unary<gamma_function>},
+    FunctionRow{"lgamma", unary<log_gamma>},
+    FunctionRow{"erf", unary<std::erf>},
+    FunctionRow{"erfc", unary<std::erfc>},
+    FunctionRow{"pow", power_of},
+    FunctionRow{"fmod", fmod},
+    FunctionRow{"remainder", binary<std::remainder>},
+    FunctionRow{"copysign", binary<std::copysign>},
+    FunctionRow{"nextafter", binary<std::nextafter>},
+    FunctionRow{"floor", to_integer<std::floor>},
+    FunctionRow{"ceil", to_integer<std::ceil>},
+    FunctionRow{"trunc", to_integer<std::trunc>},
+    FunctionRow{"isnan", test<is_nan>},
+    FunctionRow{"isinf", test<is_infinite>},
+    FunctionRow{"isfinite", test<is_finite>},
+    FunctionRow{"hypot", hypot},
+    FunctionRow{"dist", dist},
+    FunctionRow{"fsum", fsum},
+    FunctionRow{"prod", prod},
+    FunctionRow{"factorial", factorial},
+    FunctionRow{"perm", permutations},
+    FunctionRow{"comb", combinations},
+    FunctionRow{"gcd", gcd},
+    FunctionRow{"lcm", lcm},
+    FunctionRow{"isqrt", isqrt},
+    FunctionRow{"isclose", isclose},
+    FunctionRow{"frexp", frexp},
+    FunctionRow{"ldexp", ldexp},
+    FunctionRow{"modf", modf},
 };
 
 using Names = std::unordered_map<std::string_view, Value>;
@@ -343,7 +405,8 @@ using Names = std::unordered_map<std::string_view, Value>;
 Names make_math() {
   Names names;
   for (const FunctionRow& row : functions) {
-    names.emplace(row.name, Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
+    names.emplace(row.name,
+                  Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
   }
   names.emplace("pi", Value(std::numbers::pi));
   names.emplace("e", Value(std::numbers::e));
@@ -353,9 +416,19 @@ Names make_math() {
   return names;
 }
 
+constexpr std::array<std::string_view, 24> common = {
+    "sin",   "cos",  "tan", "asin", "acos",  "atan", "atan2", "sinh",  "cosh",    "tanh",    "exp",   "log",
+    "log10", "sqrt", "pi",  "ceil", "floor", "fabs", "fmod",  "hypot", "radians", "degrees", "asinh", "acosh"};
+
 }  // namespace
 
-std::span<const FunctionRow> math_functions() { return functions; }
+const Value* common_math_value(std::string_view name) {
+  return std::find(common.begin(), common.end(), name) == common.end() ? nullptr : math_value(name);
+}
+
+std::span<const FunctionRow> math_functions() {
+  return functions;
+}
 
 const Value* math_value(std::string_view name) {
   static const Names names = make_math();

@@ -18,14 +18,16 @@ Value function_value(std::string_view name, Builtin function) {
   return Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(name), function)));
 }
 
-/// code_aster.init(...) is DEBUT(...). What is not a keyword of the command sets up a Python session and means nothing here:
-/// the options of a command line, and `debug`.
+/// code_aster.init(...) is DEBUT(...). What is not a keyword of the command sets up a Python session and means nothing
+/// here: the options of a command line, and `debug`.
 Value initialise(Evaluator& evaluator, const CallArguments& arguments) {
   CallArguments kept;
   kept.span = arguments.span;
   kept.callee_span = arguments.callee_span;
   for (const Value& option : arguments.positional) {
-    if (!option.is_text()) raise(ErrorKind::type, "init takes options in quotes and KEYWORD=value", "as in init(CODE=_F(NIV_PUB_WEB=\"INTERNET\"))");
+    if (!option.is_text())
+      raise(ErrorKind::type, "init takes options in quotes and KEYWORD=value",
+            "as in init(CODE=_F(NIV_PUB_WEB=\"INTERNET\"))");
   }
   for (const auto& item : arguments.named) {
     if (item.name != "debug") kept.named.push_back(item);
@@ -57,8 +59,10 @@ Value path_join(Evaluator&, const CallArguments& arguments) {
   std::string path = path_argument(arguments, 0);
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     const std::string& part = path_argument(arguments, i);
-    if (part.starts_with('/')) path = part;
-    else path += (path.empty() || path.ends_with('/') ? "" : "/") + part;
+    if (part.starts_with('/'))
+      path = part;
+    else
+      path += (path.empty() || path.ends_with('/') ? "" : "/") + part;
   }
   return path;
 }
@@ -162,8 +166,12 @@ Members members_of_sys() {
           {"argv", Value::list({""})}};
 }
 
-Members nothing() { return {}; }
-Members members_of_os() { return {{"sep", Value("/")}, {"linesep", Value("\n")}}; }
+Members nothing() {
+  return {};
+}
+Members members_of_os() {
+  return {{"sep", Value("/")}, {"linesep", Value("\n")}};
+}
 
 struct ModuleRow {
   std::string_view name;
@@ -193,7 +201,8 @@ constexpr std::array modules = {
 }  // namespace
 
 std::shared_ptr<ModuleObject> find_module(const std::string& path) {
-  const auto row = std::find_if(modules.begin(), modules.end(), [&](const ModuleRow& module) { return module.name == path; });
+  const auto row =
+      std::find_if(modules.begin(), modules.end(), [&](const ModuleRow& module) { return module.name == path; });
   if (row == modules.end()) return nullptr;
   auto module = std::make_shared<ModuleObject>();
   module->name = path;

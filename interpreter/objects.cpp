@@ -29,7 +29,8 @@ bool TypeObject::equals(const Object& other) const {
 
 std::int64_t RangeObject::size() const {
   // In unsigned arithmetic, since stop - start may exceed 63 bits.
-  const auto distance = static_cast<std::uint64_t>(step > 0 ? stop : start) - static_cast<std::uint64_t>(step > 0 ? start : stop);
+  const auto distance =
+      static_cast<std::uint64_t>(step > 0 ? stop : start) - static_cast<std::uint64_t>(step > 0 ? start : stop);
   if (step > 0 ? stop <= start : stop >= start) return 0;
   const auto stride = step > 0 ? static_cast<std::uint64_t>(step) : ~static_cast<std::uint64_t>(step) + 1;
   return static_cast<std::int64_t>((distance - 1) / stride + 1);
@@ -116,7 +117,8 @@ Value item_of(const Dict::Entry& entry, DictView::Kind kind) {
 
 Next over_dict(Value owner, const Dict& dict, DictView::Kind kind) {
   return [owner, &dict, kind, size = dict.size(), i = std::size_t{0}]() mutable -> std::optional<Value> {
-    if (dict.size() != size) raise(ErrorKind::runtime, "dictionary changed size during iteration", "loop over list(...) of it");
+    if (dict.size() != size)
+      raise(ErrorKind::runtime, "dictionary changed size during iteration", "loop over list(...) of it");
     while (i < dict.entries().size() && !dict.entries()[i].live) ++i;
     if (i >= dict.entries().size()) return std::nullopt;
     return item_of(dict.entries()[i++], kind);
@@ -143,13 +145,16 @@ std::shared_ptr<Iterator> iterate(const Value& value) {
   if (value.is_dict()) return wrap("dict_keyiterator", over_dict(value, value.as_dict(), DictView::Kind::keys));
   if (value.is_set()) return wrap("set_iterator", over_dict(value, value.as_set(), DictView::Kind::keys));
   if (const auto* range = value.as_object<RangeObject>()) return wrap("range_iterator", over_range(value, *range));
-  if (const auto* view = value.as_object<DictView>()) return wrap("dict_itemiterator", over_dict(value, *view->dict, view->kind));
+  if (const auto* view = value.as_object<DictView>())
+    return wrap("dict_itemiterator", over_dict(value, *view->dict, view->kind));
   if (const auto* array = value.as_object<ArrayObject>()) return wrap("array_iterator", over_sequence(array->rows()));
   if (value.as_object<Iterator>() != nullptr) {
     return std::dynamic_pointer_cast<Iterator>(std::get<std::shared_ptr<Object>>(value.storage()));
   }
   raise(ErrorKind::type, "'" + value.type_name() + "' object is not iterable",
-        value.is_integer() ? "loop over range(...)" : value.is_factor() || value.is_concept() ? "write a tuple, with a comma: (a,)" : "");
+        value.is_integer()                        ? "loop over range(...)"
+        : value.is_factor() || value.is_concept() ? "write a tuple, with a comma: (a,)"
+                                                  : "");
 }
 
 }  // namespace comma::interpreter

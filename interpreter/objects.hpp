@@ -52,7 +52,8 @@ struct BuiltinObject : Object {
 using Method = Value (*)(Evaluator&, const Value& self, const CallArguments&);
 
 struct BoundMethod : Object {
-  BoundMethod(Value object, std::string word, Method code) : self(std::move(object)), name(std::move(word)), method(code) {}
+  BoundMethod(Value object, std::string word, Method code)
+      : self(std::move(object)), name(std::move(word)), method(code) {}
   Value self;
   std::string name;
   Method method;
@@ -73,7 +74,8 @@ struct UnboundMethod : Object {
 
 /// MA.getNumberOfNodes: which methods a concept has is known to its data only.
 struct ConceptMethod : Object {
-  ConceptMethod(ConceptPtr concept_handle, std::string word) : handle(std::move(concept_handle)), name(std::move(word)) {}
+  ConceptMethod(ConceptPtr concept_handle, std::string word)
+      : handle(std::move(concept_handle)), name(std::move(word)) {}
   ConceptPtr handle;
   std::string name;
   std::string type_name() const override { return "method"; }

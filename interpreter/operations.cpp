@@ -16,7 +16,9 @@ namespace {
 
 Value repeat_text(const std::string& text, std::int64_t times, Meter& meter) {
   if (times <= 0 || text.empty()) return "";
-  meter.allocate(static_cast<std::uint64_t>(times) > (1ULL << 40) / text.size() ? 1ULL << 40 : text.size() * static_cast<std::uint64_t>(times));
+  meter.allocate(static_cast<std::uint64_t>(times) > (1ULL << 40) / text.size()
+                     ? 1ULL << 40
+                     : text.size() * static_cast<std::uint64_t>(times));
   std::string out;
   out.reserve(text.size() * static_cast<std::size_t>(times));
   for (std::int64_t i = 0; i < times; ++i) out += text;
@@ -26,8 +28,9 @@ Value repeat_text(const std::string& text, std::int64_t times, Meter& meter) {
 std::vector<Value> repeat_items(std::span<const Value> items, std::int64_t times, Meter& meter) {
   std::vector<Value> out;
   if (times <= 0 || items.empty()) return out;
-  meter.allocate_items(static_cast<std::uint64_t>(times) > (1ULL << 40) / items.size() ? 1ULL << 40
-                                                                                        : items.size() * static_cast<std::uint64_t>(times));
+  meter.allocate_items(static_cast<std::uint64_t>(times) > (1ULL << 40) / items.size()
+                           ? 1ULL << 40
+                           : items.size() * static_cast<std::uint64_t>(times));
   out.reserve(items.size() * static_cast<std::size_t>(times));
   for (std::int64_t i = 0; i < times; ++i) out.insert(out.end(), items.begin(), items.end());
   return out;
@@ -43,7 +46,8 @@ std::vector<Value> concatenate(std::span<const Value> a, std::span<const Value> 
 std::optional<Value> add_sequences(const Value& a, const Value& b, Meter& meter) {
   if (a.is_text()) {
     if (!b.is_text()) {
-      raise(ErrorKind::type, fmt::format("can only concatenate str (not \"{}\") to str", b.type_name()), "convert it with str(...)");
+      raise(ErrorKind::type, fmt::format("can only concatenate str (not \"{}\") to str", b.type_name()),
+            "convert it with str(...)");
     }
     meter.allocate(a.as_text().size() + b.as_text().size());
     return Value(a.as_text() + b.as_text());
@@ -62,7 +66,8 @@ std::optional<Value> multiply_sequence(const Value& sequence, const Value& count
   if (!count.is_bool() && !count.is_integer() && !count.is_big_integer()) {
     raise(ErrorKind::type, "can't multiply sequence by non-int of type '" + count.type_name() + "'");
   }
-  const std::int64_t times = count.is_big_integer() ? (count.as_big_integer().is_negative() ? 0 : std::int64_t{1} << 40) : index_of(count);
+  const std::int64_t times =
+      count.is_big_integer() ? (count.as_big_integer().is_negative() ? 0 : std::int64_t{1} << 40) : index_of(count);
   if (sequence.is_text()) return repeat_text(sequence.as_text(), times, meter);
   auto items = repeat_items(sequence.items(), times, meter);
   return sequence.is_list() ? Value::list(std::move(items)) : Value::tuple(std::move(items));
@@ -105,7 +110,8 @@ Value binary_operation(Operator op, const Value& a, const Value& b, Meter& meter
   if (a.is_unknown() || b.is_unknown()) return Value::unknown();
   if (is_numeric(a) && is_numeric(b)) return number_operation(op, a, b, meter);
   if (a.is_text() && op == Operator::modulo) return Value(format_percent(a.as_text(), b, meter));
-  if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr) return array_operation(op, a, b, meter);
+  if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr)
+    return array_operation(op, a, b, meter);
   if (op == Operator::add) {
     if (auto result = add_sequences(a, b, meter)) return *result;
   }

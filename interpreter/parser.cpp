@@ -12,8 +12,9 @@ namespace comma::interpreter {
 namespace {
 
 /// Words that begin a statement and nothing else, so that a line beginning with one ends what came before.
-constexpr std::array statement_words = {"def", "while", "try", "import", "return", "class", "with", "del", "raise",
-                                        "assert", "global", "pass", "break", "continue", "elif", "except", "finally"};
+constexpr std::array statement_words = {"def",   "while",    "try",   "import", "return", "class",
+                                        "with",  "del",      "raise", "assert", "global", "pass",
+                                        "break", "continue", "elif",  "except", "finally"};
 
 std::size_t skip_word(std::string_view text, std::size_t at) {
   while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_')) ++at;
@@ -42,7 +43,8 @@ std::string_view closing_of(std::string_view opening) {
 
 bool is_operand(const Token& token) {
   if (token.kind == TokenKind::keyword) {
-    return token.text == "None" || token.text == "True" || token.text == "False" || token.text == "lambda" || token.text == "not";
+    return token.text == "None" || token.text == "True" || token.text == "False" || token.text == "lambda" ||
+           token.text == "not";
   }
   return token.kind == TokenKind::name || token.kind == TokenKind::number || token.kind == TokenKind::text ||
          token.kind == TokenKind::formatted_text;
@@ -74,7 +76,10 @@ void Parser::advance() {
     if (now_.text.size() == 1 && (c == '(' || c == '[' || c == '{')) open_brackets_.push_back(now_);
     if ((c == ')' || c == ']' || c == '}') && !open_brackets_.empty()) open_brackets_.pop_back();
   }
-  if (now_.kind == TokenKind::newline) open_brackets_.clear();
+  if (now_.kind == TokenKind::newline) {
+    open_brackets_.clear();
+    broken_ = false;
+  }
   if (now_.end > previous_end_ && now_.kind != TokenKind::newline) previous_end_ = now_.end;
   if (ahead_) {
     now_ = std::move(*ahead_);
@@ -82,6 +87,7 @@ void Parser::advance() {
   } else {
     now_ = lexer_.next();
   }
+  broken_ = broken_ || now_.kind == TokenKind::broken;
 }
 
 const Token& Parser::ahead() {
@@ -112,6 +118,7 @@ void Parser::fail(std::string code, std::string message, Span span, std::string 
 }
 
 void Parser::report(std::string code, std::string message, Span span, std::string hint) {
+  if (broken_) return;
   ++errors_;
   diagnostics_.error(std::move(code), std::move(message), std::move(span), std::move(hint));
 }
@@ -119,28 +126,37 @@ void Parser::report(std::string code, std::string message, Span span, std::strin
 void Parser::fail_here(std::string expected) {
   // What the lexer could not read was reported there.
   if (now_.kind == TokenKind::broken) throw Failure{{}, now_.begin};
-  if (now_.kind == TokenKind::newline) fail("syntax", "the line ends where " + expected + " is expected", span_of(now_));
+  if (now_.kind == TokenKind::newline) {
+    const std::string_view before = file_->text().substr(0, previous_end_);
+    const bool steps = before.ends_with("++") || before.ends_with("--");
+    fail("syntax", "the line ends where " + expected + " is expected", span_of(now_),
+         steps ? "write 'x += 1' or 'x -= 1'" : "");
+  }
   if (now_.kind == TokenKind::end || now_.kind == TokenKind::dedent) {
     fail("syntax", "the text ends where " + expected + " is expected", span_of(now_));
   }
   if (now_.kind == TokenKind::indent) fail("unexpected-indent", "this line is indented without need", span_of(now_));
   if (now_.text == ")" || now_.text == "]" || now_.text == "}") {
     if (open_brackets_.empty()) {
-      fail("unmatched-bracket", fmt::format("no bracket is open that '{}' could close", now_.text), span_of(now_), "remove it");
+      fail("unmatched-bracket", fmt::format("no bracket is open that '{}' could close", now_.text), span_of(now_),
+           "remove it");
     }
   }
   std::string hint;
   if (now_.kind == TokenKind::keyword) hint = fmt::format("'{}' is a reserved word of the language", now_.text);
+  if (now_.text == "&" || now_.text == "|") hint = "the logical operators are 'and' and 'or'";
   if (now_.text == "<>") hint = "different from is written !=";
   fail("syntax", fmt::format("'{}' stands where {} is expected", now_.text, expected), span_of(now_), std::move(hint));
 }
 
 void Parser::expect_closing(std::string_view bracket) {
   if (accept(bracket)) return;
-  if (now_.kind == TokenKind::symbol && (now_.text == ")" || now_.text == "]" || now_.text == "}") && !open_brackets_.empty()) {
+  if (now_.kind == TokenKind::symbol && (now_.text == ")" || now_.text == "]" || now_.text == "}") &&
+      !open_brackets_.empty()) {
     const Token& opening = open_brackets_.back();
     report("unmatched-bracket",
-           fmt::format("'{}' does not close the '{}' of line {}", now_.text, opening.text, file_->position(opening.begin).line),
+           fmt::format("'{}' does not close the '{}' of line {}", now_.text, opening.text,
+                       file_->position(opening.begin).line),
            span_of(now_), fmt::format("write '{}'", bracket));
     advance();
     return;
@@ -191,6 +207,7 @@ void Parser::recover(Failure failure, const Token& start) {
   std::optional<Token> left_open;
   if (!open_brackets_.empty()) left_open = open_brackets_.back();
   bool at_next_statement = false;
+  const bool follows_from_broken = broken_;
   while (now_.kind != TokenKind::newline && now_.kind != TokenKind::end) {
     if (now_.kind == TokenKind::indent || now_.kind == TokenKind::dedent) break;
     if (now_.begin > start.begin && starts_statement(now_)) {
@@ -199,12 +216,14 @@ void Parser::recover(Failure failure, const Token& start) {
     }
     advance();
   }
-  const bool never_closed = left_open && (at_next_statement || now_.kind == TokenKind::end) && now_.begin == failure.token_begin;
+  const bool never_closed =
+      left_open && (at_next_statement || now_.kind == TokenKind::end) && now_.begin == failure.token_begin;
   if (never_closed) {
     failure.finding = {Severity::error, "unclosed-bracket", fmt::format("this '{}' is never closed", left_open->text),
                        fmt::format("add '{}'", closing_of(left_open->text)), span_of(*left_open)};
   }
-  if (!failure.finding.message.empty()) {
+  const bool is_news = !failure.finding.message.empty() && (never_closed || !follows_from_broken);
+  if (is_news) {
     ++errors_;
     diagnostics_.add(std::move(failure.finding));
   }
@@ -247,7 +266,8 @@ void Parser::deepen(Node& node, const Node* child) {
   if (child == nullptr) return;
   node.depth = std::max(node.depth, child->depth + 1);
   if (node.depth > highest_tree) {
-    fail("too-deep", "this expression has too many terms", {file_, node.begin, node.begin + 1}, "build it in several statements");
+    fail("too-deep", "this expression has too many terms", {file_, node.begin, node.begin + 1},
+         "build it in several statements");
   }
 }
 
@@ -256,15 +276,16 @@ Block Parser::parse_file() {
   while (now_.kind != TokenKind::end) {
     parse_statements(block);
     if (errors_ >= most_errors) {
-      diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_), span_of(now_));
+      diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_),
+                         span_of(now_));
       break;
     }
     // Only a dedent that the lexer made of a wrong indentation ends the statements before the file does.
     if (now_.kind != TokenKind::end) advance();
   }
   for (const auto& name : scopes_->unbound_outer()) {
-    report("unknown-name", fmt::format("no function around this one has a variable {}", name.name), {file_, name.begin, name.end},
-           "use 'global' for a variable of the file");
+    report("unknown-name", fmt::format("no function around this one has a variable {}", name.name),
+           {file_, name.begin, name.end}, "use 'global' for a variable of the file");
   }
   return block;
 }
@@ -288,7 +309,8 @@ Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostic
   return ast;
 }
 
-NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics, std::vector<std::string>* names) {
+NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics,
+                         std::vector<std::string>* names) {
   Parser parser(file, diagnostics, true);
   NodePtr expression = parser.parse_only_expression();
   if (expression && names != nullptr) *names = parser.free_names();

@@ -1,5 +1,5 @@
-// From tokens to the tree, by recursive descent. A broken statement is reported once and stepped over; the rest of the file
-// is still read, so that all syntax errors come at once.
+// From tokens to the tree, by recursive descent. A broken statement is reported once and stepped over; the rest of the
+// file is still read, so that all syntax errors come at once.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,14 @@ namespace comma::interpreter {
 /// Reads a whole file. Errors go to `diagnostics`; the tree then holds the sound statements only.
 Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics);
 
-/// Reads a text that is one expression, line breaks counting as blanks; null when it is none. `names` gets its free names in
-/// the order of use, repeated ones repeated.
-NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics, std::vector<std::string>* names = nullptr);
+/// Reads a text that is one expression, line breaks counting as blanks; null when it is none. `names` gets its free
+/// names in the order of use, repeated ones repeated.
+NodePtr parse_expression(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics,
+                         std::vector<std::string>* names = nullptr);
 
-/// Brackets, blocks and operators within each other: Python allows 200 brackets and 100 blocks.
-inline constexpr int deepest_nesting = 200;
+/// Brackets and operators within each other (a bracket with an expression in it counts twice), and blocks: as deep as
+/// Python.
+inline constexpr int deepest_nesting = 400;
 inline constexpr int deepest_block = 100;
 /// The height of an expression's tree (a + b + c + ... is as high as it is long), which bounds the evaluator's stack.
 inline constexpr int highest_tree = 2000;
@@ -153,6 +155,7 @@ class Parser {
   int blocks_ = 0;
   int loops_ = 0;
   bool orphan_ = false;  ///< inside the block of a broken header: what it needs around it may be missing
+  bool broken_ = false;  ///< the statement has a token that the lexer has reported: what follows from it is no news
   int errors_ = 0;
 };
 

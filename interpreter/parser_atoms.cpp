@@ -17,9 +17,11 @@ NodePtr Parser::parse_name() {
 NodePtr Parser::parse_atom() {
   const std::uint32_t begin = now_.begin;
   switch (now_.kind) {
-    case TokenKind::name: return parse_name();
+    case TokenKind::name:
+      return parse_name();
     case TokenKind::text:
-    case TokenKind::formatted_text: return parse_texts();
+    case TokenKind::formatted_text:
+      return parse_texts();
     case TokenKind::number: {
       auto node = std::make_unique<ConstantNode>(now_.value, begin, now_.end);
       advance();
@@ -30,13 +32,15 @@ NodePtr Parser::parse_atom() {
       advance();
       return node;
     }
-    default: break;
+    default:
+      break;
   }
   if (at("(")) return parse_parenthesised();
   if (at("[")) return parse_list_display();
   if (at("{")) return parse_brace_display();
   if (at("None") || at("True") || at("False") || at("...")) {
-    if (at("...")) fail("not-supported", "'...' is not part of the command language", span_of(now_), "write pass or None");
+    if (at("..."))
+      fail("not-supported", "'...' is not part of the command language", span_of(now_), "write pass or None");
     auto node = std::make_unique<ConstantNode>(at("None") ? Value() : Value(at("True")), begin, now_.end);
     advance();
     return node;
@@ -54,12 +58,14 @@ NodePtr Parser::parse_parenthesised() {
   if (!at(")")) {
     NodePtr first = parse_item();
     if (at("for")) {
-      NodePtr generator = parse_comprehension(ComprehensionNode::Kind::generator, std::move(first), nullptr, mark, begin);
+      NodePtr generator =
+          parse_comprehension(ComprehensionNode::Kind::generator, std::move(first), nullptr, mark, begin);
       expect_closing(")");
       generator->end = previous_end_;
       return generator;
     }
-    if (at(":=")) fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
+    if (at(":="))
+      fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
     if (at(")") && first->kind != NodeKind::starred) {
       advance();
       first->parenthesised = true;
@@ -116,7 +122,8 @@ NodePtr Parser::parse_brace_display() {
     advance();
     NodePtr value = parse_expression();
     if (at("for")) {
-      NodePtr node = parse_comprehension(ComprehensionNode::Kind::dict, std::move(first), std::move(value), mark, begin);
+      NodePtr node =
+          parse_comprehension(ComprehensionNode::Kind::dict, std::move(first), std::move(value), mark, begin);
       expect_closing("}");
       node->end = previous_end_;
       return node;
@@ -309,8 +316,10 @@ std::uint32_t field_end(std::string_view text, std::uint32_t begin, std::uint32_
     } else if (c == '!' && following != '=') {
       return i;
     } else if (c == '=' || c == '!' || c == '<' || c == '>') {
-      if (following == '=') ++i;
-      else if (c == '=') return i;
+      if (following == '=')
+        ++i;
+      else if (c == '=')
+        return i;
     }
   }
   return end;
@@ -321,12 +330,15 @@ std::uint32_t field_end(std::string_view text, std::uint32_t begin, std::uint32_
 /// A replacement field from behind its '{'; returns the place behind its '}'.
 std::uint32_t Parser::parse_field(FormattedNode& node, std::uint32_t begin, std::uint32_t end, bool raw, int level) {
   const Nesting nesting(*this);
-  if (level > 1) fail("syntax", "fields of an f-string are nested too deeply", {file_, begin - 1, begin}, "compute the format before");
+  if (level > 1)
+    fail("syntax", "fields of an f-string are nested too deeply", {file_, begin - 1, begin},
+         "compute the format before");
   const std::string_view text = file_->text();
   std::uint32_t at = field_end(text, begin, end);
   const std::string_view written = text.substr(begin, at - begin);
   if (written.find_first_not_of(" \t\r\n") == written.npos) {
-    fail("syntax", "a field of this f-string is empty", {file_, begin - 1, std::min(at + 1, end)}, "write '{{' for the character itself");
+    fail("syntax", "a field of this f-string is empty", {file_, begin - 1, std::min(at + 1, end)},
+         "write '{{' for the character itself");
   }
   FormattedNode::Piece& piece = node.pieces.back();
   Parser inner(*this, begin, at);
@@ -361,7 +373,8 @@ std::uint32_t Parser::parse_field(FormattedNode& node, std::uint32_t begin, std:
   } else if (shows_source && piece.conversion == 0) {
     piece.conversion = 'r';
   }
-  if (at >= end || text[at] != '}') fail("syntax", "a field of this f-string is not closed", {file_, begin - 1, begin}, "add '}'");
+  if (at >= end || text[at] != '}')
+    fail("syntax", "a field of this f-string is not closed", {file_, begin - 1, begin}, "add '}'");
   return at + 1;
 }
 

@@ -17,12 +17,12 @@ struct BinaryRow {
 };
 
 constexpr std::array binary_rows = {
-    BinaryRow{"|", 1, Operator::bit_or},        BinaryRow{"^", 2, Operator::bit_xor},
-    BinaryRow{"&", 3, Operator::bit_and},       BinaryRow{"<<", 4, Operator::left_shift},
-    BinaryRow{">>", 4, Operator::right_shift},  BinaryRow{"+", 5, Operator::add},
-    BinaryRow{"-", 5, Operator::subtract},      BinaryRow{"*", 6, Operator::multiply},
-    BinaryRow{"/", 6, Operator::divide},        BinaryRow{"//", 6, Operator::floor_divide},
-    BinaryRow{"%", 6, Operator::modulo},        BinaryRow{"@", 6, Operator::matrix_multiply},
+    BinaryRow{"|", 1, Operator::bit_or},       BinaryRow{"^", 2, Operator::bit_xor},
+    BinaryRow{"&", 3, Operator::bit_and},      BinaryRow{"<<", 4, Operator::left_shift},
+    BinaryRow{">>", 4, Operator::right_shift}, BinaryRow{"+", 5, Operator::add},
+    BinaryRow{"-", 5, Operator::subtract},     BinaryRow{"*", 6, Operator::multiply},
+    BinaryRow{"/", 6, Operator::divide},       BinaryRow{"//", 6, Operator::floor_divide},
+    BinaryRow{"%", 6, Operator::modulo},       BinaryRow{"@", 6, Operator::matrix_multiply},
 };
 
 const BinaryRow* binary_row(const Token& token) {
@@ -36,8 +36,9 @@ const BinaryRow* binary_row(const Token& token) {
 }  // namespace
 
 std::string_view symbol_of(Operator op) {
-  static constexpr std::string_view symbols[] = {"+", "-", "*", "/", "//", "%", "**", "@", "<<", ">>", "&", "|", "^", "+",
-                                                 "-", "~", "not", "<", "<=", ">", ">=", "==", "!=", "in", "not in", "is", "is not"};
+  static constexpr std::string_view symbols[] = {"+",  "-", "*",  "/",  "//", "%",  "**",     "@",   "<<",
+                                                 ">>", "&", "|",  "^",  "+",  "-",  "~",      "not", "<",
+                                                 "<=", ">", ">=", "==", "!=", "in", "not in", "is",  "is not"};
   return symbols[static_cast<std::size_t>(op)];
 }
 
@@ -46,7 +47,8 @@ NodePtr Parser::parse_expression_list() {
   const std::uint32_t begin = now_.begin;
   NodePtr first = parse_item();
   if (!at(",")) {
-    if (first->kind == NodeKind::starred && !at("=")) fail("syntax", "a starred expression stands alone", span_of(*first), "write '*name,'");
+    if (first->kind == NodeKind::starred && !at("="))
+      fail("syntax", "a starred expression stands alone", span_of(*first), "write '*name,'");
     return first;
   }
   auto tuple = std::make_unique<SequenceNode>(NodeKind::tuple, begin, begin);
@@ -135,11 +137,11 @@ NodePtr Parser::parse_not() {
 
 std::optional<Operator> Parser::comparison_operator() {
   static constexpr std::array<std::pair<std::string_view, Operator>, 6> rows = {{{"<", Operator::less},
-                                                                               {"<=", Operator::less_equal},
-                                                                               {">", Operator::greater},
-                                                                               {">=", Operator::greater_equal},
-                                                                               {"==", Operator::equal},
-                                                                               {"!=", Operator::not_equal}}};
+                                                                                 {"<=", Operator::less_equal},
+                                                                                 {">", Operator::greater},
+                                                                                 {">=", Operator::greater_equal},
+                                                                                 {"==", Operator::equal},
+                                                                                 {"!=", Operator::not_equal}}};
   for (const auto& [symbol, op] : rows) {
     if (accept(symbol)) return op;
   }
@@ -279,11 +281,13 @@ void Parser::parse_argument(CallNode& call) {
       const std::uint32_t begin = item.value->begin;
       item.value = parse_comprehension(ComprehensionNode::Kind::generator, std::move(item.value), nullptr, mark, begin);
     } else if (at("=")) {
-      fail("syntax", "the name of a keyword is a plain word", span_of(*item.value), "write NAME=value, or '==' to compare");
+      fail("syntax", "the name of a keyword is a plain word", span_of(*item.value),
+           "write NAME=value, or '==' to compare");
     } else if (at(":=")) {
       fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
     } else if (!call.arguments.empty() && call.arguments.back().kind >= CallNode::Kind::keyword) {
-      report("syntax", "an argument without keyword follows one with a keyword", span_of(*item.value), "write KEYWORD=value");
+      report("syntax", "an argument without keyword follows one with a keyword", span_of(*item.value),
+             "write KEYWORD=value");
     }
   }
   call.arguments.push_back(std::move(item));

@@ -11,15 +11,25 @@ namespace {
 
 std::string_view kind_in_words(const Node& node) {
   switch (node.kind) {
-    case NodeKind::constant: return "a constant";
-    case NodeKind::call: return "a call";
-    case NodeKind::compare: return "a comparison";
-    case NodeKind::lambda: return "a lambda";
-    case NodeKind::comprehension: return "a comprehension";
-    case NodeKind::conditional: return "a conditional expression";
-    case NodeKind::formatted: return "an f-string";
-    case NodeKind::dict: case NodeKind::set: return "a display in braces";
-    default: return "an expression";
+    case NodeKind::constant:
+      return "a constant";
+    case NodeKind::call:
+      return "a call";
+    case NodeKind::compare:
+      return "a comparison";
+    case NodeKind::lambda:
+      return "a lambda";
+    case NodeKind::comprehension:
+      return "a comprehension";
+    case NodeKind::conditional:
+      return "a conditional expression";
+    case NodeKind::formatted:
+      return "an f-string";
+    case NodeKind::dict:
+    case NodeKind::set:
+      return "a display in braces";
+    default:
+      return "an expression";
   }
 }
 
@@ -28,15 +38,20 @@ std::string_view kind_in_words(const Node& node) {
 /// Marks the names of a target as bound here; anything that cannot be assigned to is an error.
 void Parser::bind_target(Node& target) {
   switch (target.kind) {
-    case NodeKind::name: return scopes_->bind(static_cast<NameNode&>(target));
+    case NodeKind::name:
+      return scopes_->bind(static_cast<NameNode&>(target));
     case NodeKind::attribute:
-    case NodeKind::subscript: return;
+    case NodeKind::subscript:
+      return;
     case NodeKind::tuple:
-    case NodeKind::list: return bind_targets(static_cast<SequenceNode&>(target).items, target);
-    case NodeKind::broken: return;
+    case NodeKind::list:
+      return bind_targets(static_cast<SequenceNode&>(target).items, target);
+    case NodeKind::broken:
+      return;
     case NodeKind::starred:
       fail("invalid-target", "a starred target stands alone", span_of(target), "write '*name,' or leave out the star");
-    default: break;
+    default:
+      break;
   }
   const bool compares = target.kind == NodeKind::compare || at("=");
   fail("invalid-target", fmt::format("nothing can be assigned to {}", kind_in_words(target)), span_of(target),
@@ -70,7 +85,8 @@ void Parser::parse_parameter(Signature& signature, Parameter::Kind kind, bool an
   parameter.kind = kind;
   for (const Parameter& other : signature.parameters) {
     if (other.name == parameter.name) {
-      report("repeated-name", fmt::format("two parameters are called {}", parameter.name), span_of(now_), "rename one of them");
+      report("repeated-name", fmt::format("two parameters are called {}", parameter.name), span_of(now_),
+             "rename one of them");
     }
   }
   const Span place = span_of(now_);
@@ -100,7 +116,8 @@ Parser::Signature Parser::parse_parameters(std::string_view closing, bool annota
     } else if (accept("**")) {
       parse_parameter(signature, Parameter::Kind::keywords, annotations);
     } else if (at("*")) {
-      if (kind == Parameter::Kind::keyword_only) fail("syntax", "a second '*' among the parameters", span_of(now_), "remove it");
+      if (kind == Parameter::Kind::keyword_only)
+        fail("syntax", "a second '*' among the parameters", span_of(now_), "remove it");
       advance();
       if (!at(",")) parse_parameter(signature, Parameter::Kind::rest, annotations);
       kind = Parameter::Kind::keyword_only;

@@ -48,13 +48,15 @@ StatementPtr Parser::parse_import_from() {
   advance();
   statement->module_begin = now_.begin;
   if (at(".") || at("...")) {
-    fail("unknown-module", "relative imports are not part of the command language", span_of(now_), "name the module in full");
+    fail("unknown-module", "relative imports are not part of the command language", span_of(now_),
+         "name the module in full");
   }
   statement->module = parse_dotted_name();
   statement->module_end = previous_end_;
   if (!accept("import")) fail_here("'import'");
   if (at("*")) {
-    if (scopes_->in_function()) fail("syntax", "'import *' stands inside a function", span_of(now_), "move it to the top of the file");
+    if (scopes_->in_function())
+      fail("syntax", "'import *' stands inside a function", span_of(now_), "move it to the top of the file");
     statement->items.emplace_back().begin = now_.begin;
     statement->items.back().end = now_.end;
     advance();

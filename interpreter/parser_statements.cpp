@@ -14,7 +14,8 @@ struct Unsupported {
 };
 
 constexpr std::array unsupported = {
-    Unsupported{"with", "'with' is not part of the command language", "files are declared in the .export and read by commands"},
+    Unsupported{"with", "'with' is not part of the command language",
+                "files are declared in the .export and read by commands"},
     Unsupported{"class", "classes cannot be defined in a command file", "use functions, tuples and dicts"},
     Unsupported{"async", "'async' is not part of the command language", "a command file runs from top to bottom"},
     Unsupported{"await", "'await' is not part of the command language", "a command file runs from top to bottom"},
@@ -140,8 +141,8 @@ Block Parser::parse_block(std::string_view after, std::uint32_t header_begin) {
   }
   advance();
   if (now_.kind != TokenKind::indent) {
-    report("missing-block", fmt::format("an indented block is missing after {}", after), {file_, header_begin, previous_end_},
-           "indent the lines that belong to it, or write 'pass'");
+    report("missing-block", fmt::format("an indented block is missing after {}", after),
+           {file_, header_begin, previous_end_}, "indent the lines that belong to it, or write 'pass'");
     return block;
   }
   if (++blocks_ > deepest_block) fail("too-deep", "blocks are nested too deeply", span_of(now_), "use functions");
@@ -222,7 +223,8 @@ StatementPtr Parser::parse_try() {
   while (at("except")) {
     const Span place = span_of(now_);
     const bool caught_all = !statement->handlers.empty() && statement->handlers.back().type == nullptr;
-    if (caught_all) report("syntax", "an 'except' follows the one that catches everything", place, "put the bare 'except:' last");
+    if (caught_all)
+      report("syntax", "an 'except' follows the one that catches everything", place, "put the bare 'except:' last");
     statement->handlers.push_back(parse_handler());
   }
   const auto parse_part = [&](std::string_view word, Block& block) {
@@ -248,7 +250,8 @@ TryStatement::Handler Parser::parse_handler() {
   advance();
   if (!at(":") && now_.kind != TokenKind::newline) {
     handler.type = parse_expression();
-    if (at(",")) fail("syntax", "the name of the exception stands after 'as'", span_of(now_), "write 'except TYPE as NAME:'");
+    if (at(","))
+      fail("syntax", "the name of the exception stands after 'as'", span_of(now_), "write 'except TYPE as NAME:'");
     if (accept("as")) {
       if (now_.kind != TokenKind::name) fail_here("a name");
       handler.name = parse_name();
@@ -263,10 +266,12 @@ TryStatement::Handler Parser::parse_handler() {
 StatementPtr Parser::parse_return() {
   auto statement = std::make_unique<ValueStatement>(StatementKind::return_, now_.begin, now_.end);
   if (!scopes_->in_function() && !orphan_) {
-    report("misplaced-statement", "'return' stands outside a function", span_of(now_), "remove it, or put it into a 'def'");
+    report("misplaced-statement", "'return' stands outside a function", span_of(now_),
+           "remove it, or put it into a 'def'");
   }
   advance();
-  if (now_.kind != TokenKind::newline && now_.kind != TokenKind::end && !at(";")) statement->value = parse_expression_list();
+  if (now_.kind != TokenKind::newline && now_.kind != TokenKind::end && !at(";"))
+    statement->value = parse_expression_list();
   statement->end = previous_end_;
   return statement;
 }
@@ -297,7 +302,8 @@ StatementPtr Parser::parse_loop_exit() {
     report("misplaced-statement", fmt::format("'{}' stands outside a loop", now_.text), span_of(now_),
            "it belongs into a 'for' or a 'while'");
   }
-  auto statement = std::make_unique<PlainStatement>(leaves ? StatementKind::break_ : StatementKind::continue_, now_.begin, now_.end);
+  auto statement =
+      std::make_unique<PlainStatement>(leaves ? StatementKind::break_ : StatementKind::continue_, now_.begin, now_.end);
   advance();
   return statement;
 }
@@ -316,16 +322,26 @@ StatementPtr Parser::parse_expression_statement() {
   NodePtr first = parse_expression_list();
   if (at("=")) return parse_assignment(std::move(first));
   if (at(":")) return parse_annotated(std::move(first));
-  static constexpr std::array<std::pair<std::string_view, Operator>, 13> augmented = {{
-      {"+=", Operator::add}, {"-=", Operator::subtract}, {"*=", Operator::multiply}, {"/=", Operator::divide},
-      {"//=", Operator::floor_divide}, {"%=", Operator::modulo}, {"**=", Operator::power}, {"<<=", Operator::left_shift},
-      {">>=", Operator::right_shift}, {"&=", Operator::bit_and}, {"|=", Operator::bit_or}, {"^=", Operator::bit_xor},
-      {"@=", Operator::matrix_multiply}}};
+  static constexpr std::array<std::pair<std::string_view, Operator>, 13> augmented = {
+      {{"+=", Operator::add},
+       {"-=", Operator::subtract},
+       {"*=", Operator::multiply},
+       {"/=", Operator::divide},
+       {"//=", Operator::floor_divide},
+       {"%=", Operator::modulo},
+       {"**=", Operator::power},
+       {"<<=", Operator::left_shift},
+       {">>=", Operator::right_shift},
+       {"&=", Operator::bit_and},
+       {"|=", Operator::bit_or},
+       {"^=", Operator::bit_xor},
+       {"@=", Operator::matrix_multiply}}};
   for (const auto& [symbol, op] : augmented) {
     if (!at(symbol)) continue;
     auto statement = std::make_unique<AugmentedStatement>(StatementKind::augmented, begin, now_.end);
     if (first->kind != NodeKind::name && first->kind != NodeKind::subscript && first->kind != NodeKind::attribute) {
-      fail("invalid-target", fmt::format("'{}' needs one variable on its left", symbol), span_of(*first), "write it out: a = a + b");
+      fail("invalid-target", fmt::format("'{}' needs one variable on its left", symbol), span_of(*first),
+           "write it out: a = a + b");
     }
     bind_target(*first);
     advance();
@@ -335,7 +351,8 @@ StatementPtr Parser::parse_expression_statement() {
     statement->end = previous_end_;
     return statement;
   }
-  if (at(":=")) fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
+  if (at(":="))
+    fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
   auto statement = std::make_unique<ValueStatement>(StatementKind::expression, begin, previous_end_);
   statement->value = std::move(first);
   return statement;

@@ -1,5 +1,5 @@
-// Which variable a name means. Python decides this before a function runs: a name that is bound anywhere in a function is
-// local to it everywhere; other names are looked for in the functions around it, then among the globals.
+// Which variable a name means. Python decides this before a function runs: a name that is bound anywhere in a function
+// is local to it everywhere; other names are looked for in the functions around it, then among the globals.
 #pragma once
 
 #include <functional>

@@ -9,15 +9,24 @@ using Names = std::vector<const NameNode*>;
 void add_target(const Node* target, Names& names) {
   if (target == nullptr) return;
   switch (target->kind) {
-    case NodeKind::name: names.push_back(static_cast<const NameNode*>(target)); break;
-    case NodeKind::subscript: add_target(static_cast<const SubscriptNode*>(target)->object.get(), names); break;
-    case NodeKind::attribute: add_target(static_cast<const AttributeNode*>(target)->object.get(), names); break;
-    case NodeKind::starred: add_target(static_cast<const StarredNode*>(target)->value.get(), names); break;
+    case NodeKind::name:
+      names.push_back(static_cast<const NameNode*>(target));
+      break;
+    case NodeKind::subscript:
+      add_target(static_cast<const SubscriptNode*>(target)->object.get(), names);
+      break;
+    case NodeKind::attribute:
+      add_target(static_cast<const AttributeNode*>(target)->object.get(), names);
+      break;
+    case NodeKind::starred:
+      add_target(static_cast<const StarredNode*>(target)->value.get(), names);
+      break;
     case NodeKind::tuple:
     case NodeKind::list:
       for (const NodePtr& item : static_cast<const SequenceNode*>(target)->items) add_target(item.get(), names);
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -58,24 +67,35 @@ void for_each_block(const Statement& statement, Visit visit) {
       visit(node.finally, false);
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 
 void collect(const Statement& statement, Names& names) {
   switch (statement.kind) {
     case StatementKind::assign:
-      for (const NodePtr& target : static_cast<const AssignStatement&>(statement).targets) add_target(target.get(), names);
+      for (const NodePtr& target : static_cast<const AssignStatement&>(statement).targets)
+        add_target(target.get(), names);
       break;
-    case StatementKind::augmented: add_target(static_cast<const AugmentedStatement&>(statement).target.get(), names); break;
-    case StatementKind::for_: add_target(static_cast<const ForStatement&>(statement).target.get(), names); break;
-    case StatementKind::function: add_target(static_cast<const FunctionStatement&>(statement).name.get(), names); break;
-    case StatementKind::expression: add_changed_object(*static_cast<const ValueStatement&>(statement).value, names); break;
+    case StatementKind::augmented:
+      add_target(static_cast<const AugmentedStatement&>(statement).target.get(), names);
+      break;
+    case StatementKind::for_:
+      add_target(static_cast<const ForStatement&>(statement).target.get(), names);
+      break;
+    case StatementKind::function:
+      add_target(static_cast<const FunctionStatement&>(statement).name.get(), names);
+      break;
+    case StatementKind::expression:
+      add_changed_object(*static_cast<const ValueStatement&>(statement).value, names);
+      break;
     case StatementKind::import:
     case StatementKind::import_from:
       for (const auto& item : static_cast<const ImportStatement&>(statement).items) add_target(item.name.get(), names);
       break;
-    default: break;
+    default:
+      break;
   }
   for_each_block(statement, [&](const Block& block, bool) {
     for (const StatementPtr& inner : block) collect(*inner, names);
@@ -84,7 +104,8 @@ void collect(const Statement& statement, Names& names) {
 
 void collect(const Statement& statement, bool in_loop, Exits& exits) {
   if (statement.kind == StatementKind::return_) exits.returns = true;
-  if (!in_loop && (statement.kind == StatementKind::break_ || statement.kind == StatementKind::continue_)) exits.leaves_loop = true;
+  if (!in_loop && (statement.kind == StatementKind::break_ || statement.kind == StatementKind::continue_))
+    exits.leaves_loop = true;
   for_each_block(statement, [&](const Block& block, bool loop) {
     for (const StatementPtr& inner : block) collect(*inner, in_loop || loop, exits);
   });

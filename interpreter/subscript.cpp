@@ -20,19 +20,22 @@ std::string_view word_for(const Value& value) {
 
 std::int64_t checked_index(const Value& object, const Value& index, std::int64_t length, std::string_view action = "") {
   if (!integer_of(index)) {
-    raise(ErrorKind::type, fmt::format("{} indices must be integers or slices, not {}", word_for(object), index.type_name()),
+    raise(ErrorKind::type,
+          fmt::format("{} indices must be integers or slices, not {}", word_for(object), index.type_name()),
           index.is_real() ? "divide with // or convert with int(...)" : "");
   }
   const std::int64_t wanted = index.is_big_integer() ? length : index_of(index);
   const std::int64_t place = wanted < 0 ? wanted + length : wanted;
   if (place < 0 || place >= length) {
-    raise(ErrorKind::index, fmt::format("{}{} index out of range", word_for(object), action),
-          length == 0 ? "it is empty" : fmt::format("it has {} items: the indices go from 0 to {}", length, length - 1));
+    raise(
+        ErrorKind::index, fmt::format("{}{} index out of range", word_for(object), action),
+        length == 0 ? "it is empty" : fmt::format("it has {} items: the indices go from 0 to {}", length, length - 1));
   }
   return place;
 }
 
-std::int64_t clamp_bound(const Value& bound, std::int64_t length, std::int64_t fallback, std::int64_t lowest, std::int64_t highest) {
+std::int64_t clamp_bound(const Value& bound, std::int64_t length, std::int64_t fallback, std::int64_t lowest,
+                         std::int64_t highest) {
   if (bound.is_none()) return fallback;
   const auto number = integer_of(bound);
   if (!number) raise(ErrorKind::type, "slice indices must be integers or None or have an __index__ method");
@@ -46,7 +49,8 @@ Value text_slice(const std::string& text, const SliceObject& slice) {
   const auto points = decode_utf8(text);
   const SliceRange range = resolve_slice(slice, static_cast<std::int64_t>(points.size()));
   std::string out;
-  for (std::int64_t i = 0; i < range.count; ++i) append_utf8(out, points[static_cast<std::size_t>(range.start + i * range.step)]);
+  for (std::int64_t i = 0; i < range.count; ++i)
+    append_utf8(out, points[static_cast<std::size_t>(range.start + i * range.step)]);
   return out;
 }
 
@@ -56,18 +60,21 @@ Value sequence_slice(const Value& sequence, const SliceObject& slice, Meter& met
   meter.allocate_items(static_cast<std::uint64_t>(range.count));
   std::vector<Value> out;
   out.reserve(static_cast<std::size_t>(range.count));
-  for (std::int64_t i = 0; i < range.count; ++i) out.push_back(items[static_cast<std::size_t>(range.start + i * range.step)]);
+  for (std::int64_t i = 0; i < range.count; ++i)
+    out.push_back(items[static_cast<std::size_t>(range.start + i * range.step)]);
   return sequence.is_list() ? Value::list(std::move(out)) : Value::tuple(std::move(out));
 }
 
 Value text_item(const Value& object, const Value& index) {
   const std::string& text = object.as_text();
   if (is_ascii(text)) {
-    return std::string(1, text[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(text.size())))]);
+    return std::string(
+        1, text[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(text.size())))]);
   }
   const auto points = decode_utf8(text);
   std::string out;
-  append_utf8(out, points[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(points.size())))]);
+  append_utf8(out,
+              points[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(points.size())))]);
   return out;
 }
 
@@ -79,7 +86,8 @@ Value factor_item(const Factor& factor, const Value& index) {
   }
   auto error = make_exception(ErrorKind::key, "");
   error->arguments = {index};
-  if (const std::string near = index.is_text() ? nearest(index.as_text(), names) : ""; !near.empty()) error->hint = "did you mean " + near + "?";
+  if (const std::string near = index.is_text() ? nearest(index.as_text(), names) : ""; !near.empty())
+    error->hint = "did you mean " + near + "?";
   throw RaisedError(std::move(error));
 }
 
@@ -92,7 +100,8 @@ Value dict_item(const Dict& dict, const Value& index) {
     for (const Value& key : dict.keys()) {
       if (key.is_text()) names.push_back(key.as_text());
     }
-    if (const std::string near = nearest(index.as_text(), names); !near.empty()) error->hint = fmt::format("did you mean '{}'?", near);
+    if (const std::string near = nearest(index.as_text(), names); !near.empty())
+      error->hint = fmt::format("did you mean '{}'?", near);
   }
   throw RaisedError(std::move(error));
 }
@@ -108,9 +117,11 @@ void store_slice(std::vector<Value>& items, const SliceObject& slice, const Valu
     return;
   }
   if (static_cast<std::int64_t>(fresh.size()) != range.count) {
-    raise(ErrorKind::value, fmt::format("attempt to assign sequence of size {} to extended slice of size {}", fresh.size(), range.count));
+    raise(ErrorKind::value,
+          fmt::format("attempt to assign sequence of size {} to extended slice of size {}", fresh.size(), range.count));
   }
-  for (std::int64_t i = 0; i < range.count; ++i) items[static_cast<std::size_t>(range.start + i * range.step)] = fresh[static_cast<std::size_t>(i)];
+  for (std::int64_t i = 0; i < range.count; ++i)
+    items[static_cast<std::size_t>(range.start + i * range.step)] = fresh[static_cast<std::size_t>(i)];
 }
 
 }  // namespace
@@ -121,7 +132,9 @@ SliceRange resolve_slice(const SliceObject& slice, std::int64_t length) {
     const auto number = integer_of(slice.step);
     if (!number) raise(ErrorKind::type, "slice indices must be integers or None or have an __index__ method");
     const std::int64_t largest = std::int64_t{1} << 40;
-    step = number->fits_int64() ? std::clamp(number->to_int64(), -largest, largest) : number->is_negative() ? -largest : largest;
+    step = number->fits_int64()    ? std::clamp(number->to_int64(), -largest, largest)
+           : number->is_negative() ? -largest
+                                   : largest;
   }
   if (step == 0) raise(ErrorKind::value, "slice step cannot be zero");
   SliceRange range{0, step, 0};
@@ -169,7 +182,8 @@ void store_subscript(const Value& object, const Value& index, const Value& value
   if (object.is_list()) {
     std::vector<Value>& items = object.as_list();
     if (const auto* slice = index.as_object<SliceObject>()) return store_slice(items, *slice, value, meter);
-    items[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(items.size()), " assignment"))] = value;
+    items[static_cast<std::size_t>(
+        checked_index(object, index, static_cast<std::int64_t>(items.size()), " assignment"))] = value;
     return;
   }
   if (auto* array = object.as_object<ArrayObject>()) return array_store(*array, index, value);
@@ -183,7 +197,8 @@ void delete_subscript(const Value& object, const Value& index) {
     if (object.as_dict().erase(index)) return;
     dict_item(object.as_dict(), index);
   }
-  if (!object.is_list()) raise(ErrorKind::type, fmt::format("'{}' object doesn't support item deletion", object.type_name()));
+  if (!object.is_list())
+    raise(ErrorKind::type, fmt::format("'{}' object doesn't support item deletion", object.type_name()));
   std::vector<Value>& items = object.as_list();
   const auto* slice = index.as_object<SliceObject>();
   if (slice == nullptr) {

@@ -29,7 +29,7 @@ struct Token {
   std::string_view text;  ///< as written
   Value value;            ///< of a number or a text
   bool starts_line = false;
-  int column = 0;         ///< indentation of its line, tabs counted to multiples of 8
+  int column = 0;  ///< indentation of its line, tabs counted to multiples of 8
 };
 
 }  // namespace comma::interpreter

@@ -6,7 +6,9 @@ namespace comma::interpreter {
 
 namespace {
 
-bool is_continuation(unsigned char c) { return (c & 0xC0) == 0x80; }
+bool is_continuation(unsigned char c) {
+  return (c & 0xC0) == 0x80;
+}
 
 std::size_t length_of_lead(unsigned char c) {
   if (c < 0x80) return 1;
@@ -87,6 +89,10 @@ std::string encode_utf8(const std::vector<char32_t>& points) {
   std::string text;
   for (char32_t point : points) append_utf8(text, point);
   return text;
+}
+
+bool is_blank_character(char32_t c) {
+  return c == ' ' || (c >= 9 && c <= 13) || (c >= 0x1C && c <= 0x1F) || c == 0x85 || c == 0xA0;
 }
 
 }  // namespace comma::interpreter

@@ -20,4 +20,7 @@ std::string encode_utf8(const std::vector<char32_t>& code_points);
 /// The character that starts at `offset`, and its length in bytes.
 char32_t code_point_at(std::string_view text, std::size_t offset, std::size_t& length);
 
+/// White space as str.split() and str.strip() understand it.
+bool is_blank_character(char32_t c);
+
 }  // namespace comma::interpreter

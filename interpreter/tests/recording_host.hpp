@@ -23,13 +23,16 @@ class RecordingHost : public CommandHost {
   /// What concepts contain once forced.
   std::shared_ptr<ConceptData> data;
 
-  bool is_command(std::string_view name) const override { return std::find(names.begin(), names.end(), name) != names.end(); }
+  bool is_command(std::string_view name) const override {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
   std::vector<std::string> command_names() const override { return names; }
 
   Value call(const CommandCall& call, bool run_now) override {
     calls.push_back(call);
     eager.push_back(run_now);
-    if (call.name == "STAT_NON_LINE" && !failure.empty() && run_now) throw DiagnosticError(failure, "step 3 does not converge", call.span);
+    if (call.name == "STAT_NON_LINE" && !failure.empty() && run_now)
+      throw DiagnosticError(failure, "step 3 does not converge", call.span);
     if (call.name == "DEBUT" || call.name == "FIN") return {};
     auto handle = std::make_shared<Concept>();
     handle->id = static_cast<int>(concepts.size());
@@ -52,7 +55,8 @@ struct Run {
   Run(const std::string& text, std::unique_ptr<RecordingHost> with, Limits limits = {}) : host(std::move(with)) {
     const auto file = std::make_shared<const SourceFile>("test.comm", text);
     ast = parse(file, diagnostics);
-    evaluator = std::make_unique<Evaluator>(*host, diagnostics, [this](std::string_view part) { output += part; }, limits);
+    evaluator = std::make_unique<Evaluator>(
+        *host, diagnostics, [this](std::string_view part) { output += part; }, limits);
     if (!diagnostics.has_errors()) evaluator->run(ast);
   }
 

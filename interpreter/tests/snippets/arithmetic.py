@@ -73,3 +73,12 @@ print(1 or 2, 0 or 2, 1 and 2, 0 and 2, None or 'x', '' or [] or {}, not 1 == 2)
 for a in (7, -7, 7.5, -7.5):
     for b in (2, -2, 2.5, -2.5):
         print(a, b, a // b, a % b, a / b, a * b, a - b)
+# ----
+x = 2**20000
+print(x % 1000007, x.bit_length(), hex(x)[:10], len(hex(x)), oct(2**100), bin(2**65), len('%x' % x))
+try: print(len(str(x)))
+except ValueError as e: print('too long')
+print(len(str(10**4200)), str(3**500)[-20:], '%d' % 10**30, f'{-2**80:,}')
+# ----
+import math
+print(math.gcd(2**200, 6**100) == 2**100, math.isqrt(10**61), math.lcm(10**20, 15**15), math.comb(200, 100), math.factorial(100) // math.factorial(98))
