@@ -33,6 +33,9 @@ class Evaluator {
 
   /// Runs a file. Variables stay for the next one, as POURSUITE wants it.
   void run(const Ast& ast);
+  /// Runs another file from within one that runs, as if its statements stood at the place of the call (INCLUDE). The tree
+  /// must outlive the run.
+  void include(const Ast& ast);
   /// One expression; names are looked for with `lookup` first, then as everywhere: globals, builtins, commands, the
   /// names of `math`. Throws DiagnosticError.
   Value evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup);

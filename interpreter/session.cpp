@@ -27,6 +27,10 @@ Value Session::call(const CommandCall& written, bool eager) {
   const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
   CheckedCall checked = check_call(written, page, catalogue_, diagnostics_, unsupported);
   if (!checked.sound) return Value::unknown();
+  if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
+    if (checked.complete) action->second(checked.call);
+    return Value();
+  }
 
   ConceptPtr product = checked.call.result;
   if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,11 @@ class Session : public CommandHost {
   void judge(const Assertion& assertion) override;
 
   void set_assertion_sink(AssertionSink sink) { assertion_sink_ = std::move(sink); }
+  /// A command that acts while the file is being read, and stands for nothing in the graph (INCLUDE). It may throw
+  /// DiagnosticError.
+  void act_at_once(std::string command, std::function<void(const Call&)> action) {
+    immediate_[std::move(command)] = std::move(action);
+  }
   /// Looks at each call before anything is solved; see Executor::run_cheap.
   void set_call_check(CallCheck check) { call_check_ = std::move(check); }
 
@@ -58,6 +64,7 @@ class Session : public CommandHost {
   SessionOptions options_;
   CommandGraph graph_;
   Executor executor_;
+  std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
   AssertionSink assertion_sink_;
   CallCheck call_check_;
   int next_concept_ = 0;
