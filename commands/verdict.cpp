@@ -50,6 +50,12 @@ std::optional<TestedValue> given_reference(const Keywords& test, const std::stri
   return std::nullopt;
 }
 
+TestedValue tested_value(const interpreter::Value& value) {
+  if (value.is_real()) return value.as_real();
+  if (value.is_integer()) return value.as_integer();
+  return value.is_none() ? "" : value.repr();
+}
+
 }  // namespace
 
 std::vector<Verdict> judge(const Keywords& test, const std::string& command, const std::string& label,
@@ -89,6 +95,25 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
     verdicts.push_back(std::move(verdict));
   }
   return verdicts;
+}
+
+Verdict verdict_of(const interpreter::Assertion& assertion) {
+  Verdict verdict;
+  verdict.file = assertion.span ? assertion.span.file->path() : "";
+  verdict.line = assertion.span ? assertion.span.file->position(assertion.span.begin).line : 0;
+  verdict.command = "TestCase";
+  verdict.label = assertion.message.empty() ? assertion.method : assertion.method + ": " + assertion.message;
+  verdict.kind = "VALE_REFE";
+  verdict.reference_type = "ASSERTION";
+  verdict.computed = tested_value(assertion.computed);
+  verdict.reference = tested_value(assertion.reference);
+  verdict.relative = false;
+  verdict.tolerance = assertion.tolerance;
+  const bool numbers = assertion.computed.is_number() && assertion.reference.is_number();
+  if (numbers) verdict.error = std::abs(assertion.computed.as_real() - assertion.reference.as_real());
+  if (!numbers && !assertion.holds) verdict.error = 1.0;
+  verdict.passed = assertion.holds;
+  return verdict;
 }
 
 std::string format_verdict(const Verdict& verdict) {

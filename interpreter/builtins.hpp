@@ -54,6 +54,7 @@ std::span<const MethodRow> dict_methods();
 std::span<const MethodRow> set_methods();
 std::span<const MethodRow> number_methods();  ///< methods_numbers.cpp
 std::span<const MethodRow> array_methods();   ///< module_numpy.cpp
+std::span<const MethodRow> test_case_methods();  ///< test_case.cpp
 
 /// The arguments of a builtin, checked: raises TypeError when there are fewer or more, or keywords not listed.
 void expect_arguments(std::string_view function, const CallArguments& arguments, std::size_t fewest, std::size_t most,

@@ -107,6 +107,7 @@ class LevelCheck {
 
   Keywords run(const std::vector<Argument>& arguments) {
     resolve(arguments);
+    guess_misspelt();
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
     activate(level_, true);
     for (const Pending& pending : pending_)
@@ -133,10 +134,45 @@ class LevelCheck {
       // KEYWORD=None and FACTOR=() are Code_Aster's ways to leave a keyword out.
       const Value& value = *argument.value;
       if (value.is_none()) continue;
-      if (value.is_sequence() && value.items().empty() && factors.contains(argument.name)) continue;
       const auto alias = canonical.find(argument.name);
-      add_pending({alias == canonical.end() ? argument.name : alias->second, &argument, false});
+      const std::string& name = alias == canonical.end() ? argument.name : alias->second;
+      if (value.is_sequence() && value.items().empty() && factors.contains(name)) continue;
+      add_pending({name, &argument, false});
     }
+  }
+
+  /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends on
+  /// it is not known.
+  void guess_misspelt() {
+    if (level_.further) return;
+    std::set<std::string, std::less<>> known;
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { known.insert(keyword.name); });
+    const std::vector<std::string> names(known.begin(), known.end());
+    for (const Pending& pending : pending_) {
+      if (known.contains(pending.name)) continue;
+      std::string meant = nearest(pending.name, names);
+      if (meant.empty()) meant = only_missing();
+      if (meant.empty() || is_given(meant) || guessed(meant)) continue;
+      given_.push_back({meant, pending.argument->name_span});
+      scope_.values[meant] = Value::unknown();
+      guesses_[pending.name] = meant;
+    }
+  }
+
+  /// The one keyword that the level asks for and that is not there; empty when there is none, or more.
+  std::string only_missing() const {
+    std::string only;
+    for (const KeywordPage& keyword : level_.keywords) {
+      if (!keyword.required || is_given(keyword.name) || guessed(keyword.name)) continue;
+      if (!only.empty()) return "";
+      only = keyword.name;
+    }
+    return only;
+  }
+
+  bool is_given(const std::string& name) const { return std::ranges::find(pending_, name, &Pending::name) != pending_.end(); }
+  bool guessed(const std::string& name) const {
+    return std::ranges::any_of(guesses_, [&](const auto& guess) { return guess.second == name; });
   }
 
   void add_pending(Pending pending) {
@@ -168,6 +204,8 @@ class LevelCheck {
     if (pending != pending_.end()) {
       pending->used = true;
       take_given(keyword, *pending->argument);
+    } else if (guessed(keyword.name)) {
+      return;
     } else if (certain) {
       take_default(keyword);
     } else {
@@ -285,7 +323,8 @@ class LevelCheck {
           fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
       return;
     }
-    const std::string near = nearest(pending.name, known);
+    const auto guess = guesses_.find(pending.name);
+    const std::string near = guess == guesses_.end() ? nearest(pending.name, known) : guess->second;
     std::string hint;
     if (!home.empty())
       hint = fmt::format("it belongs inside {}=_F(...)", home);
@@ -310,6 +349,7 @@ class LevelCheck {
   std::vector<Pending> pending_;
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
+  std::map<std::string, std::string, std::less<>> guesses_;  ///< a misspelt keyword and the one that was meant
   Keywords result_;
 };
 

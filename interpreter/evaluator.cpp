@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
@@ -36,6 +37,23 @@ void Evaluator::run(const Ast& ast) {
     report(limit.diagnostic());
   }
   frame_.reset();
+}
+
+void Evaluator::include(const Ast& ast) {
+  check_stack();
+  struct Return {
+    Evaluator& self;
+    std::shared_ptr<const SourceFile> file;
+    std::shared_ptr<Frame> frame;
+    std::shared_ptr<const FunctionCode> code;
+    ~Return() {
+      self.file_ = std::move(file);
+      self.frame_ = std::move(frame);
+      self.code_ = std::move(code);
+    }
+  } const back{*this, file_, std::exchange(frame_, nullptr), std::exchange(code_, nullptr)};
+  file_ = ast.file;
+  execute(ast.statements);
 }
 
 Value Evaluator::evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file,

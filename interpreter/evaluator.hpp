@@ -33,8 +33,11 @@ class Evaluator {
 
   /// Runs a file. Variables stay for the next one, as POURSUITE wants it.
   void run(const Ast& ast);
-  /// One expression; names are looked for with `lookup` first, then among the globals, the builtins and the names of
-  /// `math`. Throws DiagnosticError.
+  /// Runs another file from within one that runs, as if its statements stood at the place of the call (INCLUDE). The tree
+  /// must outlive the run.
+  void include(const Ast& ast);
+  /// One expression; names are looked for with `lookup` first, then as everywhere: globals, builtins, commands, the
+  /// names of `math`. Throws DiagnosticError.
   Value evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup);
 
   /// A global variable, or null.
@@ -159,6 +162,7 @@ class Evaluator {
 template <class Work>
 auto Evaluator::with_host(Work work) -> decltype(work()) {
   try {
+    const Meter::Pause pause(meter_);
     return work();
   } catch (const LimitReached&) {
     throw;

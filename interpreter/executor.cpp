@@ -31,16 +31,23 @@ DiagnosticError not_computed(const CommandNode& source) {
 
 }  // namespace
 
-void Executor::run_cheap(Need least) {
+void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) {
   const auto needs = graph_.needs();
   for (CommandNode& node : graph_.nodes()) {
-    const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
-    if (node.state != NodeState::waiting || !wanted || !node.complete || !is_preparation(node)) continue;
-    const bool in_turn = std::ranges::none_of(node.waits_for, [&](const Edge& edge) {
-      return graph_.nodes()[static_cast<std::size_t>(edge.from)].state == NodeState::waiting;
-    });
-    if (in_turn && missing_source(node) == nullptr) run_reporting(node);
+    if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
+    if (check && !check(node)) {
+      node.state = NodeState::failed;
+      continue;
+    }
+    const bool runs = node.complete && is_preparation(node) && (nothing_more || is_in_turn(node)) && missing_source(node) == nullptr;
+    if (runs) run_reporting(node);
   }
+}
+
+bool Executor::is_in_turn(const CommandNode& node) const {
+  return std::ranges::none_of(node.waits_for, [&](const Edge& edge) {
+    return graph_.nodes()[static_cast<std::size_t>(edge.from)].state == NodeState::waiting;
+  });
 }
 
 void Executor::run_all(Need least) {

@@ -18,6 +18,16 @@ struct CommandCall {
   std::vector<Argument> arguments;
 };
 
+/// A claim that the file makes about its own values (CA.TestCase().assertEqual(a, b) and its like), judged.
+struct Assertion {
+  std::string method;   ///< "assertAlmostEqual"
+  std::string message;  ///< the user's own, or empty
+  Span span;
+  bool holds = false;
+  Value computed, reference;  ///< None where the method has none
+  double tolerance = 0.0;     ///< of assertAlmostEqual
+};
+
 /// What the evaluator needs from the outside.
 class CommandHost {
  public:
@@ -33,6 +43,9 @@ class CommandHost {
 
   /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
   virtual void force(const ConceptPtr& handle) = 0;
+
+  /// Takes note of a claim, whether it holds or not. A host without verdicts has no use for it.
+  virtual void judge(const Assertion& /*assertion*/) {}
 };
 
 }  // namespace comma::interpreter

@@ -4,6 +4,7 @@
 #include "interpreter/array.hpp"
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
+#include "interpreter/test_case.hpp"
 
 namespace comma::interpreter {
 
@@ -17,6 +18,7 @@ std::span<const MethodRow> methods_of(const Value& value) {
   if (value.is_set()) return set_methods();
   if (is_numeric(value)) return number_methods();
   if (value.as_object<ArrayObject>() != nullptr) return array_methods();
+  if (value.as_object<TestCaseObject>() != nullptr) return test_case_methods();
   return {};
 }
 

@@ -8,6 +8,7 @@
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
+#include "interpreter/test_case.hpp"
 
 namespace comma::interpreter {
 
@@ -114,6 +115,7 @@ Members members_of_code_aster() {
   Members members = exceptions_of_commands();
   members.emplace("init", function_value("init", initialise));
   members.emplace("close", function_value("close", close));
+  members.emplace("TestCase", function_value("TestCase", make_test_case));
   return members;
 }
 

@@ -27,6 +27,10 @@ Value Session::call(const CommandCall& written, bool eager) {
   const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
   CheckedCall checked = check_call(written, page, catalogue_, diagnostics_, unsupported);
   if (!checked.sound) return Value::unknown();
+  if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
+    if (checked.complete) action->second(checked.call);
+    return Value();
+  }
 
   ConceptPtr product = checked.call.result;
   if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);
@@ -48,9 +52,13 @@ void Session::force(const ConceptPtr& handle) {
   if (writer >= 0 && may_run(writer)) executor_.force(writer);
 }
 
+void Session::judge(const Assertion& assertion) {
+  if (assertion_sink_) assertion_sink_(assertion);
+}
+
 void Session::finish() {
   const Need least = options_.only_tests ? Need::output : Need::nothing;
-  executor_.run_cheap(least);
+  executor_.run_cheap(least, options_.check_only, call_check_);
   if (options_.check_only || diagnostics_.has_errors()) return;
   executor_.run_all(least);
 }

@@ -2,6 +2,8 @@
 // whole file is known to be right - or earlier, when the file itself asks for a computed value.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,9 @@ struct SessionOptions {
   bool only_tests = false;  ///< leave out what no verdict and no output needs
 };
 
+/// What becomes of the file's own assertions.
+using AssertionSink = std::function<void(const Assertion&)>;
+
 /// Codes of its own: unknown-command, not-computed, command-failed, out-of-memory, internal-error (see check.hpp for
 /// the rest).
 class Session : public CommandHost {
@@ -33,6 +38,16 @@ class Session : public CommandHost {
   /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's
   /// data stays null, and the evaluator goes on with an unknown value.
   void force(const ConceptPtr& handle) override;
+  void judge(const Assertion& assertion) override;
+
+  void set_assertion_sink(AssertionSink sink) { assertion_sink_ = std::move(sink); }
+  /// A command that acts while the file is being read, and stands for nothing in the graph (INCLUDE). It may throw
+  /// DiagnosticError.
+  void act_at_once(std::string command, std::function<void(const Call&)> action) {
+    immediate_[std::move(command)] = std::move(action);
+  }
+  /// Looks at each call before anything is solved; see Executor::run_cheap.
+  void set_call_check(CallCheck check) { call_check_ = std::move(check); }
 
   /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
   /// before anything is solved; then, if all is right so far, the rest.
@@ -49,6 +64,9 @@ class Session : public CommandHost {
   SessionOptions options_;
   CommandGraph graph_;
   Executor executor_;
+  std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
+  AssertionSink assertion_sink_;
+  CallCheck call_check_;
   int next_concept_ = 0;
 };
 

@@ -49,7 +49,7 @@ int status_of_run(const StudyRun& pass) {
 
 int run(const RunOptions& options) try {
   const auto started = std::chrono::steady_clock::now();
-  StudyRun pass(open_study(options.file), options.verbosity, {.check_only = false, .only_tests = options.only_tests});
+  StudyRun pass(open_study(options.file), options.verbosity, {.check_only = false, .only_tests = options.only_tests}, options.limits);
   pass.run();
   const int status = status_of_run(pass);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
