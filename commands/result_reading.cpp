@@ -51,6 +51,8 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   std::vector<const ResultStep*> steps;
   if (keywords.given("INST")) {
     for (const double instant : keywords.reals("INST")) steps.push_back(&step_at(keywords, result, instant));
+  } else if (keywords.given("LIST_INST")) {
+    for (const double instant : keywords.data<ListConcept>("LIST_INST").values) steps.push_back(&step_at(keywords, result, instant));
   } else if (keywords.given("NUME_ORDRE")) {
     for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order));
   } else {

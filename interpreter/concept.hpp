@@ -25,7 +25,7 @@ struct RealFunction {
 };
 
 /// The filled inside of a concept. Commands derive from it. The three functions are what the language can do with a
-/// concept; by default each throws DiagnosticError `not-supported`.
+/// concept; by default a real function is called with numbers, and each of the others throws DiagnosticError `not-supported`.
 struct ConceptData {
   virtual ~ConceptData() = default;
   virtual const RealFunction* real_function() const { return nullptr; }

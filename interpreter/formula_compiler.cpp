@@ -21,7 +21,7 @@ constexpr std::size_t longest_program = 4096;
 /// The expression is not one of real numbers.
 struct Unsuitable {};
 
-// A double has no negative zero among Python's integers.
+// Python's integers have no negative zero.
 double whole(double value) { return value + 0.0; }
 double floor_of(double x) { return whole(std::floor(x)); }
 double ceil_of(double x) { return whole(std::ceil(x)); }
@@ -115,7 +115,10 @@ class Compiler {
   }
 
  private:
-  void compile(const Node& node) {
+  /// What a node gives. It matters only for the sign of a zero, which Python's integers do not have.
+  enum class Gives { real, integer };
+
+  Gives compile(const Node& node) {
     if (is_constant(node)) return push(folded(node));
     switch (node.kind) {
       case NodeKind::name: return compile_argument(static_cast<const NameNode&>(node));
@@ -162,11 +165,11 @@ class Compiler {
     });
   }
 
-  double folded(const Node& node) const {
-    const Value value = value_of(node);
-    if (value.is_bool()) return static_cast<double>(value.as_bool());
-    if (!value.is_number()) throw Unsuitable();
-    return value.as_real();
+  Value folded(const Node& node) const {
+    Value value = value_of(node);
+    if (value.is_bool()) return Value(static_cast<std::int64_t>(value.as_bool()));
+    if (!value.is_number() || value.is_big_integer()) throw Unsuitable();
+    return value;
   }
 
   FormulaInstruction& emit(FormulaOp op, int effect) {
@@ -178,7 +181,16 @@ class Compiler {
     return made;
   }
 
-  void push(double number) { emit(FormulaOp::number, 1).number = number; }
+  Gives push(const Value& number) {
+    emit(FormulaOp::number, 1).number = number.as_real();
+    return number.is_integer() ? Gives::integer : Gives::real;
+  }
+
+  /// Ends an operation on integers: there is no negative zero.
+  Gives integer_result() {
+    emit(FormulaOp::unary, 0).unary = whole;
+    return Gives::integer;
+  }
 
   std::size_t emit_jump(FormulaOp op, int effect) {
     emit(op, effect);
@@ -187,23 +199,36 @@ class Compiler {
 
   void land(std::size_t jump) { program_.instructions[jump].index = static_cast<std::uint32_t>(program_.instructions.size()); }
 
-  void compile_argument(const NameNode& name) {
+  Gives compile_argument(const NameNode& name) {
     const int index = parameter(name.id);
     if (index < 0) throw Unsuitable();
     emit(FormulaOp::argument, 1).index = static_cast<std::uint32_t>(index);
+    return Gives::real;
   }
 
-  void compile_unary(const UnaryNode& node) {
-    compile(*node.operand);
-    if (node.op == Operator::minus) emit(FormulaOp::negate, 0);
-    else if (node.op == Operator::logical_not) emit(FormulaOp::logical_not, 0);
-    else if (node.op != Operator::plus) throw Unsuitable();
+  Gives compile_unary(const UnaryNode& node) {
+    const Gives operand = compile(*node.operand);
+    if (node.op == Operator::plus) return operand;
+    if (node.op == Operator::logical_not) {
+      emit(FormulaOp::logical_not, 0);
+      return Gives::integer;
+    }
+    if (node.op != Operator::minus) throw Unsuitable();
+    emit(FormulaOp::negate, 0);
+    return operand == Gives::integer ? integer_result() : Gives::real;
   }
 
-  void compile_binary(const BinaryNode& node) {
-    compile(*node.left);
-    compile(*node.right);
-    switch (node.op) {
+  Gives compile_binary(const BinaryNode& node) {
+    const Gives left = compile(*node.left);
+    const Gives right = compile(*node.right);
+    emit_arithmetic(node.op);
+    const bool integer = left == Gives::integer && right == Gives::integer;
+    const bool stays = node.op != Operator::divide && node.op != Operator::power;
+    return integer && stays ? integer_result() : Gives::real;
+  }
+
+  void emit_arithmetic(Operator op) {
+    switch (op) {
       case Operator::add: emit(FormulaOp::add, -1); break;
       case Operator::subtract: emit(FormulaOp::subtract, -1); break;
       case Operator::multiply: emit(FormulaOp::multiply, -1); break;
@@ -230,7 +255,7 @@ class Compiler {
   }
 
   /// a < b < c is a < b and b < c.
-  void compile_compare(const CompareNode& node) {
+  Gives compile_compare(const CompareNode& node) {
     std::vector<std::size_t> jumps;
     const Node* left = node.first.get();
     for (const auto& [op, right] : node.rest) {
@@ -239,29 +264,33 @@ class Compiler {
       if (&right != &node.rest.back().second) jumps.push_back(emit_jump(FormulaOp::keep_if_false, -1));
     }
     for (const std::size_t jump : jumps) land(jump);
+    return Gives::integer;
   }
 
-  void compile_logical(const LogicalNode& node) {
+  Gives compile_logical(const LogicalNode& node) {
     std::vector<std::size_t> jumps;
     const FormulaOp op = node.conjunction ? FormulaOp::keep_if_false : FormulaOp::keep_if_true;
+    bool integer = true;
     for (const NodePtr& operand : node.operands) {
-      compile(*operand);
+      integer = compile(*operand) == Gives::integer && integer;
       if (&operand != &node.operands.back()) jumps.push_back(emit_jump(op, -1));
     }
     for (const std::size_t jump : jumps) land(jump);
+    return integer ? Gives::integer : Gives::real;
   }
 
-  void compile_conditional(const ConditionalNode& node) {
+  Gives compile_conditional(const ConditionalNode& node) {
     compile(*node.condition);
     const std::size_t to_otherwise = emit_jump(FormulaOp::jump_if_false, -1);
-    compile(*node.then);
+    const Gives then = compile(*node.then);
     const std::size_t to_end = emit_jump(FormulaOp::jump, -1);  // the other branch starts one lower
     land(to_otherwise);
-    compile(*node.otherwise);
+    const Gives otherwise = compile(*node.otherwise);
     land(to_end);
+    return then == otherwise ? then : Gives::real;
   }
 
-  void compile_call(const CallNode& node) {
+  Gives compile_call(const CallNode& node) {
     if (!is_constant(*node.callee) && node.callee->kind != NodeKind::name) throw Unsuitable();
     if (node.arguments.empty() || node.arguments.size() > deepest_stack) throw Unsuitable();
     const Value callee = callee_of(*node.callee);
@@ -269,7 +298,7 @@ class Compiler {
       if (item.kind != CallNode::Kind::positional) throw Unsuitable();
       compile(*item.value);
     }
-    emit_call(callee, static_cast<std::uint16_t>(node.arguments.size()));
+    return emit_call(callee, static_cast<std::uint16_t>(node.arguments.size()));
   }
 
   Value callee_of(const Node& node) const {
@@ -285,35 +314,40 @@ class Compiler {
     return made;
   }
 
-  void emit_call(const Value& callee, std::uint16_t count) {
+  Gives emit_call(const Value& callee, std::uint16_t count) {
     if (const auto* builtin = callee.as_object<BuiltinObject>()) return emit_builtin(builtin->name, count);
     if (const auto* type = callee.as_object<TypeObject>()) return emit_conversion(type->name, count);
     if (const auto* function = callee.as_object<FunctionObject>()) {
       emit_counted(FormulaOp::file_function, count).index = static_cast<std::uint32_t>(program_.file_functions.size());
       program_.file_functions.push_back(function);
-      return;
+      return Gives::real;
     }
     const RealFunction* function = callee.is_concept() && callee.as_concept()->data ? callee.as_concept()->data->real_function() : nullptr;
     if (function == nullptr || std::max<std::size_t>(function->parameters().size(), 1) != count) throw Unsuitable();
     emit_counted(FormulaOp::concept_function, count).index = static_cast<std::uint32_t>(program_.concept_functions.size());
     program_.concept_functions.push_back(function);
+    return Gives::real;
   }
 
-  void emit_builtin(const std::string& name, std::uint16_t count) {
-    if (name == "min" && count > 1) return void(emit_counted(FormulaOp::minimum, count));
-    if (name == "max" && count > 1) return void(emit_counted(FormulaOp::maximum, count));
+  Gives emit_builtin(const std::string& name, std::uint16_t count) {
+    if ((name == "min" || name == "max") && count > 1) {
+      emit_counted(name == "min" ? FormulaOp::minimum : FormulaOp::maximum, count);
+      return Gives::real;
+    }
     if (const Binary function = find_in(binary_functions, name); function != nullptr && count == 2) {
       emit(FormulaOp::binary, -1).binary = function;
-      return;
+      return Gives::real;
     }
     const Unary function = name == "round" ? rounded : find_in(unary_functions, name);
     if (function == nullptr || count != 1) throw Unsuitable();
     emit(FormulaOp::unary, 0).unary = function;
+    return function == floor_of || function == ceil_of || function == truncated || function == rounded ? Gives::integer : Gives::real;
   }
 
-  void emit_conversion(const std::string& type, std::uint16_t count) {
+  Gives emit_conversion(const std::string& type, std::uint16_t count) {
     if (count != 1 || (type != "int" && type != "float")) throw Unsuitable();
     emit(FormulaOp::unary, 0).unary = type == "int" ? truncated : same;
+    return type == "int" ? Gives::integer : Gives::real;
   }
 
   const Expression& expression_;

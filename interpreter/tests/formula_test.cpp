@@ -51,7 +51,7 @@ class Writer {
   static constexpr std::array logical = {" and ", " or "};
   static constexpr std::array unary = {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log",
                                        "log10", "sqrt", "abs", "fabs", "floor", "ceil", "int", "float", "round"};
-  static constexpr std::array binary = {"min", "max", "pow", "atan2", "hypot"};
+  static constexpr std::array binary = {"min", "max", "pow", "hypot"};
   static constexpr std::array leaves = {"X", "Y", "Z", "INST", "2", "3.0", "0.5", "pi", "e", "10", "-1", "1e-3"};
 
   std::size_t pick(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
@@ -163,6 +163,12 @@ TEST_CASE("Where Python raises, a formula raises the same") {
   CHECK(code("U + X", 0.0) == "unknown-name");
   CHECK(code("X +", 0.0) == "syntax");
   CHECK(code("[X]", 0.0) == "not-real");
+}
+
+TEST_CASE("Python's integers have no negative zero") {
+  CHECK(evaluate("atan2(-(not X), -1)", 2.0) == Approx(3.14159265358979));
+  CHECK(evaluate("atan2(-X, -1)", 0.0) == Approx(-3.14159265358979));
+  CHECK(evaluate("atan2(int(X) * -1, -1)", 0.5) == Approx(3.14159265358979));
 }
 
 TEST_CASE("A branch that is not taken raises nothing") {
