@@ -12,11 +12,6 @@ namespace {
 using interpreter::DiagnosticError;
 using solver::Component;
 
-solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const std::string& keyword) {
-  solver::TimeFunction function = time_function(interpreter::data_of<FunctionConcept>(handle, keyword));
-  return [function = std::move(function)](const solver::Point&, double time) { return function(time); };
-}
-
 Component component(const Keywords& zone, const std::string& name, const std::vector<int>& nodes, const solver::DofMap& dofs) {
   const auto known = solver::component_named(name);
   if (known) {
@@ -37,13 +32,13 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
-  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, "COEF_MULT"));
+  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, zone.span_of("COEF_MULT")));
   if (condition.coefficients.size() != condition.components.size()) {
     throw DiagnosticError("wrong-count", "DEFI_CONTACT: each of the " + std::to_string(condition.components.size()) +
                                              " components of NOM_CMP needs its coefficient",
                           zone.span_of("COEF_MULT"), "give as many functions to COEF_MULT as names to NOM_CMP");
   }
-  condition.bound = field_function(zone.concept_of("COEF_IMPO"), "COEF_IMPO");
+  condition.bound = field_function(zone.concept_of("COEF_IMPO"), zone.span_of("COEF_IMPO"));
   return condition;
 }
 

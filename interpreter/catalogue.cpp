@@ -9,10 +9,11 @@
 namespace comma::interpreter {
 namespace {
 
-constexpr std::array<std::pair<Kind, std::string_view>, 16> kind_names{{{Kind::real, "real"},
+constexpr std::array<std::pair<Kind, std::string_view>, 17> kind_names{{{Kind::real, "real"},
                                                                         {Kind::integer, "integer"},
                                                                         {Kind::complex, "complex"},
                                                                         {Kind::text, "text"},
+                                                                        {Kind::expression, "expression"},
                                                                         {Kind::node_group, "node_group"},
                                                                         {Kind::cell_group, "cell_group"},
                                                                         {Kind::node, "node"},

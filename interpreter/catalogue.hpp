@@ -23,6 +23,7 @@ enum class Kind {
   integer,
   complex,
   text,
+  expression,   ///< an expression of the language; it may use the variables around the call, see expression_keywords.hpp
   node_group,
   cell_group,
   node,

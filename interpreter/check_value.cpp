@@ -18,6 +18,8 @@ std::string describe_kind(Kind kind) {
       return "a complex number";
     case Kind::text:
       return "a text";
+    case Kind::expression:
+      return "an expression, as a text";
     case Kind::node_group:
       return "the name of a node group";
     case Kind::cell_group:

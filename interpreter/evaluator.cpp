@@ -13,9 +13,12 @@
 namespace comma::interpreter {
 
 Evaluator::Evaluator(CommandHost& host, Diagnostics& diagnostics, OutputSink output, Limits limits)
-    : host_(host), diagnostics_(diagnostics), output_(std::move(output)), meter_(limits) {}
+    : host_(host), diagnostics_(diagnostics), output_(std::move(output)), meter_(limits), home_(std::make_shared<FunctionHome>()) {
+  home_->evaluator = this;
+}
 
 Evaluator::~Evaluator() {
+  home_->evaluator = nullptr;
   // A function lies in a variable of the very frame that it keeps alive.
   for (const auto& weak : closures_) {
     if (const auto frame = weak.lock()) frame->slots.clear();

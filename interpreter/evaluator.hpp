@@ -48,6 +48,9 @@ class Evaluator {
   /// What builtins use. Calls a function of any kind; raises RaisedError.
   Value call(const Value& callee, const CallArguments& arguments);
   Value attribute(const Value& object, const std::string& name);
+  /// The same from outside of a run, for a function of the file (a formula calls it while the graph is executed). It can
+  /// then call no commands.
+  static Value call_from_outside(const FunctionObject& function, const CallArguments& arguments);
   Meter& meter() { return meter_; }
   CommandHost& host() { return host_; }
   void print(std::string_view text) { output_(text); }
@@ -115,7 +118,9 @@ class Evaluator {
   void spread_mapping(CallArguments& arguments, const Value& mapping, const Span& span);
   Value evaluate_argument(const Node& node, bool tolerant);
   Value call_function(const FunctionObject& function, const CallArguments& arguments);
+  Value call_guest(const FunctionObject& function, const CallArguments& arguments);
   void bind_arguments(const FunctionObject& function, const CallArguments& arguments, Frame& frame);
+  std::optional<Value> visible(std::string_view name) const;
   Value call_command(const std::string& name, const CallArguments& arguments);
   Value make_factor(const CallArguments& arguments);
   std::vector<Argument> named_arguments(const CallArguments& arguments, std::string_view what);
@@ -157,6 +162,8 @@ class Evaluator {
   int tries_ = 0;
   int strict_ = 0;
   int calls_ = 0;
+  int guests_ = 0;  ///< calls from outside under way
+  std::shared_ptr<FunctionHome> home_;
 };
 
 template <class Work>

@@ -130,7 +130,9 @@ void Evaluator::spread_mapping(CallArguments& arguments, const Value& mapping, c
 
 Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   if (callee.is_unknown()) return callee;
-  if (const auto* function = callee.as_object<FunctionObject>()) return call_function(*function, arguments);
+  if (const auto* function = callee.as_object<FunctionObject>()) {
+    return function->home == home_ ? call_function(*function, arguments) : call_from_outside(*function, arguments);
+  }
   if (const auto* command = callee.as_object<CommandObject>()) return call_command(command->name, arguments);
   if (const auto* builtin = callee.as_object<BuiltinObject>()) {
     if (builtin->name == "_F") return make_factor(arguments);
@@ -205,18 +207,32 @@ Value Evaluator::make_factor(const CallArguments& arguments) {
 }
 
 Value Evaluator::call_command(const std::string& name, const CallArguments& arguments) {
+  if (guests_ > 0) raise(ErrorKind::runtime, fmt::format("a function that a formula calls cannot call {}", name));
   CommandCall command;
   command.name = name;
   command.name_span = arguments.callee_span;
   command.span = arguments.span;
   command.arguments = named_arguments(arguments, name);
+  command.scope = [this](std::string_view word) { return visible(word); };
   return with_host([&] { return host_.call(command, !recovering()); });
+}
+
+/// The variable of a name in the function that runs or, if it has none, in the file.
+std::optional<Value> Evaluator::visible(std::string_view name) const {
+  if (code_ && frame_) {
+    const auto slot = std::find(code_->slots.begin(), code_->slots.end(), name);
+    const auto index = static_cast<std::size_t>(slot - code_->slots.begin());
+    if (slot != code_->slots.end() && index < frame_->slots.size() && frame_->slots[index]) return frame_->slots[index];
+  }
+  const Value* value = global(name);
+  return value == nullptr ? std::nullopt : std::optional(*value);
 }
 
 // Functions
 
 Value Evaluator::make_function(const std::shared_ptr<const FunctionCode>& code, const std::vector<NodePtr>& defaults) {
   auto function = std::make_shared<FunctionObject>();
+  function->home = home_;
   function->code = code;
   function->outer = frame_;
   for (const NodePtr& value : defaults) function->defaults.push_back(evaluate(*value));
@@ -278,6 +294,31 @@ void Evaluator::bind_arguments(const FunctionObject& function, const CallArgumen
   }
   if (!missing.empty()) raise_missing(code, missing, "positional");
   if (!missing_keywords.empty()) raise_missing(code, missing_keywords, "keyword-only");
+}
+
+Value Evaluator::call_from_outside(const FunctionObject& function, const CallArguments& arguments) {
+  Evaluator* home = function.home ? function.home->evaluator : nullptr;
+  if (home == nullptr) raise(ErrorKind::runtime, fmt::format("{}() belongs to a file that has ended", function.code->name));
+  return home->call_guest(function, arguments);
+}
+
+Value Evaluator::call_guest(const FunctionObject& function, const CallArguments& arguments) {
+  struct Visit {
+    explicit Visit(Evaluator& owner) : self(owner), base(owner.stack_base_) {
+      ++self.guests_;
+      ++self.tries_;  // errors go to the caller, as they do inside `try`
+    }
+    ~Visit() {
+      --self.guests_;
+      --self.tries_;
+      self.stack_base_ = base;
+    }
+    Evaluator& self;
+    const char* base;
+  } const visit(*this);
+  const char here = 0;
+  if (calls_ == 0) stack_base_ = &here;
+  return call_function(function, arguments);
 }
 
 Value Evaluator::call_function(const FunctionObject& function, const CallArguments& arguments) {

@@ -44,11 +44,16 @@ Expression::Expression(std::string text, std::string origin) : text_(std::move(t
   if (!tree->root)
     throw DiagnosticError("syntax", "this is no expression", {tree->file, 0, static_cast<std::uint32_t>(text_.size())});
   for (const std::string& name : names) {
+    if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
     const bool known = builtin_value(name) != nullptr || math_value(name) != nullptr;
     if (!known && std::find(variables_.begin(), variables_.end(), name) == variables_.end()) variables_.push_back(name);
   }
   tree_ = std::move(tree);
 }
+
+const Node& Expression::root() const { return *tree_->root; }
+
+const std::shared_ptr<const SourceFile>& Expression::file() const { return tree_->file; }
 
 Value Expression::evaluate(const VariableLookup& lookup) const {
   NoCommands host;

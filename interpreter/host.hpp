@@ -2,6 +2,8 @@
 // checks it, adds it to the command graph and returns a handle. The evaluator itself knows no command.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,8 @@ struct CommandCall {
   Span name_span;
   Span span;
   std::vector<Argument> arguments;
+  /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be empty.
+  std::function<std::optional<Value>(std::string_view)> scope = {};
 };
 
 /// A claim that the file makes about its own values (CA.TestCase().assertEqual(a, b) and its like), judged.

@@ -98,7 +98,13 @@ struct Frame {
   std::vector<std::optional<Value>> slots;
 };
 
+/// Where a function belongs: its evaluator, or null when that is gone. A formula may outlive the statement that made it.
+struct FunctionHome {
+  Evaluator* evaluator = nullptr;
+};
+
 struct FunctionObject : Object {
+  std::shared_ptr<const FunctionHome> home;
   std::shared_ptr<const FunctionCode> code;
   std::vector<Value> defaults;
   std::shared_ptr<Frame> outer;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/expression_keywords.hpp"
+
 namespace comma::interpreter {
 
 Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
@@ -25,8 +27,10 @@ Value Session::call(const CommandCall& written, bool eager) {
   }
   const CommandPage& page = catalogue_.page(written.name);
   const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
-  CheckedCall checked = check_call(written, page, catalogue_, diagnostics_, unsupported);
-  if (!checked.sound) return Value::unknown();
+  CommandCall bound = written;
+  const bool readable = bind_expressions(bound, page, diagnostics_);
+  CheckedCall checked = check_call(bound, page, catalogue_, diagnostics_, unsupported);
+  if (!readable || !checked.sound) return Value::unknown();
   if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
     if (checked.complete) action->second(checked.call);
     return Value();
