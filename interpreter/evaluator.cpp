@@ -26,20 +26,39 @@ Evaluator::~Evaluator() {
 }
 
 void Evaluator::run(const Ast& ast) {
+  // INCLUDE runs a file from within a call of the one that includes it.
+  const bool outermost = stack_base_ == nullptr;
   const char here = 0;
-  stack_base_ = &here;
+  if (outermost) stack_base_ = &here;
+  struct Restore {
+    Evaluator& self;
+    bool outermost;
+    std::shared_ptr<const SourceFile> file = self.file_;
+    std::shared_ptr<const FunctionCode> code = std::exchange(self.code_, nullptr);
+    std::shared_ptr<Frame> frame = std::exchange(self.frame_, nullptr);
+    std::shared_ptr<int> token = std::exchange(self.run_token_, std::make_shared<int>(0));
+    int calls = std::exchange(self.calls_, 0);
+    ~Restore() {
+      self.file_ = std::move(file);
+      self.code_ = std::move(code);
+      self.frame_ = std::move(frame);
+      self.run_token_ = std::move(token);
+      self.calls_ = calls;
+      if (outermost) self.stack_base_ = nullptr;
+    }
+  } const restore{*this, outermost};
   file_ = ast.file;
-  run_token_ = std::make_shared<int>(0);
-  errors_seen_ = diagnostics_.items().size();
   try {
     execute(ast.statements);
   } catch (const RaisedError& error) {
-    // sys.exit() ends the file; everything else was reported at its statement.
-    if (error.object()->kind != ErrorKind::system_exit) report(error.object()->diagnostic());
+    // sys.exit() ends everything, without error.
+    const bool ends = error.object()->kind == ErrorKind::system_exit;
+    if (!outermost && (ends || !recovering())) throw;
+    if (!ends) report(error.object()->diagnostic());
   } catch (const LimitReached& limit) {
+    if (!outermost) throw;
     report(limit.diagnostic());
   }
-  frame_.reset();
 }
 
 void Evaluator::include(const Ast& ast) {
@@ -62,18 +81,25 @@ void Evaluator::include(const Ast& ast) {
 Value Evaluator::evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file,
                           const VariableLookup& lookup) {
   const char here = 0;
-  stack_base_ = &here;
-  file_ = file;
-  if (!run_token_) run_token_ = std::make_shared<int>(0);
-  lookup_ = &lookup;
-  ++strict_;
-  struct Reset {
+  struct Restore {
     Evaluator& self;
-    ~Reset() {
-      self.lookup_ = nullptr;
+    const VariableLookup* lookup = self.lookup_;
+    const char* stack_base = self.stack_base_;
+    std::shared_ptr<const SourceFile> file = self.file_;
+    std::shared_ptr<int> token = self.run_token_;
+    ~Restore() {
+      self.lookup_ = lookup;
+      self.stack_base_ = stack_base;
+      self.file_ = std::move(file);
+      self.run_token_ = std::move(token);
       --self.strict_;
     }
-  } const reset{*this};
+  } const restore{*this};
+  if (stack_base_ == nullptr) stack_base_ = &here;
+  if (!run_token_) run_token_ = std::make_shared<int>(0);
+  file_ = file;
+  lookup_ = &lookup;
+  ++strict_;
   try {
     return evaluate(expression);
   } catch (const RaisedError& error) {

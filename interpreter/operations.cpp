@@ -109,6 +109,9 @@ Value merge_dicts(const Dict& a, const Dict& b) {
 Value binary_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
   if (a.is_unknown() || b.is_unknown()) return Value::unknown();
   if (is_numeric(a) && is_numeric(b)) return number_operation(op, a, b, meter);
+  const auto is_unknown = [](const Value& value) { return value.is_unknown(); };
+  if (a.is_text() && b.is_tuple() && std::any_of(b.items().begin(), b.items().end(), is_unknown))
+    return Value::unknown();
   if (a.is_text() && op == Operator::modulo) return Value(format_percent(a.as_text(), b, meter));
   if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr)
     return array_operation(op, a, b, meter);

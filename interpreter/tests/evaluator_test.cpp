@@ -202,3 +202,39 @@ TEST_CASE("The usual part of math needs no import", "[evaluator]") {
   CHECK(Run("print(sqrt(4), pi > 3)\n").output == "2.0 True\n");
   CHECK(Run("sqrt = 5\nprint(sqrt)\n").output == "5\n");
 }
+
+namespace {
+
+/// LIRE_MAILLAGE runs another file, as INCLUDE does.
+struct IncludingHost : RecordingHost {
+  Evaluator* evaluator = nullptr;
+  Diagnostics* diagnostics = nullptr;
+  std::string text;
+  Value call(const CommandCall& call, bool run_now) override {
+    if (call.name != "LIRE_MAILLAGE") return RecordingHost::call(call, run_now);
+    const Ast included = parse(std::make_shared<const SourceFile>("included.comm", text), *diagnostics);
+    evaluator->run(included);
+    return {};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A command may run another file in the middle of this one", "[evaluator]") {
+  IncludingHost host;
+  Diagnostics diagnostics;
+  std::string output;
+  Evaluator evaluator(host, diagnostics, [&](std::string_view text) { output += text; });
+  host.evaluator = &evaluator;
+  host.diagnostics = &diagnostics;
+  host.text = "inner = outer + 1\nbad = 1 / 0\nprint('included', inner)\n";
+  const Ast ast = parse(std::make_shared<const SourceFile>("main.comm",
+                                                           "outer = 1\ndef f():\n    local = 5\n    LIRE_MAILLAGE()\n"
+                                                           "    return local\nprint(f(), inner)\nx = [][1]\n"),
+                        diagnostics);
+  evaluator.run(ast);
+  CHECK(output == "included 2\n5 2\n");
+  REQUIRE(diagnostics.items().size() == 2);
+  CHECK(diagnostics.items()[0].span.file->path() == "included.comm");
+  CHECK(diagnostics.items()[1].span.file->path() == "main.comm");
+}
