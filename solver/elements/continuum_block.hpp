@@ -96,6 +96,37 @@ class ContinuumBlock final : public ElementBlock {
     }
   }
 
+  void add_imposed_strain_forces(const ImposedStrains& imposed, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      map_.dofs(element, dofs.data());
+      const Coordinates x = coordinates(element);
+      Coordinates force = Coordinates::Zero();
+      for (const Sample& sample : samples_) {
+        const Point point = locate(x, sample);
+        const Strain stress = point.weight * imposed_stress(imposed, element, x, sample);
+        for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(sample, point, a).transpose() * stress).transpose();
+      }
+      scatter_forces(force, dofs, forces);
+    }
+  }
+
+  void subtract_imposed_stresses(const ImposedStrains& imposed, std::span<double> out) const override {
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) {
+        target += samples_.size() * strains;
+        continue;
+      }
+      const Coordinates x = coordinates(element);
+      for (const Sample& sample : samples_) {
+        Eigen::Map<Strain>(target) -= imposed_stress(imposed, element, x, sample);
+        target += strains;
+      }
+    }
+  }
+
  private:
   /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing. The
   /// radial displacement is absolute as well, for the hoop strain.
@@ -226,6 +257,12 @@ class ContinuumBlock final : public ElementBlock {
       e(5) = h(1, 2) + h(2, 1);
     }
     return e;
+  }
+
+  Strain imposed_stress(const ImposedStrains& imposed, int element, const Coordinates& x, const Sample& sample) const {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    at.head<Dim>() = x.transpose() * sample.values;
+    return law(element) * imposed.continuum(cells_[element], at).template head<strains>();
   }
 
   Coordinates element_forces(int element, const Displacements& u) const {

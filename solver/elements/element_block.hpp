@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
@@ -40,6 +41,11 @@ class ElementBlock {
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
   virtual void stresses(const Eigen::VectorXd& u, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;
+
+  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
+  virtual void add_imposed_strain_forces(const ImposedStrains&, ForceSum) const {}
+  /// Takes those stresses away from `out`, laid out as in stresses().
+  virtual void subtract_imposed_stresses(const ImposedStrains&, std::span<double>) const {}
 };
 
 /// Blocks for cells that share type and formulation.

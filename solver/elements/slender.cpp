@@ -120,14 +120,18 @@ class SlenderBlock final : public ElementBlock {
 
  public:
   SlenderBlock(const BlockInput& input, std::vector<int> cells)
-      : cells_(std::move(cells)),
+      : mesh_(*input.model.mesh),
+        cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
       if constexpr (is_beam) {
         matrices_.push_back(beam_matrix(input, cell));
+        const BeamSection& section = section_of(input, cell);
+        rigidities_.push_back(elasticity_of(input, cell).young * Eigen::Vector3d(section.area, section.inertia_y, section.inertia_z));
         axes_.push_back(own_axes(*input.model.mesh, cell, section_of(input, cell).roll));
       } else {
         matrices_.push_back(bar_matrix<Components>(input, cell));
+        rigidities_.push_back(Eigen::Vector3d(elasticity_of(input, cell).young * section_of(input, cell).area, 0.0, 0.0));
         axes_.push_back(own_axes(*input.model.mesh, cell));
       }
     }
@@ -177,7 +181,47 @@ class SlenderBlock final : public ElementBlock {
 
   bool is_linear() const override { return true; }
 
+  void add_imposed_strain_forces(const ImposedStrains& imposed, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      map_.dofs(element, dofs.data());
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element);
+      const Eigen::Matrix3d& axes = axes_[element];
+      const Eigen::Vector3d force = axes.row(0).transpose() * resultants[0];
+      const Eigen::Vector3d moment = axes.row(1).transpose() * resultants[1] + axes.row(2).transpose() * resultants[2];
+      for (int i = 0; i < Components; ++i) {
+        const double end = i < 3 ? force[i] : moment[i - 3];
+        forces[dofs[i]] -= end;
+        forces[dofs[Components + i]] += end;
+      }
+    }
+  }
+
+  void subtract_imposed_stresses(const ImposedStrains& imposed, std::span<double> out) const override {
+    const auto names = stress_names().size();
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element);
+      for (int point = 0; point < point_count(); ++point, target += names) {
+        target[0] -= resultants[0];
+        if constexpr (is_beam) {
+          target[4] -= resultants[1];
+          target[5] -= resultants[2];
+        }
+      }
+    }
+  }
+
  private:
+  /// N, MFY and MFZ of the imposed strain at the middle of an element.
+  Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element) const {
+    const auto nodes = map_.nodes(element);
+    const Eigen::Vector3d middle = 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
+                                          Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data()));
+    return rigidities_[element].cwiseProduct(imposed.slender(cells_[element], middle));
+  }
+
   using Forces = std::array<long double, size>;
 
   /// Forces on both ends, from the translation of the second end relative to the first.
@@ -205,9 +249,11 @@ class SlenderBlock final : public ElementBlock {
     return target;
   }
 
+  const Mesh& mesh_;
   std::vector<int> cells_;
   ElementMap map_;
   std::vector<Matrix> matrices_;
+  std::vector<Eigen::Vector3d> rigidities_;  ///< E A, E I_y, E I_z
   std::vector<Eigen::Matrix3d> axes_;
 };
 
