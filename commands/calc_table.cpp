@@ -104,8 +104,9 @@ void compute(Table& table, const Keywords& action) {
       const Cell& cell = row[static_cast<std::size_t>(source)];
       if (!std::holds_alternative<std::monostate>(cell)) arguments.push_back(value_of(cell));
     }
-    const bool full = arguments.size() == sources.size();
-    row[static_cast<std::size_t>(target)] = full ? cell_of(function.call(arguments), action) : Cell();
+    Cell& result = row[static_cast<std::size_t>(target)];
+    result = Cell();
+    if (arguments.size() == sources.size()) result = cell_of(function.call(arguments), action);
   }
 }
 
@@ -127,7 +128,8 @@ Table reduce(const Table& table, const Keywords& action) {
     row.emplace_back(type);
     for (const int column : columns) {
       const auto numbers = numbers_in(table, column, action);
-      row.push_back(numbers.empty() ? Cell() : Cell(reduction(type, numbers)));
+      Cell& cell = row.emplace_back();
+      if (!numbers.empty()) cell = reduction(type, numbers);
     }
   }
   return reduced;
@@ -170,7 +172,9 @@ class Join {
       bool matched = false;
       for (std::size_t i = 0; i < right_.rows.size() && !matched; ++i) {
         matched = !used[i] && agree(row, right_.rows[i]);
-        if (matched) fill(row, i), used[i] = true;
+        if (!matched) continue;
+        fill(row, i);
+        used[i] = true;
       }
       if (matched || !restricted) rows.push_back(std::move(row));
     }
