@@ -31,6 +31,9 @@ std::vector<std::size_t> places_of(const FunctionConcept& function, const std::s
   std::vector<std::size_t> places;
   for (const std::string& parameter : function.parameters()) {
     const auto found = std::find(known.begin(), known.end(), parameter);
+    if (parameter == "XF" || parameter == "YF" || parameter == "ZF") {
+      throw DiagnosticError("unsupported", fmt::format("{} depends on {}, a place on the deformed mesh, which comma does not give to functions yet", name, parameter), span);
+    }
     if (found == known.end()) {
       throw DiagnosticError("unknown-parameter", fmt::format("{} depends on {}, which has no value here", name, parameter), span,
                             fmt::format("here a function may depend on {}", fmt::join(known, ", ")));

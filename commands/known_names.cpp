@@ -15,10 +15,10 @@ constexpr std::array<std::string_view, 54> quantities = {
     "ETOT", "EPOT", "ECIN", "DISS", "INDL", "VARI", "VAEX", "VARC", "ENDO", "CRIT", "PDIL", "PRAC", "PRME", "SING",
     "ERME", "ERZ1", "ERZ2", "QIRE", "QIZ1", "QIZ2", "FLUX", "META", "DURT", "STRX", "COHE", "INTE"};
 constexpr std::array<std::string_view, 4> locations = {"ELGA", "ELNO", "NOEU", "ELEM"};
-constexpr std::array<std::string_view, 29> other_fields = {
+constexpr std::array<std::string_view, 30> other_fields = {
     "DEPL", "VITE", "ACCE", "TEMP", "PRES", "IRRA", "SECH", "HYDR_NOEU", "HYDR_ELNO", "NEUT", "GEOMETRIE", "COMPORTEMENT",
     "COMPORTHER", "COMPMETA", "CONT_NOEU", "CONT_ELEM", "INDC_ELEM", "SECO_ELEM", "FORC_NODA", "REAC_NODA", "FORC_EXTE",
-    "FORC_AMOR", "FORC_LIAI", "DEPL_ABSOLU", "VITE_ABSOLU", "ACCE_ABSOLU", "DEPL_VIBR", "SISE_ELNO", "VALE_CONT"};
+    "FORC_AMOR", "FORC_LIAI", "DEPL_ABSOLU", "VITE_ABSOLU", "ACCE_ABSOLU", "DEPL_VIBR", "SISE_ELNO", "VALE_CONT", "PRES_NOEU"};
 
 bool is_users_own(std::string_view name) {
   return name.size() > 4 && name.starts_with("UT") && std::isdigit(static_cast<unsigned char>(name[2])) != 0;

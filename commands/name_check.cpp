@@ -109,8 +109,18 @@ class NameCheck {
       if (keyword.name.starts_with("NOM")) {
         for (std::string& name : texts_of(keyword.value)) own_names_.insert(std::move(name));
       }
-      for (const Keywords& factor : keyword.factors) collect_own_names(factor);
+      for (const Keywords& factor : keyword.factors) {
+        collect_own_names(factor);
+        if (keyword.name == "CREA_GROUP_NO") collect_node_groups(factor);
+      }
     }
+  }
+
+  /// DEFI_GROUP calls the nodes of a cell group by the cell group's name unless NOM gives another.
+  void collect_node_groups(const Keywords& creation) {
+    if (creation.given("TOUT_GROUP_MA")) every_cell_group_ = true;
+    if (!creation.given("GROUP_MA") || creation.given("NOM")) return;
+    for (std::string& name : texts_of(creation.at("GROUP_MA").value)) own_node_groups_.insert(std::move(name));
   }
 
   void check_level(const Keywords& keywords, const Levels& levels, const Reach& outer, const std::string& label,
@@ -164,7 +174,12 @@ class NameCheck {
       std::ranges::move(keys_of(mesh->*groups), std::back_inserter(known));
       std::ranges::move(keys_of(mesh->*others), std::back_inserter(known_others));
     }
-    const auto exists = [&](const std::string& name) { return own_names_.contains(name) || std::ranges::find(known, name) != known.end(); };
+    const auto is_own = [&](const std::string& name) {
+      if (own_names_.contains(name)) return true;
+      if (kind != "node") return false;
+      return own_node_groups_.contains(name) || (every_cell_group_ && std::ranges::find(known_others, name) != known_others.end());
+    };
+    const auto exists = [&](const std::string& name) { return is_own(name) || std::ranges::find(known, name) != known.end(); };
     const auto hint = [&](const std::string& name) {
       const bool other = std::ranges::find(known_others, name) != known_others.end();
       return other ? fmt::format("{} is a {} group of this mesh", name, other_kind) : hint_for(name, known, fmt::format("{} group", kind));
@@ -283,6 +298,8 @@ class NameCheck {
   const Catalogue& catalogue_;
   Diagnostics& diagnostics_;
   std::set<std::string, std::less<>> own_names_;
+  std::set<std::string, std::less<>> own_node_groups_;
+  bool every_cell_group_ = false;  ///< becomes a node group in this call
   bool right_ = true;
 };
 

@@ -40,7 +40,7 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
       continue;
     }
     const bool runs = node.complete && is_preparation(node) && (nothing_more || is_in_turn(node)) && missing_source(node) == nullptr;
-    if (runs) run_reporting(node);
+    if (runs) run_reporting(node, nothing_more ? Severity::alarm : Severity::error);
   }
 }
 
@@ -85,11 +85,13 @@ void Executor::forgive(int id) {
   graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true;
 }
 
-void Executor::run_reporting(CommandNode& node) {
+void Executor::run_reporting(CommandNode& node, Severity unsupported) {
   try {
     run(node);
   } catch (const DiagnosticError& error) {
-    diagnostics_.add(error.diagnostic());
+    Diagnostic finding = error.diagnostic();
+    if (finding.code == "unsupported") finding.severity = unsupported;
+    diagnostics_.add(std::move(finding));
   }
 }
 

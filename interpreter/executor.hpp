@@ -49,7 +49,8 @@ class Executor {
  private:
   /// Marks the node done, or failed and throws.
   void run(CommandNode& node);
-  void run_reporting(CommandNode& node);
+  /// `unsupported`: how grave it is that comma cannot do what the node asks.
+  void run_reporting(CommandNode& node, Severity unsupported = Severity::error);
   /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
   std::shared_ptr<ConceptData> invoke(const CommandNode& node) const;
   /// Whether nothing that it waits for is still to run.

@@ -70,6 +70,8 @@ void StudyRun::run() {
   for (const fs::path& file : study_.command_files) {
     ++files_begun_;
     const auto tree = interpreter::parse(interpreter::SourceFile::read(file.string()), diagnostics_);
+    // What cannot be read is not evaluated: names whose lines are lost would be reported as unknown.
+    if (diagnostics_.has_errors()) return;
     evaluator_->run(tree);
   }
   session_.finish();
@@ -86,7 +88,9 @@ void StudyRun::include(const interpreter::Call& call) {
   const Span where = call.span_of(by_unit ? "UNITE" : "DONNEE");
   const fs::path path = by_unit ? context_.files.included(static_cast<int>(call.integer("UNITE")), where)
                                 : context_.files.included(call.text("DONNEE"), where);
+  const bool sound_before = !diagnostics_.has_errors();
   trees_.push_back(interpreter::parse(interpreter::SourceFile::read(path.string()), diagnostics_));
+  if (sound_before && diagnostics_.has_errors()) return;
   struct Depth {
     int& depth;
     explicit Depth(int& count) : depth(count) { ++depth; }
