@@ -90,7 +90,11 @@ class NameCheck {
 
   bool run() {
     collect_own_names(node_.call);
-    check_level(node_.call, {&catalogue_.page(node_.call.command).inside}, {}, node_.call.command, {});
+    // Loads and contact speak of displacements.
+    const std::string& command = node_.call.command;
+    const bool of_displacements = command == "DEFI_CONTACT" || command.starts_with("AFFE_CHAR_MECA");
+    const std::vector<std::string> fields(of_displacements ? 1 : 0, "DEPL");
+    check_level(node_.call, {&catalogue_.page(command).inside}, {}, command, fields);
     return right_;
   }
 
@@ -164,6 +168,8 @@ class NameCheck {
       std::ranges::move(keys_of(mesh->*groups), std::back_inserter(known));
       std::ranges::move(keys_of(mesh->*others), std::back_inserter(known_others));
     }
+    // DEFI_GROUP may make node groups under the names of cell groups, and use them in the same call.
+    if (node_.call.command == "DEFI_GROUP") known.insert(known.end(), known_others.begin(), known_others.end());
     const auto exists = [&](const std::string& name) { return own_names_.contains(name) || std::ranges::find(known, name) != known.end(); };
     const auto hint = [&](const std::string& name) {
       const bool other = std::ranges::find(known_others, name) != known_others.end();
