@@ -9,11 +9,11 @@ namespace comma::commands {
 namespace {
 
 // A field is called QUANTITY_LOCATION; these are the quantities of mechanical results (U4.81.04, section 3).
-constexpr std::array<std::string_view, 54> quantities = {
+constexpr std::array<std::string_view, 56> quantities = {
     "SIEF", "SIGM", "SIPO", "SIPM", "SIRO", "SIZ1", "SIZ2", "SIEQ", "EFGE", "EFCA", "EGRU", "EPSI", "EPSG", "EPSL",
     "EPME", "EPMG", "EPMQ", "EPGQ", "EPEQ", "EPFD", "EPFP", "EPVC", "EPSP", "EPSA", "DEGE", "DERA", "ENEL", "ENTR",
     "ETOT", "EPOT", "ECIN", "DISS", "INDL", "VARI", "VAEX", "VARC", "ENDO", "CRIT", "PDIL", "PRAC", "PRME", "SING",
-    "ERME", "ERZ1", "ERZ2", "QIRE", "QIZ1", "QIZ2", "FLUX", "META", "DURT", "STRX", "COHE", "INTE"};
+    "ERME", "ERZ1", "ERZ2", "QIRE", "QIZ1", "QIZ2", "FLUX", "META", "DURT", "STRX", "COHE", "INTE", "PRES", "TEMP"};
 constexpr std::array<std::string_view, 4> locations = {"ELGA", "ELNO", "NOEU", "ELEM"};
 constexpr std::array<std::string_view, 30> other_fields = {
     "DEPL", "VITE", "ACCE", "TEMP", "PRES", "IRRA", "SECH", "HYDR_NOEU", "HYDR_ELNO", "NEUT", "GEOMETRIE", "COMPORTEMENT",

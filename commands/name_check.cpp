@@ -90,7 +90,11 @@ class NameCheck {
 
   bool run() {
     collect_own_names(node_.call);
-    check_level(node_.call, {&catalogue_.page(node_.call.command).inside}, {}, node_.call.command, {});
+    // Loads and contact speak of displacements.
+    const std::string& command = node_.call.command;
+    const bool of_displacements = command == "DEFI_CONTACT" || command.starts_with("AFFE_CHAR_MECA");
+    const std::vector<std::string> fields(of_displacements ? 1 : 0, "DEPL");
+    check_level(node_.call, {&catalogue_.page(command).inside}, {}, command, fields);
     return right_;
   }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "interpreter/check_reuse.hpp"
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
 #include "interpreter/dict.hpp"
@@ -109,6 +110,7 @@ class LevelCheck {
     resolve(arguments);
     guess_misspelt();
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
+    forget_wrong_values();
     activate(level_, true);
     for (const Pending& pending : pending_)
       if (!pending.used) take_other(pending);
@@ -138,6 +140,25 @@ class LevelCheck {
       const std::string& name = alias == canonical.end() ? argument.name : alias->second;
       if (value.is_sequence() && value.items().empty() && factors.contains(name)) continue;
       add_pending({name, &argument, false});
+    }
+  }
+
+  /// What depends on a compulsory keyword that is missing, or that has a wrong value, is not known: one mistake makes one
+  /// error.
+  void forget_wrong_values() {
+    for (const KeywordPage& keyword : level_.keywords) {
+      if (keyword.is_factor()) continue;
+      const auto pending = std::ranges::find(pending_, keyword.name, &Pending::name);
+      if (pending == pending_.end()) {
+        if (keyword.required) scope_.values[keyword.name] = Value::unknown();
+        continue;
+      }
+      Diagnostics nothing;
+      CheckContext context{context_.catalogue, nothing};
+      context.quiet = true;
+      if (!check_value(*pending->argument->value, keyword, label_, pending->argument->value_span, context)) {
+        scope_.values[keyword.name] = Value::unknown();
+      }
     }
   }
 
@@ -182,6 +203,12 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
+    // A call that names it twice in so many letters was told so when it was read.
+    const auto told = [&](const Diagnostic& item) {
+      return item.code == "repeated-keyword" && item.span.file == pending.argument->name_span.file &&
+             item.span.begin == pending.argument->name_span.begin;
+    };
+    if (std::ranges::any_of(context_.diagnostics.items(), told)) return;
     const std::string also =
         pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
@@ -203,7 +230,11 @@ class LevelCheck {
     const auto pending = std::ranges::find(pending_, keyword.name, &Pending::name);
     if (pending != pending_.end()) {
       pending->used = true;
-      take_given(keyword, *pending->argument);
+      if (certain) {
+        take_given(keyword, *pending->argument);
+      } else {
+        take_unjudged(keyword, *pending->argument);
+      }
     } else if (guessed(keyword.name)) {
       return;
     } else if (certain) {
@@ -211,6 +242,12 @@ class LevelCheck {
     } else {
       scope_.values[keyword.name] = Value::unknown();  // its default would stand here if the block exists
     }
+  }
+
+  /// A keyword of a block that may not be the right one: other blocks may describe it otherwise.
+  void take_unjudged(const KeywordPage& keyword, const Argument& argument) {
+    result_.items.push_back({keyword.name, Value::unknown(), {}, argument.name_span, argument.value_span, true});
+    scope_.values[keyword.name] = Value::unknown();
   }
 
   /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
@@ -365,77 +402,6 @@ bool holds_unknown(const Keywords& keywords) {
   return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
 }
 
-/// The concepts at "A" or in the occurrences at "A/B"; unknown values count as `handle` itself.
-void collect_at(const Keywords& keywords, std::string_view path, const ConceptPtr& handle,
-                std::vector<ConceptPtr>& found) {
-  const std::size_t slash = path.find('/');
-  if (slash != std::string_view::npos) {
-    for (const Keywords& factor : keywords.factors(path.substr(0, slash)))
-      collect_at(factor, path.substr(slash + 1), handle, found);
-    return;
-  }
-  const auto item = std::ranges::find(keywords.items, path, &Keyword::name);
-  if (item == keywords.items.end()) return;
-  std::vector<Value> values{item->value};
-  if (item->value.is_sequence()) values.assign(item->value.items().begin(), item->value.items().end());
-  for (const Value& value : values) {
-    if (value.is_unknown()) found.push_back(handle);
-    if (value.is_concept()) found.push_back(value.as_concept());
-  }
-}
-
-/// The checks of reuse=.
-class ReuseCheck {
- public:
-  ReuseCheck(const CommandCall& written, const CommandPage& page, const Argument* reuse, CheckContext& context)
-      : written_(written), page_(page), reuse_(reuse), context_(context) {}
-
-  void run(CheckedCall& checked) {
-    if (reuse_ == nullptr) {
-      if (page_.reuse == Reuse::compulsory)
-        error(fmt::format("{} changes {} in place and needs reuse=", page_.name, page_.reuse_same_as.front()),
-              written_.name_span, fmt::format("add reuse= with the concept of {}", page_.reuse_same_as.front()));
-      return;
-    }
-    const Value& value = *reuse_->value;
-    if (value.is_unknown()) return;
-    if (page_.reuse == Reuse::none)
-      return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
-    if (!value.is_concept())
-      return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
-    check_concept(value.as_concept(), checked);
-  }
-
- private:
-  void check_concept(const ConceptPtr& handle, CheckedCall& checked) {
-    const bool fits = std::ranges::any_of(page_.products, [&](const ProductPage& product) {
-      return context_.catalogue.is_a(handle->type, product.type);
-    });
-    if (!fits)
-      return error(fmt::format("{} cannot change {} in place: it is {} ({})", page_.name, handle->name,
-                               with_article(context_.catalogue.describe_type(handle->type)), handle->type),
-                   reuse_->value_span);
-    std::vector<ConceptPtr> named;
-    for (const std::string& path : page_.reuse_same_as) collect_at(checked.call, path, handle, named);
-    const bool same = std::ranges::find(named, handle) != named.end();
-    if (!same && !named.empty())
-      error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
-            reuse_->value_span);
-    checked.call.result = handle;
-    checked.call.reuse = true;
-    checked.product_type = handle->type;
-  }
-
-  void error(std::string message, const Span& span, std::string hint = {}) {
-    context_.diagnostics.error("bad-reuse", std::move(message), span, std::move(hint));
-  }
-
-  const CommandCall& written_;
-  const CommandPage& page_;
-  const Argument* reuse_;
-  CheckContext& context_;
-};
-
 std::string product_type(const CommandPage& page, const Scope& scope) {
   for (const ProductPage& product : page.products)
     if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes) return product.type;
@@ -469,7 +435,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   checked.call.command = page.name;
   checked.product_type = product_type(page, level.scope());
   const bool reused = reuse != written.arguments.end() && !reuse->value->is_none();
-  ReuseCheck(written, page, reused ? &*reuse : nullptr, context).run(checked);
+  check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 
   checked.sound = count_errors(diagnostics) == errors_before;
   const bool unknown_reuse = reused && reuse->value->is_unknown();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace comma::interpreter {
 namespace {
@@ -17,8 +18,8 @@ std::string joined(const std::vector<std::string>& names, std::size_t first = 0)
 class RuleCheck {
  public:
   RuleCheck(const RulePage& rule, const std::vector<GivenKeyword>& given, const std::string& label, const Span& span,
-            Diagnostics& diagnostics)
-      : rule_(rule), label_(label), span_(span), diagnostics_(diagnostics) {
+            Diagnostics& diagnostics, std::set<std::string>& blamed)
+      : rule_(rule), label_(label), span_(span), diagnostics_(diagnostics), blamed_(blamed) {
     for (const GivenKeyword& keyword : given)
       if (std::ranges::find(rule.keywords, keyword.name) != rule.keywords.end()) present_.push_back(&keyword);
   }
@@ -65,7 +66,10 @@ class RuleCheck {
     for (std::size_t i = 1; i < present_.size(); ++i) report_exclusive(*present_[i], *present_.front());
   }
 
+  /// A keyword that several rules exclude is one keyword too many, not several.
   void report_exclusive(const GivenKeyword& second, const GivenKeyword& first) {
+    if (blamed_.contains(first.name) || blamed_.contains(second.name)) return;
+    blamed_.insert({first.name, second.name});
     diagnostics_.error("exclusive-keywords",
                        fmt::format("{} takes {} or {}, not both", label_, first.name, second.name), second.name_span,
                        "keep one of them");
@@ -105,6 +109,7 @@ class RuleCheck {
   const std::string& label_;
   const Span& span_;
   Diagnostics& diagnostics_;
+  std::set<std::string>& blamed_;
   std::vector<const GivenKeyword*> present_;  ///< in the order of the file
 };
 
@@ -112,7 +117,8 @@ class RuleCheck {
 
 void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyword>& given, const std::string& label,
                  const Span& span, Diagnostics& diagnostics) {
-  for (const RulePage& rule : rules) RuleCheck(rule, given, label, span, diagnostics).run();
+  std::set<std::string> blamed;
+  for (const RulePage& rule : rules) RuleCheck(rule, given, label, span, diagnostics, blamed).run();
 }
 
 std::string describe_rule(const RulePage& rule) {

@@ -183,13 +183,17 @@ bool Parser::separate_items(std::string_view closing) {
   return false;
 }
 
-/// Whether a line inside brackets is rather the next statement, the brackets having been left open.
-bool Parser::starts_statement(const Token& token) const {
+/// Whether a line inside brackets begins no further right than the statement that opened them.
+bool Parser::starts_line_outside(const Token& token) const {
   if (!token.starts_line || open_brackets_.empty()) return false;
   const int line = file_->position(open_brackets_.front().begin).line;
   const std::string_view opening_line = file_->line(line);
-  const auto indentation = static_cast<int>(skip_blanks(opening_line, 0));
-  if (token.column > indentation) return false;
+  return token.column <= static_cast<int>(skip_blanks(opening_line, 0));
+}
+
+/// Whether a line inside brackets is rather the next statement, the brackets having been left open.
+bool Parser::starts_statement(const Token& token) const {
+  if (!starts_line_outside(token)) return false;
   if (token.kind == TokenKind::keyword) {
     return std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
   }
@@ -210,7 +214,8 @@ void Parser::recover(Failure failure, const Token& start) {
   const bool follows_from_broken = broken_;
   while (now_.kind != TokenKind::newline && now_.kind != TokenKind::end) {
     if (now_.kind == TokenKind::indent || now_.kind == TokenKind::dedent) break;
-    if (now_.begin > start.begin && starts_statement(now_)) {
+    const bool failed_here = now_.begin == failure.token_begin && now_.kind == TokenKind::name && starts_line_outside(now_);
+    if (now_.begin > start.begin && (failed_here || starts_statement(now_))) {
       at_next_statement = true;
       break;
     }

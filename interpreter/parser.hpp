@@ -68,11 +68,13 @@ class Parser {
   [[noreturn]] void fail(std::string code, std::string message, Span span, std::string hint = {});
   [[noreturn]] void fail_here(std::string expected);
   void report(std::string code, std::string message, Span span, std::string hint = {});
+  bool starts_line_outside(const Token& token) const;
   bool starts_statement(const Token& token) const;
   void recover(Failure failure, const Token& start);
   void skip_orphan_blocks();
 
   // Statements (parser_statements.cpp).
+  void bind_broken(const Token& start, Block& block);
   void parse_line(Block& block);
   void parse_statements(Block& block);
   StatementPtr parse_compound();

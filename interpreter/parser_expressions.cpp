@@ -276,6 +276,9 @@ void Parser::parse_argument(CallNode& call) {
     advance();
     item.value = parse_expression();
   } else {
+    const bool follows_keyword = !call.arguments.empty() && call.arguments.back().kind >= CallNode::Kind::keyword;
+    // A keyword would have to stand here: `F(A=1,` and, on the next line, `G(...)`.
+    if (follows_keyword && now_.kind == TokenKind::name && starts_line_outside(now_)) fail_here("')'");
     item.value = parse_expression();
     if (at("for")) {
       const std::uint32_t begin = item.value->begin;
@@ -285,7 +288,7 @@ void Parser::parse_argument(CallNode& call) {
            "write NAME=value, or '==' to compare");
     } else if (at(":=")) {
       fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
-    } else if (!call.arguments.empty() && call.arguments.back().kind >= CallNode::Kind::keyword) {
+    } else if (follows_keyword) {
       report("syntax", "an argument without keyword follows one with a keyword", span_of(*item.value),
              "write KEYWORD=value");
     }

@@ -47,12 +47,28 @@ void Parser::parse_statements(Block& block) {
       scopes_->roll_back(checkpoint);
       const bool header = is_compound(start) || (start.kind == TokenKind::keyword && start.text == "else");
       recover(std::move(failure), start);
+      bind_broken(start, block);
       if (header || now_.kind == TokenKind::indent) {
         skip_orphan_blocks();
         scopes_->roll_back(checkpoint);
       }
     }
   }
+}
+
+/// What a broken assignment would have bound is unknown, not missing: its uses are no mistakes of their own.
+void Parser::bind_broken(const Token& start, Block& block) {
+  if (start.kind != TokenKind::name) return;
+  const std::string_view rest = file_->text().substr(start.end);
+  const std::size_t next = rest.find_first_not_of(" \t");
+  if (next == std::string_view::npos || rest[next] != '=' || rest.substr(next).starts_with("==")) return;
+  auto assignment = std::make_unique<AssignStatement>(StatementKind::assign, start.begin, start.end);
+  auto name = std::make_unique<NameNode>(std::string(start.text), start.begin, start.end);
+  scopes_->use(name.get());
+  scopes_->bind(*name);
+  assignment->targets.push_back(std::move(name));
+  assignment->value = std::make_unique<Node>(NodeKind::broken, start.begin, start.end);
+  block.push_back(std::move(assignment));
 }
 
 void Parser::parse_line(Block& block) {

@@ -197,7 +197,8 @@ class Planter {
     });
     if (page.required && always && levels.size() == 1) {
       const bool last = index + 1 == call.arguments.size();
-      const auto end = last ? static_cast<std::uint32_t>(item.value->end) : call.arguments[index + 1].name_begin;
+      const auto after = static_cast<std::uint32_t>(item.value->end);
+      const auto end = !last ? call.arguments[index + 1].name_begin : text_[after] == ',' ? after + 1 : after;
       const bool spread_follows = !last && call.arguments[index + 1].kind != CallNode::Kind::keyword;
       if (!spread_follows) {
         const std::string gap = text_.substr(item.value->end, end - item.value->end);
