@@ -53,6 +53,8 @@ struct BeamSection {
 
 /// Characteristics by cell index.
 struct ElementProperties {
+  /// Axes L, T, N (rows) of anisotropic materials; the global axes where none are given.
+  std::unordered_map<int, Eigen::Matrix3d> material_axes;
   std::unordered_map<int, DiscreteStiffness> discrete;
   std::unordered_map<int, BeamSection> sections;
 };

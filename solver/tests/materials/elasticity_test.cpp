@@ -10,7 +10,7 @@ using namespace comma::solver;
 
 namespace {
 
-const IsotropicElasticity steel{2.1e11, 0.3};
+const IsotropicModuli steel{2.1e11, 0.3};
 
 }  // namespace
 
@@ -30,8 +30,8 @@ TEST_CASE("plane stress is the three-dimensional law with no stress across the p
 TEST_CASE("constants without an elastic body behind them are refused", "[materials]") {
   CHECK_NOTHROW(check_elasticity(steel));
   CHECK_NOTHROW(check_elasticity({1.0, 0.0}));
-  for (const auto& wrong : {IsotropicElasticity{0.0, 0.3}, IsotropicElasticity{-1.0, 0.3}, IsotropicElasticity{1.0, 0.5},
-                            IsotropicElasticity{1.0, -1.0}, IsotropicElasticity{std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
+  for (const auto& wrong : {IsotropicModuli{0.0, 0.3}, IsotropicModuli{-1.0, 0.3}, IsotropicModuli{1.0, 0.5},
+                            IsotropicModuli{1.0, -1.0}, IsotropicModuli{std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
     CHECK_THROWS_AS(check_elasticity(wrong), Error);
   }
 }
