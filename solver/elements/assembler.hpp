@@ -36,8 +36,8 @@ class Assembler {
   /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
 
-  /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so that the equilibrium of a stiff body held by weak
-  /// springs is not drowned in rounding.
+  /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so that
+  /// the equilibrium of a stiff body held by weak springs is not drowned in rounding.
   Eigen::VectorXd internal_forces(const Eigen::VectorXd& u) const;
 
   /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.

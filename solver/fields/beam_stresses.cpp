@@ -35,8 +35,8 @@ const BeamSection& section_of(const FieldInput& input, int cell) {
 
 /// A field with `names` on the bars and beams: `write(cell, section, forces, target)` at each node.
 template <class Write>
-ElementField on_members(const FieldInput& input, const ElementField& forces, std::string quantity, std::vector<std::string> names,
-                        Write&& write) {
+ElementField on_members(const FieldInput& input, const ElementField& forces, std::string quantity,
+                        std::vector<std::string> names, Write&& write) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = forces.component(force_names[i]);
   if (columns[0] < 0) throw Error("incompatible-field", "the field of section forces has no component N");
@@ -65,14 +65,19 @@ double bending_stress(const FieldInput& input, int cell, const BeamSection& sect
   const double about_y = std::abs(f.mfy) * section.reach_z / section.inertia_y;
   const double about_z = std::abs(f.mfz) * section.reach_y / section.inertia_z;
   switch (section.shape) {
-    case SectionShape::rectangle: return about_y + about_z;
-    case SectionShape::circle: return std::hypot(about_y, about_z);
-    case SectionShape::general: break;
+    case SectionShape::rectangle:
+      return about_y + about_z;
+    case SectionShape::circle:
+      return std::hypot(about_y, about_z);
+    case SectionShape::general:
+      break;
   }
-  throw Error("unsupported",
-              fmt::format("the extreme stresses of the beam on cell {} are not known: its section is general, without an outline",
-                          input.model.mesh->cell_name(cell)),
-              "ask for them on beams with a rectangular or circular section");
+  throw Error(
+      "unsupported",
+      fmt::format(
+          "the extreme stresses of the beam on cell {} are not known: its section is general, without an outline",
+          input.model.mesh->cell_name(cell)),
+      "ask for them on beams with a rectangular or circular section");
 }
 
 /// What the material knows at the middle of a cell of two nodes.
@@ -90,7 +95,8 @@ MaterialPoint middle_point(const FieldInput& input, int cell) {
 const IsotropicElasticity& isotropic(const FieldInput& input, int cell) {
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
   if (material != nullptr) return *material;
-  throw Error("unsupported", fmt::format("the bar or beam on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+  throw Error("unsupported",
+              fmt::format("the bar or beam on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
 }
 
 }  // namespace

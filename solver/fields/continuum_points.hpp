@@ -35,7 +35,8 @@ struct ContinuumSample {
   Eigen::MatrixXd derivatives;
 };
 
-/// The point in the real cell. `weight`: the volume it stands for (area for a thickness of 1; per radian if axisymmetric).
+/// The point in the real cell. `weight`: the volume it stands for (area for a thickness of 1; per radian if
+/// axisymmetric).
 struct ContinuumPoint {
   double weight = 0.0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -44,7 +45,8 @@ struct ContinuumPoint {
 
 class ContinuumPoints {
  public:
-  explicit ContinuumPoints(const Model& model, PointFamily family = PointFamily::stiffness) : model_(model), family_(family) {}
+  explicit ContinuumPoints(const Model& model, PointFamily family = PointFamily::stiffness)
+      : model_(model), family_(family) {}
 
   /// Whether the cell is a continuum element, skin excluded.
   bool covers(int cell) const;
@@ -52,8 +54,8 @@ class ContinuumPoints {
   const std::vector<ContinuumSample>& samples(int cell);
   ContinuumPoint locate(int cell, const ContinuumSample& sample) const;
   /// What the material knows at a point.
-  MaterialPoint material_point(int cell, const VariableState& state, const ContinuumSample& sample, const Eigen::Vector3d& at,
-                               int point) const;
+  MaterialPoint material_point(int cell, const VariableState& state, const ContinuumSample& sample,
+                               const Eigen::Vector3d& at, int point) const;
 
  private:
   const Model& model_;

@@ -20,7 +20,9 @@ class TensorReader {
   TensorReader(const ElementField& field, const std::array<std::string_view, 6>& names) : field_(field) {
     for (int i = 0; i < 6; ++i) columns_[i] = field.component(names[i]);
   }
-  bool has(int cell) const { return columns_[0] >= 0 && field_.points(cell) > 0 && !std::isnan(field_.at(cell, 0, columns_[0])); }
+  bool has(int cell) const {
+    return columns_[0] >= 0 && field_.points(cell) > 0 && !std::isnan(field_.at(cell, 0, columns_[0]));
+  }
   Vector6d at(int cell, int point) const {
     Vector6d tensor;
     for (int i = 0; i < 6; ++i) {
@@ -68,8 +70,9 @@ ElementField elastic_energy_density(const FieldInput& input, const ElementField&
   });
 }
 
-ElementField total_energy_density(const ElementField& stresses, const ElementField& strains, const ElementField* stresses_before,
-                                  const ElementField* strains_before, const ElementField* previous) {
+ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
+                                  const ElementField* stresses_before, const ElementField* strains_before,
+                                  const ElementField* previous) {
   const TensorReader stress(stresses, stress_names);
   const TensorReader strain(strains, strain_names);
   const TensorReader stress_before(stresses_before ? *stresses_before : stresses, stress_names);
@@ -104,7 +107,8 @@ ElementField integrate_cells(const Model& model, const ElementField& field) {
         const auto at = [&](std::size_t p) { return field.at(cell, static_cast<int>(p), static_cast<int>(c)); };
         double value = 0.0;
         if (nodal) {
-          for (std::size_t a = 0; a < nodes.size(); ++a) value += samples[g].values[static_cast<Eigen::Index>(a)] * at(a);
+          for (std::size_t a = 0; a < nodes.size(); ++a)
+            value += samples[g].values[static_cast<Eigen::Index>(a)] * at(a);
         } else {
           value = at(field.support == Support::cell ? 0 : g);
         }

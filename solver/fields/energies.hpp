@@ -1,5 +1,5 @@
-// Strain energies of continua from their stresses (CALC_CHAMP, ENERGIE; POST_ELEM; R4.09.01). Assembler::elastic_energies has those of
-// all elements from displacements.
+// Strain energies of continua from their stresses (CALC_CHAMP, ENERGIE; POST_ELEM; R4.09.01).
+// Assembler::elastic_energies has those of all elements from displacements.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,14 @@ namespace comma::solver {
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses);
 
 /// ETOT_ELGA: the work of the stresses per volume since the unstressed state, by the trapezoidal rule: `previous` plus
-/// 1/2 (stress + stress before) : (strain - strain before). Strains are EPSI at Gauss points. The fields of the step before are null at
-/// the first one.
-ElementField total_energy_density(const ElementField& stresses, const ElementField& strains, const ElementField* stresses_before,
-                                  const ElementField* strains_before, const ElementField* previous);
+/// 1/2 (stress + stress before) : (strain - strain before). Strains are EPSI at Gauss points. The fields of the step
+/// before are null at the first one.
+ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
+                                  const ElementField* stresses_before, const ElementField* strains_before,
+                                  const ElementField* previous);
 
-/// The integral over each continuum cell of the components of a field at Gauss points or at element nodes (ENEL_ELEM from
-/// ENEL_ELGA): one value a cell and component. Volumes are those of ContinuumPoint.
+/// The integral over each continuum cell of the components of a field at Gauss points or at element nodes (ENEL_ELEM
+/// from ENEL_ELGA): one value a cell and component. Volumes are those of ContinuumPoint.
 ElementField integrate_cells(const Model& model, const ElementField& field);
 
 /// The volume of each continuum cell (component VOL).

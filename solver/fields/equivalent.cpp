@@ -68,11 +68,13 @@ void write_strain(const Eigen::Matrix3d& strain, double* target) {
 
 /// Applies `write` to every tensor of a field with `width` components a place; NaN where there is no tensor.
 template <class AnyField, class Write>
-AnyField map_tensors(const AnyField& field, std::span<const std::string_view> names, std::vector<std::string> results, Write&& write) {
+AnyField map_tensors(const AnyField& field, std::span<const std::string_view> names, std::vector<std::string> results,
+                     Write&& write) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = field.component(names[i]);
   if (columns[0] < 0 || columns[1] < 0 || columns[2] < 0 || columns[3] < 0) {
-    throw Error("incompatible-field", fmt::format("the field has no components {} {} {} {}", names[0], names[1], names[2], names[3]));
+    throw Error("incompatible-field",
+                fmt::format("the field has no components {} {} {} {}", names[0], names[1], names[2], names[3]));
   }
   AnyField result = field;
   const std::size_t width = field.components.size();
@@ -98,7 +100,9 @@ Principal principal(const Eigen::Matrix3d& tensor) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-double von_mises(const Eigen::Matrix3d& stress) { return std::sqrt(1.5) * norm_of_deviator(stress); }
+double von_mises(const Eigen::Matrix3d& stress) {
+  return std::sqrt(1.5) * norm_of_deviator(stress);
+}
 
 double tresca(const Eigen::Matrix3d& stress) {
   const Eigen::Vector3d values = principal(stress).values;

@@ -19,14 +19,22 @@ constexpr std::array<std::string_view, 6> force_names = {"N", "VY", "VZ", "MT", 
 
 CellType linear_type(CellType type) {
   switch (dimension(type) * 10 + corner_count(type)) {
-    case 1: return CellType::poi1;
-    case 12: return CellType::seg2;
-    case 23: return CellType::tria3;
-    case 24: return CellType::quad4;
-    case 34: return CellType::tetra4;
-    case 35: return CellType::pyram5;
-    case 36: return CellType::penta6;
-    default: return CellType::hexa8;
+    case 1:
+      return CellType::poi1;
+    case 12:
+      return CellType::seg2;
+    case 23:
+      return CellType::tria3;
+    case 24:
+      return CellType::quad4;
+    case 34:
+      return CellType::tetra4;
+    case 35:
+      return CellType::pyram5;
+    case 36:
+      return CellType::penta6;
+    default:
+      return CellType::hexa8;
   }
 }
 
@@ -48,7 +56,8 @@ class Smoothing {
   const Eigen::MatrixXd& of(int cell, int points) {
     const CellType type = model_.mesh->cell_types[cell];
     auto& known = matrices_[static_cast<std::size_t>(type)];
-    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& matrix) { return matrix.cols() == points; });
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& matrix) { return matrix.cols() == points; });
     if (found != known.end()) return *found;
     known.push_back(make(cell, points));
     return known.back();
@@ -65,8 +74,9 @@ class Smoothing {
     } else if (points == nodes) {
       return Eigen::MatrixXd::Identity(nodes, nodes);
     }
-    throw Error("incompatible-field", fmt::format("the field has {} points on cell {}, whose element has another number", points,
-                                                  model_.mesh->cell_name(cell)));
+    throw Error("incompatible-field",
+                fmt::format("the field has {} points on cell {}, whose element has another number", points,
+                            model_.mesh->cell_name(cell)));
   }
 
   const Model& model_;
@@ -159,8 +169,12 @@ ElementField select_components(const ElementField& field, std::span<const std::s
   return result;
 }
 
-ElementField continuum_stresses(const ElementField& field) { return select_components(field, stress_names); }
+ElementField continuum_stresses(const ElementField& field) {
+  return select_components(field, stress_names);
+}
 
-ElementField section_forces(const ElementField& field) { return select_components(field, force_names); }
+ElementField section_forces(const ElementField& field) {
+  return select_components(field, force_names);
+}
 
 }  // namespace comma::solver

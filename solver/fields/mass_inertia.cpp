@@ -20,10 +20,13 @@ class Moments {
     if (points_.covers(cell)) return add_continuum(cell);
     switch (input_.model.formulations[cell]) {
       case Formulation::bar:
-      case Formulation::bar_2d: return add_member(cell, false);
+      case Formulation::bar_2d:
+        return add_member(cell, false);
       case Formulation::euler_beam:
-      case Formulation::timoshenko_beam: return add_member(cell, true);
-      default: return;
+      case Formulation::timoshenko_beam:
+        return add_member(cell, true);
+      default:
+        return;
     }
   }
 
@@ -53,7 +56,8 @@ class Moments {
       // A ring about Y: its mean x x^T spreads r^2 over X and Z alike.
       const double r = point.at[0];
       const double y = point.at[1];
-      add_mass(2 * std::numbers::pi * mass, Eigen::Vector3d(0, y, 0), Eigen::Vector3d(0.5 * r * r, y * y, 0.5 * r * r).asDiagonal());
+      add_mass(2 * std::numbers::pi * mass, Eigen::Vector3d(0, y, 0),
+               Eigen::Vector3d(0.5 * r * r, y * y, 0.5 * r * r).asDiagonal());
     }
   }
 
@@ -62,7 +66,8 @@ class Moments {
     const auto nodes = mesh.cell(cell);
     const auto found = input_.properties.sections.find(cell);
     if (found == input_.properties.sections.end()) {
-      throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", mesh.cell_name(cell)));
+      throw Error("missing-properties",
+                  fmt::format("the bar or beam on cell {} has no cross-section", mesh.cell_name(cell)));
     }
     const BeamSection& section = found->second;
     const Eigen::Vector3d a(mesh.nodes[nodes[0]].data());

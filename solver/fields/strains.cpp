@@ -70,7 +70,8 @@ double transverse_strain(const Matrix6d& stiffness, const Vector6d& strain, cons
   return inelastic[2] - driven / stiffness(2, 2);
 }
 
-Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, StrainKind kind, const MaterialPoint& at) {
+Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, StrainKind kind,
+                   const MaterialPoint& at) {
   Eigen::Matrix3d tensor = 0.5 * (h + h.transpose());
   if (kind == StrainKind::green) tensor += 0.5 * h.transpose() * h;
   Vector6d strain = engineering(tensor);

@@ -12,9 +12,9 @@ enum class StrainKind : std::uint8_t {
   green        ///< EPSG: Green-Lagrange
 };
 
-/// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor components (half
-/// the shear angles). In plane stress EPZZ is that of the elastic law without stress across the plane. Throws Error
-/// `incompatible-field` where a node of a continuum has no displacement.
+/// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
+/// components (half the shear angles). In plane stress EPZZ is that of the elastic law without stress across the plane.
+/// Throws Error `incompatible-field` where a node of a continuum has no displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
 }  // namespace comma::solver

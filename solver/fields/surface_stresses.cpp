@@ -27,7 +27,8 @@ Corners sorted_corners(std::span<const int> nodes, int count) {
 Eigen::Vector3d normal_of(const Mesh& mesh, std::span<const int> nodes, int corners) {
   const auto at = [&](int i) { return Eigen::Vector3d(mesh.nodes[nodes[i]].data()); };
   if (corners == 2) return (at(1) - at(0)).cross(Eigen::Vector3d::UnitZ()).normalized();
-  const Eigen::Vector3d normal = corners == 4 ? (at(2) - at(0)).cross(at(3) - at(1)) : (at(1) - at(0)).cross(at(2) - at(0));
+  const Eigen::Vector3d normal =
+      corners == 4 ? (at(2) - at(0)).cross(at(3) - at(1)) : (at(1) - at(0)).cross(at(2) - at(0));
   return normal.normalized();
 }
 
@@ -80,7 +81,8 @@ class BoundedCells {
   std::map<Corners, std::vector<int>> bounded_;
 };
 
-Eigen::Matrix3d mean_stress(const Mesh& mesh, const ElementField& stresses, const std::array<int, 6>& columns, int cell, int face) {
+Eigen::Matrix3d mean_stress(const Mesh& mesh, const ElementField& stresses, const std::array<int, 6>& columns, int cell,
+                            int face) {
   std::array<double, 6> sums{};
   const auto face_nodes = mesh.cell(face);
   const auto nodes = mesh.cell(cell);
@@ -105,8 +107,8 @@ Values resolve_on_edge(const Eigen::Matrix3d& stress, const Eigen::Vector3d& n) 
   const Eigen::Vector3d t = Eigen::Vector3d::UnitZ().cross(n);
   const Eigen::Vector3d across = stress * n;
   const Eigen::Vector3d along = stress * t;
-  return {across[0], across[1], across[2], n.dot(across), along[0], along[1], along[2], along[0],
-          along[1],  along[2],  t.dot(along), 0.0,        0.0,      0.0,      0.0,      t.dot(across)};
+  return {across[0], across[1], across[2],    n.dot(across), along[0], along[1], along[2], along[0],
+          along[1],  along[2],  t.dot(along), 0.0,           0.0,      0.0,      0.0,      t.dot(across)};
 }
 
 Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& normal) {
@@ -130,8 +132,8 @@ Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& nor
   const Eigen::Vector3d n = across * normal;
   const Eigen::Vector3d one = smaller * first;
   const Eigen::Vector3d two = larger * second;
-  return {n[0],   n[1],   n[2],   across, tangential[0], tangential[1], tangential[2], one[0],
-          one[1], one[2], smaller, two[0], two[1],       two[2],        larger,        0.0};
+  return {n[0],   n[1],   n[2],    across, tangential[0], tangential[1], tangential[2], one[0],
+          one[1], one[2], smaller, two[0], two[1],        two[2],        larger,        0.0};
 }
 
 }  // namespace
@@ -144,8 +146,8 @@ ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, st
   }
   ElementField result{"SIEF_R",
                       Support::cell,
-                      {"SIG_NX", "SIG_NY", "SIG_NZ", "SIG_N", "SIG_TX", "SIG_TY", "SIG_TZ", "SIG_T1X", "SIG_T1Y", "SIG_T1Z", "SIG_T1",
-                       "SIG_T2X", "SIG_T2Y", "SIG_T2Z", "SIG_T2", "SIG_TN"},
+                      {"SIG_NX", "SIG_NY", "SIG_NZ", "SIG_N", "SIG_TX", "SIG_TY", "SIG_TZ", "SIG_T1X", "SIG_T1Y",
+                       "SIG_T1Z", "SIG_T1", "SIG_T2X", "SIG_T2Y", "SIG_T2Z", "SIG_T2", "SIG_TN"},
                       std::vector<int>(mesh.cell_types.size() + 1, 0),
                       {}};
   const BoundedCells bounded(mesh, stresses, faces);
@@ -157,7 +159,8 @@ ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, st
     if (cell < 0) continue;
     const Eigen::Vector3d normal = normal_of(mesh, mesh.cell(face), corner_count(mesh.cell_types[face]));
     const Eigen::Matrix3d stress = mean_stress(mesh, stresses, columns, cell, face);
-    const Values values = dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal);
+    const Values values =
+        dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal);
     result.values.insert(result.values.end(), values.begin(), values.end());
     result.starts[face + 1] = 1;
   }

@@ -38,8 +38,9 @@ void check(const Mesh& mesh, const CommandVariable& variable) {
     const std::size_t width = snapshot.field ? width_of(*snapshot.field) : 0;
     if (width == 0) throw_incompatible(variable.variable, "has no values");
     const auto* nodal = std::get_if<NodalField>(snapshot.field.get());
-    const bool fits = nodal != nullptr ? nodal->values.size() == mesh.nodes.size() * width
-                                       : std::get<ElementField>(*snapshot.field).starts.size() == mesh.cell_types.size() + 1;
+    const bool fits = nodal != nullptr
+                          ? nodal->values.size() == mesh.nodes.size() * width
+                          : std::get<ElementField>(*snapshot.field).starts.size() == mesh.cell_types.size() + 1;
     if (!fits) throw_incompatible(variable.variable, "is given on another mesh");
   }
 }
@@ -66,8 +67,9 @@ Field at_time(const CommandVariable& variable, double time) {
   const bool after = time > last + margin;
   const Extension extension = before ? variable.left : variable.right;
   if ((before || after) && extension == Extension::excluded) {
-    throw Error("out-of-function", fmt::format("the command variable {} is asked for at time {}, but it is given from {} to {}",
-                                               name_of(variable.variable), time, first, last),
+    throw Error("out-of-function",
+                fmt::format("the command variable {} is asked for at time {}, but it is given from {} to {}",
+                            name_of(variable.variable), time, first, last),
                 fmt::format("extend it on the {}", before ? "left" : "right"));
   }
   const bool constant = extension == Extension::constant;
@@ -100,7 +102,8 @@ VariableState::VariableState(const Mesh& mesh, std::span<const CommandVariable> 
   }
 }
 
-void VariableState::sample(int cell, std::span<const int> nodes, std::span<const double> shape, int point, MaterialPoint& out) const {
+void VariableState::sample(int cell, std::span<const int> nodes, std::span<const double> shape, int point,
+                           MaterialPoint& out) const {
   out[Parameter::time] = time_;
   for (const std::vector<int>& entry_of_cell : entry_of_cell_) {
     if (entry_of_cell.empty() || entry_of_cell[cell] < 0) continue;
@@ -110,7 +113,8 @@ void VariableState::sample(int cell, std::span<const int> nodes, std::span<const
   }
 }
 
-double VariableState::value(const Entry& entry, int cell, std::span<const int> nodes, std::span<const double> shape, int point) const {
+double VariableState::value(const Entry& entry, int cell, std::span<const int> nodes, std::span<const double> shape,
+                            int point) const {
   if (const auto* nodal = std::get_if<NodalField>(&entry.field)) {
     return interpolate(shape, [&](std::size_t a) { return nodal->at(nodes[a], 0); });
   }
@@ -118,9 +122,11 @@ double VariableState::value(const Entry& entry, int cell, std::span<const int> n
   const int points = field.points(cell);
   if (points == 0) return absent;
   switch (field.support) {
-    case Support::cell: return field.at(cell, 0, 0);
+    case Support::cell:
+      return field.at(cell, 0, 0);
     case Support::element_node:
-      if (points != static_cast<int>(nodes.size())) throw_incompatible(entry.variable, "has not one value for each node of an element");
+      if (points != static_cast<int>(nodes.size()))
+        throw_incompatible(entry.variable, "has not one value for each node of an element");
       return interpolate(shape, [&](std::size_t a) { return field.at(cell, static_cast<int>(a), 0); });
     case Support::gauss_point:
       if (point >= points) throw_incompatible(entry.variable, "has other Gauss points than the elements of the model");

@@ -32,16 +32,17 @@ struct CommandVariable {
 class VariableState {
  public:
   VariableState() = default;
-  /// Of two variables of the same kind on one cell the later counts. Throws Error `out-of-function` for a time outside the
-  /// snapshots where that is excluded, `incompatible-field` for snapshots that do not fit each other or the mesh, and for
-  /// something that is no command variable.
+  /// Of two variables of the same kind on one cell the later counts. Throws Error `out-of-function` for a time outside
+  /// the snapshots where that is excluded, `incompatible-field` for snapshots that do not fit each other or the mesh,
+  /// and for something that is no command variable.
   VariableState(const Mesh& mesh, std::span<const CommandVariable> variables, double time);
 
   double time() const { return time_; }
   bool empty() const { return entries_.empty(); }
 
-  /// Fills in time and command variables at a point of a cell. `shape`: the shape functions at the point, one a node of the cell;
-  /// `point`: its number among the Gauss points. Throws Error `incompatible-field` when a field at Gauss points has not this point.
+  /// Fills in time and command variables at a point of a cell. `shape`: the shape functions at the point, one a node of
+  /// the cell; `point`: its number among the Gauss points. Throws Error `incompatible-field` when a field at Gauss
+  /// points has not this point.
   void sample(int cell, std::span<const int> nodes, std::span<const double> shape, int point, MaterialPoint& out) const;
 
  private:
@@ -50,7 +51,8 @@ class VariableState {
     double reference;
     Field field;
   };
-  double value(const Entry& entry, int cell, std::span<const int> nodes, std::span<const double> shape, int point) const;
+  double value(const Entry& entry, int cell, std::span<const int> nodes, std::span<const double> shape,
+               int point) const;
 
   double time_ = 0.0;
   std::vector<Entry> entries_;

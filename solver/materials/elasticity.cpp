@@ -25,7 +25,9 @@ bool all_constant(const std::array<Property, 3>& properties) {
   return properties[0].is_constant() && properties[1].is_constant() && properties[2].is_constant();
 }
 
-bool is_zero(const Property& property) { return property.is_constant() && property(MaterialPoint()) == 0.0; }
+bool is_zero(const Property& property) {
+  return property.is_constant() && property(MaterialPoint()) == 0.0;
+}
 
 /// Compliance in the axes L, T, N.
 Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoint& at) {
@@ -34,8 +36,9 @@ Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoi
     const double young = material.young[i](at);
     const double shear = material.shear[i](at);
     if (!(young > 0.0) || !(shear > 0.0)) {
-      throw Error("invalid-material", fmt::format("an orthotropic material has a modulus of {}, but it must be positive",
-                                                  young > 0.0 ? shear : young));
+      throw Error("invalid-material",
+                  fmt::format("an orthotropic material has a modulus of {}, but it must be positive",
+                              young > 0.0 ? shear : young));
     }
     compliance(i, i) = 1.0 / young;
     compliance(3 + i, 3 + i) = 1.0 / shear;
@@ -73,7 +76,8 @@ double shrinkage(const IsotropicElasticity& material, const MaterialPoint& at) {
     strain += material.drying_shrinkage(at) * (drying - at.reference(Parameter::drying));
   }
   const double hydration = at[Parameter::hydration];
-  if (!is_zero(material.hydration_shrinkage) && !std::isnan(hydration)) strain -= material.hydration_shrinkage(at) * hydration;
+  if (!is_zero(material.hydration_shrinkage) && !std::isnan(hydration))
+    strain -= material.hydration_shrinkage(at) * hydration;
   return strain;
 }
 
@@ -87,7 +91,8 @@ OrthotropicElasticity as_orthotropic(const TransverseElasticity& material) {
   OrthotropicElasticity result;
   result.young = {material.young, material.young, material.young_normal};
   result.poisson = {material.poisson, material.poisson_normal, material.poisson_normal};
-  result.shear = {constant ? Property(shear_in_plane(MaterialPoint())) : shear_in_plane, material.shear_normal, material.shear_normal};
+  result.shear = {constant ? Property(shear_in_plane(MaterialPoint())) : shear_in_plane, material.shear_normal,
+                  material.shear_normal};
   result.density = material.density;
   result.expansion = {material.expansion, material.expansion, material.expansion_normal};
   result.definition_temperature = material.definition_temperature;
@@ -99,8 +104,10 @@ void check_elasticity(const IsotropicModuli& material) {
     throw Error("invalid-material", fmt::format("Young's modulus is {}, but it must be positive", material.young));
   }
   if (!(material.poisson > -1.0 && material.poisson < 0.5)) {
-    throw Error("invalid-material", fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5, both excluded", material.poisson),
-                material.poisson == 0.5 ? "a value such as 0.4999 is nearly incompressible" : "");
+    throw Error(
+        "invalid-material",
+        fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5, both excluded", material.poisson),
+        material.poisson == 0.5 ? "a value such as 0.4999 is nearly incompressible" : "");
   }
 }
 
@@ -114,7 +121,9 @@ Matrix6d solid_stiffness(const IsotropicModuli& material) {
   return stiffness;
 }
 
-Eigen::Matrix4d plane_strain_stiffness(const IsotropicModuli& material) { return solid_stiffness(material).topLeftCorner<4, 4>(); }
+Eigen::Matrix4d plane_strain_stiffness(const IsotropicModuli& material) {
+  return solid_stiffness(material).topLeftCorner<4, 4>();
+}
 
 Eigen::Matrix4d plane_stress_stiffness(const IsotropicModuli& material) {
   const double direct = material.young / (1 - material.poisson * material.poisson);
@@ -126,11 +135,12 @@ Eigen::Matrix4d plane_stress_stiffness(const IsotropicModuli& material) {
 }
 
 bool is_constant(const Elasticity& elasticity) {
-  return std::visit(Overloaded{[](const IsotropicElasticity& m) { return m.young.is_constant() && m.poisson.is_constant(); },
-                               [](const OrthotropicElasticity& m) {
-                                 return all_constant(m.young) && all_constant(m.poisson) && all_constant(m.shear);
-                               }},
-                    elasticity);
+  return std::visit(
+      Overloaded{[](const IsotropicElasticity& m) { return m.young.is_constant() && m.poisson.is_constant(); },
+                 [](const OrthotropicElasticity& m) {
+                   return all_constant(m.young) && all_constant(m.poisson) && all_constant(m.shear);
+                 }},
+      elasticity);
 }
 
 bool expands(const Elasticity& elasticity) {
@@ -155,7 +165,8 @@ IsotropicModuli moduli(const IsotropicElasticity& elasticity, const MaterialPoin
 }
 
 Matrix6d solid_stiffness(const CellMaterial& material, const MaterialPoint& at) {
-  if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity)) return solid_stiffness(moduli(*isotropic, at));
+  if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity))
+    return solid_stiffness(moduli(*isotropic, at));
   const Matrix6d own = own_stiffness(std::get<OrthotropicElasticity>(*material.elasticity), at);
   if (material.axes == nullptr) return own;
   const Matrix6d turn = strain_rotation(*material.axes);
@@ -238,9 +249,9 @@ Vector6d inelastic_strain(const CellMaterial& material, const MaterialPoint& at)
 Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll) {
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  const Eigen::Matrix3d turn = (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) *
-                                AngleAxisd(roll, Vector3d::UnitX()))
-                                   .toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
   return turn.transpose();
 }
 
@@ -251,7 +262,8 @@ Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d
   // A centre this near the axis has no radial direction that rounding has not made up.
   constexpr double nearest = 1e-12;
   if (!(radial.norm() > nearest * from_origin.norm())) {
-    throw Error("distorted-cell", "a cell with cylindrical material axes has its centre on the axis, where they are not defined");
+    throw Error("distorted-cell",
+                "a cell with cylindrical material axes has its centre on the axis, where they are not defined");
   }
   Eigen::Matrix3d axes;
   axes.row(0) = radial.normalized();

@@ -1,7 +1,7 @@
 // Hooke's law for each kinematic assumption.
 //
-// Stresses are (xx, yy, zz, xy) in two dimensions and (xx, yy, zz, xy, xz, yz) in three; strains are alike, with the shear
-// angles 2 eps_xy, 2 eps_xz, 2 eps_yz.
+// Stresses are (xx, yy, zz, xy) in two dimensions and (xx, yy, zz, xy, xz, yz) in three; strains are alike, with the
+// shear angles 2 eps_xy, 2 eps_xz, 2 eps_yz.
 #pragma once
 
 #include <Eigen/Dense>
@@ -43,7 +43,8 @@ double density(const Elasticity& elasticity, const MaterialPoint& at);
 /// Moduli at a point, checked. Throws Error `invalid-material`, `missing-variable`, `out-of-function`.
 IsotropicModuli moduli(const IsotropicElasticity& elasticity, const MaterialPoint& at);
 
-/// Stiffness in global axes at a point (R4.01.02). Throws Error `invalid-material` for a law that is not positive definite.
+/// Stiffness in global axes at a point (R4.01.02). Throws Error `invalid-material` for a law that is not positive
+/// definite.
 Matrix6d solid_stiffness(const CellMaterial& material, const MaterialPoint& at);
 Eigen::Matrix4d plane_strain_stiffness(const CellMaterial& material, const MaterialPoint& at);
 Eigen::Matrix4d plane_stress_stiffness(const CellMaterial& material, const MaterialPoint& at);
@@ -53,26 +54,28 @@ Matrix6d solid_compliance(const CellMaterial& material, const MaterialPoint& at)
 /// M such that strain(in the axes) = M strain(global), with shear angles; stress(global) = M^T stress(in the axes).
 Matrix6d strain_rotation(const Eigen::Matrix3d& axes);
 
-/// Mean coefficients of expansion are given from the definition temperature T_d; from the reference temperature T_r on, the strain is
+/// Mean coefficients of expansion are given from the definition temperature T_d; from the reference temperature T_r on,
+/// the strain is
 ///
 ///     (alpha(T) (T - T_d) - alpha(T_r) (T_r - T_d)) / (1 + alpha(T_r) (T_r - T_d))       (R4.08.01)
 ///
-/// and alpha(T) (T - T_r) without a definition temperature. 0 where no temperature is given. Throws Error `missing-reference` where
-/// a temperature is given without its reference.
+/// and alpha(T) (T - T_r) without a definition temperature. 0 where no temperature is given. Throws Error
+/// `missing-reference` where a temperature is given without its reference.
 double thermal_strain(const Property& expansion, double definition_temperature, const MaterialPoint& at);
 
-/// The strain that command variables cause in the unloaded material, in global axes (with shear angles): thermal expansion, drying
-/// K (C - C_r), hydration -B h (R7.01.12).
+/// The strain that command variables cause in the unloaded material, in global axes (with shear angles): thermal
+/// expansion, drying K (C - C_r), hydration -B h (R7.01.12).
 Vector6d inelastic_strain(const CellMaterial& material, const MaterialPoint& at);
 /// The same along a bar or beam.
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at);
 
-/// Rows: the axes of nautical angles in radians: turned by `yaw` about Z, then by `pitch` about the new Y, then by `roll` about the
-/// new X (U4.42.01, ANGL_REP).
+/// Rows: the axes of nautical angles in radians: turned by `yaw` about Z, then by `pitch` about the new Y, then by
+/// `roll` about the new X (U4.42.01, ANGL_REP).
 Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll);
 
-/// Axes (rows) at `at` in a body made round an axis through `origin` with the nautical angles `yaw` and `pitch`: L away from the
-/// axis, N along it, T = N x L round it (U4.42.01, ANGL_AXE, ORIG_AXE). Throws Error `distorted-cell` for a place on the axis.
+/// Axes (rows) at `at` in a body made round an axis through `origin` with the nautical angles `yaw` and `pitch`: L away
+/// from the axis, N along it, T = N x L round it (U4.42.01, ANGL_AXE, ORIG_AXE). Throws Error `distorted-cell` for a
+/// place on the axis.
 Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d& origin, const Eigen::Vector3d& at);
 
 }  // namespace comma::solver

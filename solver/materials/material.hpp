@@ -18,19 +18,19 @@ inline constexpr double from_reference = std::numeric_limits<double>::quiet_NaN(
 
 /// Isotropic linear elasticity. Stresses in the unit of `young`.
 struct IsotropicElasticity {
-  Property young{};      ///< Young's modulus, > 0
-  Property poisson{};    ///< in (-1, 0.5)
+  Property young{};    ///< Young's modulus, > 0
+  Property poisson{};  ///< in (-1, 0.5)
   Property density{};
-  Property expansion{};  ///< mean coefficient of thermal expansion
+  Property expansion{};                            ///< mean coefficient of thermal expansion
   double definition_temperature = from_reference;  ///< temperature from which `expansion` was measured
-  Property drying_shrinkage{};                       ///< K_DESSIC: strain for a unit of water content
-  Property hydration_shrinkage{};                    ///< B_ENDOGE: shrinkage at full hydration
+  Property drying_shrinkage{};                     ///< K_DESSIC: strain for a unit of water content
+  Property hydration_shrinkage{};                  ///< B_ENDOGE: shrinkage at full hydration
 };
 
-/// Orthotropic linear elasticity in the axes L, T, N of each cell. Pairs are in the order LT, LN, TN; a stress along L shrinks T by
-/// poisson[LT] / young[L] (R4.01.02).
+/// Orthotropic linear elasticity in the axes L, T, N of each cell. Pairs are in the order LT, LN, TN; a stress along L
+/// shrinks T by poisson[LT] / young[L] (R4.01.02).
 struct OrthotropicElasticity {
-  std::array<Property, 3> young{};    ///< L, T, N
+  std::array<Property, 3> young{};  ///< L, T, N
   std::array<Property, 3> poisson{};
   std::array<Property, 3> shear{};
   Property density{};
@@ -38,11 +38,12 @@ struct OrthotropicElasticity {
   double definition_temperature = from_reference;
 };
 
-/// Isotropic in the plane (L, T), with the axis N: an orthotropic law whose shear modulus in the plane follows from the others.
+/// Isotropic in the plane (L, T), with the axis N: an orthotropic law whose shear modulus in the plane follows from the
+/// others.
 struct TransverseElasticity {
-  Property young{};         ///< in the plane
-  Property young_normal{};  ///< along N
-  Property poisson{};       ///< LT
+  Property young{};           ///< in the plane
+  Property young_normal{};    ///< along N
+  Property poisson{};         ///< LT
   Property poisson_normal{};  ///< LN: a stress along L shrinks N by poisson_normal / young
   Property shear_normal{};    ///< G_LN
   Property density{};

@@ -12,7 +12,8 @@
 
 namespace comma::solver {
 
-/// What properties may depend on. The first ones are command variables (U4.43.03, AFFE_VARC), which have a reference value.
+/// What properties may depend on. The first ones are command variables (U4.43.03, AFFE_VARC), which have a reference
+/// value.
 enum class Parameter : std::uint8_t { temperature, drying, hydration, neutral_1, neutral_2, neutral_3, time, x, y, z };
 inline constexpr int parameter_count = 10;
 inline constexpr int command_variable_count = 6;
@@ -58,8 +59,8 @@ class Property {
   Function function_;
 };
 
-/// A table over one parameter. Evaluating it throws Error `missing-variable` where the parameter is not given, `out-of-function`
-/// past its ends.
+/// A table over one parameter. Evaluating it throws Error `missing-variable` where the parameter is not given,
+/// `out-of-function` past its ends.
 Property tabulated_property(TabulatedFunction table, Parameter parameter);
 
 }  // namespace comma::solver

@@ -17,7 +17,9 @@ constexpr int max_corrections = 3;
 /// A correction below this share of the solution is rounding.
 constexpr double negligible_step = 4e-16;
 
-double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+double largest(const Eigen::VectorXd& v) {
+  return v.size() ? v.cwiseAbs().maxCoeff() : 0.0;
+}
 
 NewtonOptions tangent_options(const LinearStaticOptions& options) {
   NewtonOptions result;
@@ -41,8 +43,8 @@ class LinearStaticAnalysis {
     const Eigen::VectorXd offset = elimination_.offset(time);
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     tangent_.refresh(offset);
-    // The linear solver refines its solution to the last digits. What it cannot see is the rounding of forces that large imposed
-    // displacements cause, which a body held by weak springs feels: corrections remove that.
+    // The linear solver refines its solution to the last digits. What it cannot see is the rounding of forces that
+    // large imposed displacements cause, which a body held by weak springs feels: corrections remove that.
     const int corrections = largest(offset) > 0.0 ? max_corrections : 0;
     Eigen::VectorXd reduced = Eigen::VectorXd::Zero(elimination_.reduced_size());
     Eigen::VectorXd u = offset;
@@ -78,10 +80,11 @@ class LinearStaticAnalysis {
 
 }  // namespace
 
-void solve_linear_static(const StaticProblem& problem, std::span<const double> instants, const LinearStaticOptions& options,
-                         Result& result, Counters& counters) {
+void solve_linear_static(const StaticProblem& problem, std::span<const double> instants,
+                         const LinearStaticOptions& options, Result& result, Counters& counters) {
   if (problem.contact || !problem.unilateral.empty()) {
-    throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions", "solve the problem as a nonlinear one");
+    throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions",
+                "solve the problem as a nonlinear one");
   }
   LinearStaticAnalysis analysis(problem, options, counters);
   result.model = problem.model;

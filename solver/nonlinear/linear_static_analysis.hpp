@@ -13,12 +13,13 @@ struct LinearStaticOptions {
   bool stresses = true;  ///< archive SIEF_ELGA besides DEPL
 };
 
-/// Solves K(t) u = f_ext(t) + f_strains(t) under the conditions of the loads at each instant, the strains being those of the command
-/// variables, and appends a step for each to `result` (orders from 1 on, or after those it has): DEPL, SIEF_ELGA. K is
-/// factorised again only where command variables or time change material properties. Instants are independent of each other.
-/// Errors: `unsupported` for a problem with contact or unilateral conditions, `singular-matrix` (nodes, components, rigid motion),
-/// `contradictory-conditions`, those of materials and functions. Steps already appended stay when it throws.
-void solve_linear_static(const StaticProblem& problem, std::span<const double> instants, const LinearStaticOptions& options,
-                         Result& result, Counters& counters);
+/// Solves K(t) u = f_ext(t) + f_strains(t) under the conditions of the loads at each instant, the strains being those
+/// of the command variables, and appends a step for each to `result` (orders from 1 on, or after those it has): DEPL,
+/// SIEF_ELGA. K is factorised again only where command variables or time change material properties. Instants are
+/// independent of each other. Errors: `unsupported` for a problem with contact or unilateral conditions,
+/// `singular-matrix` (nodes, components, rigid motion), `contradictory-conditions`, those of materials and functions.
+/// Steps already appended stay when it throws.
+void solve_linear_static(const StaticProblem& problem, std::span<const double> instants,
+                         const LinearStaticOptions& options, Result& result, Counters& counters);
 
 }  // namespace comma::solver

@@ -106,13 +106,15 @@ TEST_CASE("clamped bodies, bars and beams are compressed by E alpha dT", "[eleme
     const ElementField forces = bar.assembler->stresses(bar.zero());
     CHECK(forces.at(0, 0, 0) == Approx(-young * 0.02 * alpha * rise));
     // Energy 1/2 E A strain^2 L with L = 3.
-    CHECK(bar.assembler->elastic_energies(bar.zero()).values[0] == Approx(0.5 * young * 0.02 * std::pow(alpha * rise, 2) * 3));
+    CHECK(bar.assembler->elastic_energies(bar.zero()).values[0] ==
+          Approx(0.5 * young * 0.02 * std::pow(alpha * rise, 2) * 3));
     const auto free = bar.displacements([](const Point& x, int k) { return k < 3 ? alpha * rise * x[k] : 0.0; });
     CHECK(bar.assembler->internal_forces(free).cwiseAbs().maxCoeff() < 1e-13 * young * 0.02 * alpha * rise);
   }
 }
 
-TEST_CASE("the forces of command variables are what the linear problem needs on its right-hand side", "[elements][thermal]") {
+TEST_CASE("the forces of command variables are what the linear problem needs on its right-hand side",
+          "[elements][thermal]") {
   Body body(single_cell(CellType::penta15, 0.03), Formulation::solid, expanding());
   heat(body);
   const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * std::sin(2 * x[0] - x[1] + x[2] + k); });
@@ -120,7 +122,8 @@ TEST_CASE("the forces of command variables are what the linear problem needs on 
   CHECK((body.assembler->internal_forces(u) - linear).cwiseAbs().maxCoeff() < 1e-11 * linear.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("a modulus that falls with temperature softens stiffness and stresses at each instant", "[elements][thermal]") {
+TEST_CASE("a modulus that falls with temperature softens stiffness and stresses at each instant",
+          "[elements][thermal]") {
   const Property softening([](const MaterialPoint& at) { return young * (1 - at[Parameter::temperature] / 1000); });
   Body hot(single_cell(CellType::tetra10), Formulation::solid, expanding(softening));
   heat(hot);
@@ -140,7 +143,8 @@ TEST_CASE("a material that needs a temperature names the cell that has none", "[
   TabulatedFunction table;
   table.x = {0.0, 1000.0};
   table.y = {young, 0.1 * young};
-  const Body body(single_cell(CellType::quad4), Formulation::plane_strain, expanding(tabulated_property(table, Parameter::temperature)));
+  const Body body(single_cell(CellType::quad4), Formulation::plane_strain,
+                  expanding(tabulated_property(table, Parameter::temperature)));
   CHECK_THROWS_WITH(body.assembler->stiffness(body.zero()), Catch::Contains("temperature") && Catch::Contains("M1"));
 }
 
@@ -148,7 +152,8 @@ TEST_CASE("the elastic energy without temperature is half of u K u", "[elements]
   for (const Case& c : continua()) {
     CAPTURE(name_of(c.type), static_cast<int>(c.formulation));
     const Body body(single_cell(c.type, 0.04), c.formulation, elastic(young, poisson));
-    const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
+    const auto u =
+        body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
     CHECK(body.assembler->elastic_energies(u).values[0] == Approx(0.5 * u.dot(body.dense_stiffness() * u)));
   }
 }

@@ -39,7 +39,9 @@ ElementField forces(std::vector<double> values) {
   return {"SIEF_R", Support::element_node, {"N", "VY", "VZ", "MT", "MFY", "MFZ"}, {0, 2}, both};
 }
 
-FieldInput input_of(const Body& body) { return {body.model, body.materials, body.properties, body.assembler->state()}; }
+FieldInput input_of(const Body& body) {
+  return {body.model, body.materials, body.properties, body.assembler->state()};
+}
 
 }  // namespace
 
@@ -72,7 +74,8 @@ TEST_CASE("extreme stresses: both moments at a rectangle's corner, their resulta
 TEST_CASE("generalised strains of a stretched, twisted and bent beam", "[fields]") {
   const Body body = beam(rectangle());
   const double shear = 2e11 / 2.6;
-  const ElementField strain = generalised_strains(input_of(body), forces({4e9 * 1e-3, 6, 0, shear * 4.58e-5 * 0.02, 0, 0}));
+  const ElementField strain =
+      generalised_strains(input_of(body), forces({4e9 * 1e-3, 6, 0, shear * 4.58e-5 * 0.02, 0, 0}));
   CHECK(strain.at(0, 0, 0) == Approx(1e-3));
   CHECK(strain.at(0, 0, 1) == Approx(6 * 1.2 / (shear * 0.02)));
   CHECK(strain.at(0, 0, 3) == Approx(0.02));

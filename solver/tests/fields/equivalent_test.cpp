@@ -15,7 +15,9 @@ ElementField stress(std::vector<double> values) {
   return {"SIEF_R", Support::gauss_point, names, {0, 1}, std::move(values)};
 }
 
-double value(const ElementField& field, std::string_view name) { return field.at(0, 0, field.component(name)); }
+double value(const ElementField& field, std::string_view name) {
+  return field.at(0, 0, field.component(name));
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ TEST_CASE("a hydrostatic state has no von Mises stress and no triaxiality", "[fi
 }
 
 TEST_CASE("the second invariant of a strain is the equivalent strain of tension at constant volume", "[fields]") {
-  const ElementField strain{"EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0, 1}, {2e-3, -1e-3, -1e-3, 0}};
+  const ElementField strain{
+      "EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0, 1}, {2e-3, -1e-3, -1e-3, 0}};
   const ElementField found = equivalent_strains(strain);
   CHECK(value(found, "INVA_2") == Approx(2e-3));
   CHECK(value(found, "PRIN_3") == Approx(2e-3));

@@ -12,7 +12,9 @@ using namespace comma::solver::testing;
 
 namespace {
 
-double linear(const ReferencePoint& at) { return 3.0 + 2.0 * at[0] - 1.5 * at[1] + 0.7 * at[2]; }
+double linear(const ReferencePoint& at) {
+  return 3.0 + 2.0 * at[0] - 1.5 * at[1] + 0.7 * at[2];
+}
 
 /// Values of a function at the points of a family, and what the smoothing makes of them at the nodes.
 template <class F>
@@ -38,7 +40,8 @@ TEST_CASE("smoothing reproduces linear fields at all nodes of every cell with se
     if (quadrature(type, family).size() == 1) continue;
     const auto nodes = reference_nodes(type);
     const Eigen::VectorXd values = smoothed(type, family, linear);
-    for (std::size_t a = 0; a < nodes.size(); ++a) CHECK(values[static_cast<Eigen::Index>(a)] == Approx(linear(nodes[a])));
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      CHECK(values[static_cast<Eigen::Index>(a)] == Approx(linear(nodes[a])));
   }
 }
 
@@ -47,7 +50,8 @@ TEST_CASE("a single point gives its value to all nodes", "[fields]") {
 }
 
 TEST_CASE("a node in the middle of an edge has the mean of its ends, whatever the field", "[fields]") {
-  const Eigen::VectorXd values = smoothed(CellType::quad8, "FPG9", [](const auto& at) { return std::exp(at[0]) * std::cos(2 * at[1]); });
+  const Eigen::VectorXd values =
+      smoothed(CellType::quad8, "FPG9", [](const auto& at) { return std::exp(at[0]) * std::cos(2 * at[1]); });
   for (int edge = 0; edge < 4; ++edge) CHECK(values[4 + edge] == Approx(0.5 * (values[edge] + values[(edge + 1) % 4])));
 }
 
@@ -68,7 +72,8 @@ TEST_CASE("smoothing is least squares: a constant keeps its value and noise its 
 
 TEST_CASE("stresses of a linear displacement are the same at points, element nodes and nodes", "[fields]") {
   const Body body(single_cell(CellType::hexa20, 0.03), Formulation::solid, elastic(2e11, 0.3));
-  const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * (k == 0 ? x[0] + 0.4 * x[1] : 0.2 * x[2] - 0.3 * x[k]); });
+  const auto u = body.displacements(
+      [](const Point& x, int k) { return 1e-3 * (k == 0 ? x[0] + 0.4 * x[1] : 0.2 * x[2] - 0.3 * x[k]); });
   const ElementField stress = body.assembler->stresses(u);
   const ElementField at_nodes = to_element_nodes(body.model, continuum_stresses(stress));
   const NodalField mean = nodal_means(*body.model.mesh, at_nodes);

@@ -29,7 +29,8 @@ std::shared_ptr<Mesh> brick(const Point& corner, double a, double b, double c) {
   std::vector<int> nodes;
   for (const auto& at : reference_nodes(CellType::hexa20)) {
     nodes.push_back(mesh->node_count());
-    mesh->nodes.push_back({corner[0] + a * (at[0] + 1) / 2, corner[1] + b * (at[1] + 1) / 2, corner[2] + c * (at[2] + 1) / 2});
+    mesh->nodes.push_back(
+        {corner[0] + a * (at[0] + 1) / 2, corner[1] + b * (at[1] + 1) / 2, corner[2] + c * (at[2] + 1) / 2});
   }
   mesh->add_cell(CellType::hexa20, nodes);
   return mesh;

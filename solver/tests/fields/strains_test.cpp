@@ -10,13 +10,18 @@ using namespace comma::solver::testing;
 
 namespace {
 
-const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 1.0, 0.4, -0.3, 0.2, -0.7, 0.5, 0.6, -0.1, 0.9).finished() * 1e-2;
+const Eigen::Matrix3d gradient =
+    (Eigen::Matrix3d() << 1.0, 0.4, -0.3, 0.2, -0.7, 0.5, 0.6, -0.1, 0.9).finished() * 1e-2;
 
 Eigen::VectorXd linear(const Body& body) {
-  return body.displacements([](const Point& x, int k) { return 5.0 + gradient(k, 0) * x[0] + gradient(k, 1) * x[1] + gradient(k, 2) * x[2]; });
+  return body.displacements([](const Point& x, int k) {
+    return 5.0 + gradient(k, 0) * x[0] + gradient(k, 1) * x[1] + gradient(k, 2) * x[2];
+  });
 }
 
-FieldInput input_of(const Body& body) { return {body.model, body.materials, body.properties, body.assembler->state()}; }
+FieldInput input_of(const Body& body) {
+  return {body.model, body.materials, body.properties, body.assembler->state()};
+}
 
 ElementField strain_of(const Body& body, const Eigen::VectorXd& u, StrainKind kind) {
   return strains(input_of(body), to_field(u, *body.dofs, "DEPL_R"), kind);
@@ -32,7 +37,8 @@ TEST_CASE("a linear displacement has its exact strain in every cell, curved ones
     const Eigen::Matrix3d green = small + 0.5 * gradient.transpose() * gradient;
     for (const auto& [kind, expected] : {std::pair{StrainKind::total, small}, std::pair{StrainKind::green, green}}) {
       const ElementField field = strain_of(body, linear(body), kind);
-      const double values[] = {expected(0, 0), expected(1, 1), expected(2, 2), expected(0, 1), expected(0, 2), expected(1, 2)};
+      const double values[] = {expected(0, 0), expected(1, 1), expected(2, 2),
+                               expected(0, 1), expected(0, 2), expected(1, 2)};
       for (int point = 0; point < field.points(0); ++point) {
         // 5 and 1e-2 lie three digits apart.
         for (int c = 0; c < 6; ++c) CHECK(field.at(0, point, c) == Approx(values[c]).margin(1e-13));
@@ -63,7 +69,8 @@ TEST_CASE("mechanical strains leave thermal expansion out, and plane stress lets
   Body body(single_cell(CellType::quad8), Formulation::plane_stress, std::make_shared<const Material>(material));
   CommandVariable variable;
   variable.reference = 0.0;
-  variable.snapshots = {{0.0, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(8, 50.0)})}};
+  variable.snapshots = {
+      {0.0, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(8, 50.0)})}};
   body.materials.variables = {variable};
   body.assembler->set_time(0.0);
   const auto u = body.displacements([](const Point& x, int k) { return 5e-4 * x[k]; });
@@ -79,7 +86,8 @@ TEST_CASE("energy densities integrate to 1/2 u K u, from stresses and from their
   for (const CellType type : {CellType::hexa20, CellType::tetra10, CellType::pyram13, CellType::penta15}) {
     CAPTURE(name_of(type));
     const Body body(single_cell(type, 0.03), Formulation::solid, elastic(2e11, 0.3));
-    const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
+    const auto u =
+        body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
     const double expected = 0.5 * u.dot(body.dense_stiffness() * u);
     const ElementField stress = body.assembler->stresses(u);
     const ElementField elastic_density = elastic_energy_density(input_of(body), stress);
@@ -96,7 +104,8 @@ TEST_CASE("energy densities integrate to 1/2 u K u, from stresses and from their
 
 TEST_CASE("volumes: a sheared cube, and a ring per radian", "[fields]") {
   const Body cube(single_cell(CellType::hexa8), Formulation::solid, elastic(1, 0));
-  const double det = Eigen::Matrix3d((Eigen::Matrix3d() << 1.1, 0.2, 0.15, -0.1, 0.9, 0.1, 0.2, -0.1, 1.2).finished()).determinant();
+  const double det =
+      Eigen::Matrix3d((Eigen::Matrix3d() << 1.1, 0.2, 0.15, -0.1, 0.9, 0.1, 0.2, -0.1, 1.2).finished()).determinant();
   CHECK(cell_volumes(cube.model).values[0] == Approx(8 * det));
   auto square = std::make_shared<Mesh>();
   square->dimension = 2;

@@ -7,7 +7,9 @@ using namespace comma::solver;
 
 namespace {
 
-double value(const ElementField& field, int cell, std::string_view name) { return field.at(cell, 0, field.component(name)); }
+double value(const ElementField& field, int cell, std::string_view name) {
+  return field.at(cell, 0, field.component(name));
+}
 
 /// A unit cube (cell 0) with its top face (cell 1).
 Mesh cube() {

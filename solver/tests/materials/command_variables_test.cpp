@@ -60,7 +60,8 @@ TEST_CASE("a later variable replaces an earlier one on its cells alone", "[mater
   const Mesh mesh = two_bars();
   CommandVariable local;
   local.cells = {1};
-  local.snapshots = {{0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::cell, {"TEMP"}, {0, 0, 1}, {77.0}})}};
+  local.snapshots = {
+      {0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::cell, {"TEMP"}, {0, 0, 1}, {77.0}})}};
   const std::vector variables = {heating(), local};
   const VariableState state(mesh, variables, 5.0);
   CHECK(temperature(mesh, state, 0, 0.0) == Approx(200.0));

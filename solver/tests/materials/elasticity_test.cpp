@@ -30,8 +30,9 @@ TEST_CASE("plane stress is the three-dimensional law with no stress across the p
 TEST_CASE("constants without an elastic body behind them are refused", "[materials]") {
   CHECK_NOTHROW(check_elasticity(steel));
   CHECK_NOTHROW(check_elasticity({1.0, 0.0}));
-  for (const auto& wrong : {IsotropicModuli{0.0, 0.3}, IsotropicModuli{-1.0, 0.3}, IsotropicModuli{1.0, 0.5},
-                            IsotropicModuli{1.0, -1.0}, IsotropicModuli{std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
+  for (const auto& wrong :
+       {IsotropicModuli{0.0, 0.3}, IsotropicModuli{-1.0, 0.3}, IsotropicModuli{1.0, 0.5}, IsotropicModuli{1.0, -1.0},
+        IsotropicModuli{std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
     CHECK_THROWS_AS(check_elasticity(wrong), Error);
   }
 }
@@ -59,7 +60,8 @@ TEST_CASE("an orthotropic stress along L strains T and N by NU_LT / E_L and NU_L
   CHECK(strain[2] == Approx(-0.35 / 11000));
 }
 
-TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned law is the turned stress", "[materials]") {
+TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned law is the turned stress",
+          "[materials]") {
   const Elasticity elasticity = wood();
   const CellMaterial turned{&elasticity, &some_axes};
   const Matrix6d stiffness = solid_stiffness(turned, MaterialPoint());
@@ -71,7 +73,8 @@ TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned l
   Vector6d own_strain;
   own_strain << own(0, 0), own(1, 1), own(2, 2), 2 * own(0, 1), 2 * own(0, 2), 2 * own(1, 2);
   const Vector6d s = solid_stiffness(CellMaterial{&elasticity, nullptr}, MaterialPoint()) * own_strain;
-  const Eigen::Matrix3d own_stress = (Eigen::Matrix3d() << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]).finished();
+  const Eigen::Matrix3d own_stress =
+      (Eigen::Matrix3d() << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]).finished();
   const Eigen::Matrix3d stress = some_axes.transpose() * own_stress * some_axes;
   Vector6d global;
   global << strain(0, 0), strain(1, 1), strain(2, 2), 2 * strain(0, 1), 2 * strain(0, 2), 2 * strain(1, 2);
@@ -92,7 +95,8 @@ TEST_CASE("an isotropic law written as an orthotropic one does not notice its ax
   const CellMaterial turned{&elasticity, &some_axes};
   const Matrix6d expected = solid_stiffness(steel);
   CHECK((solid_stiffness(turned, MaterialPoint()) - expected).cwiseAbs().maxCoeff() < 1e-13 * expected.maxCoeff());
-  CHECK((plane_stress_stiffness(turned, MaterialPoint()) - plane_stress_stiffness(steel)).cwiseAbs().maxCoeff() < 1e-13 * expected.maxCoeff());
+  CHECK((plane_stress_stiffness(turned, MaterialPoint()) - plane_stress_stiffness(steel)).cwiseAbs().maxCoeff() <
+        1e-13 * expected.maxCoeff());
 }
 
 TEST_CASE("transverse isotropy does not notice a turn about its axis N", "[materials]") {
@@ -113,7 +117,8 @@ TEST_CASE("constants that would give negative energy are refused", "[materials]"
   OrthotropicElasticity material = wood();
   material.poisson[0] = 6.0;  // NU_LT^2 E_T / E_L > 1
   const Elasticity elasticity = material;
-  CHECK_THROWS_WITH(solid_stiffness(CellMaterial{&elasticity, nullptr}, MaterialPoint()), Catch::Contains("negative strain energy"));
+  CHECK_THROWS_WITH(solid_stiffness(CellMaterial{&elasticity, nullptr}, MaterialPoint()),
+                    Catch::Contains("negative strain energy"));
 }
 
 TEST_CASE("cylindrical axes point away from the axis, round it and along it", "[materials]") {
@@ -124,8 +129,10 @@ TEST_CASE("cylindrical axes point away from the axis, round it and along it", "[
   CHECK_THROWS_AS(cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 2, 50}), Error);
 }
 
-TEST_CASE("thermal strain vanishes at the reference and does not depend on where expansion was measured from", "[materials]") {
-  // L(T) = L0 (1 + a (T - 20) + b (T - 20)^2): mean coefficients a + b (T - 20) from 20, and the strain from 100 on by definition.
+TEST_CASE("thermal strain vanishes at the reference and does not depend on where expansion was measured from",
+          "[materials]") {
+  // L(T) = L0 (1 + a (T - 20) + b (T - 20)^2): mean coefficients a + b (T - 20) from 20, and the strain from 100 on by
+  // definition.
   const double a = 1e-5;
   const double b = 4e-9;
   const auto stretch = [&](double t) { return 1 + a * (t - 20) + b * (t - 20) * (t - 20); };

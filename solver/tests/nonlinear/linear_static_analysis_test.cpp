@@ -39,7 +39,8 @@ struct Plate {
   Scene scene;
   Scene::Block block;
 
-  explicit Plate(Property modulus = young, double expansion = 0.0) : block(scene.block("b", {0, 0}, {4, 2}, 4, 2, young, poisson)) {
+  explicit Plate(Property modulus = young, double expansion = 0.0)
+      : block(scene.block("b", {0, 0}, {4, 2}, 4, 2, young, poisson)) {
     for (const auto& row : block.nodes) scene.impose({row.front()}, Component::dx, 0.0);
     scene.impose({block.nodes[0][0]}, Component::dy, 0.0);
     Material material;
@@ -54,7 +55,8 @@ struct Plate {
   /// Temperatures at times 0 and 10, from a reference of 0.
   void heat(double first, double second) {
     const auto uniform = [&](double temperature) {
-      return std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), temperature)});
+      return std::make_shared<const Field>(
+          NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), temperature)});
     };
     CommandVariable variable;
     variable.reference = 0.0;
@@ -89,7 +91,8 @@ TEST_CASE("linear statics: several instants, one factorisation, orders from 1 on
   CHECK(value(result, 2, "SIEF_ELGA", 0, "SIXX") == Approx(1e6));
 }
 
-TEST_CASE("linear statics: free thermal expansion has no stress in the plane, and grows with the temperature", "[linear-statics]") {
+TEST_CASE("linear statics: free thermal expansion has no stress in the plane, and grows with the temperature",
+          "[linear-statics]") {
   Plate plate(young, 1e-5);
   plate.heat(0.0, 100.0);
   const auto [result, counters] = solve(plate.scene.problem, {5.0, 10.0});
@@ -101,7 +104,8 @@ TEST_CASE("linear statics: free thermal expansion has no stress in the plane, an
   CHECK(value(result, 1, "SIEF_ELGA", 3, "SIZZ") == Approx(-young * 1e-3));
 }
 
-TEST_CASE("linear statics: a modulus that changes with temperature is factorised again at each instant", "[linear-statics]") {
+TEST_CASE("linear statics: a modulus that changes with temperature is factorised again at each instant",
+          "[linear-statics]") {
   const Property softening([](const MaterialPoint& at) { return young * (1 - at[Parameter::temperature] / 200); });
   Plate plate(softening);
   plate.heat(0.0, 100.0);
@@ -121,7 +125,8 @@ TEST_CASE("linear statics and Newton agree on a thermal scene with imposed displ
   plate.scene.solve(2);
   for (const int node : plate.block.nodes[1]) {
     for (const auto component : {Component::dx, Component::dy}) {
-      CHECK(value(result, 1, "DEPL", node, name_of(component)) == Approx(plate.scene.displacement(node, component)).margin(1e-15));
+      CHECK(value(result, 1, "DEPL", node, name_of(component)) ==
+            Approx(plate.scene.displacement(node, component)).margin(1e-15));
     }
   }
 }
