@@ -8,6 +8,7 @@
 
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
@@ -41,12 +42,14 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
 }
 
 /// The stresses of one block into a field whose components are those of all blocks.
-void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, ElementField& field) {
+void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed,
+                    ElementField& field) {
   const auto names = block.stress_names();
   std::vector<int> columns;
   for (const auto name : names) columns.push_back(field.component(name));
   std::vector<double> values(block.cells().size() * block.point_count() * names.size());
   block.stresses(u, state, values);
+  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
   const double* value = values.data();
   for (const int cell : block.cells()) {
     for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
@@ -138,7 +141,18 @@ Eigen::VectorXd Assembler::variable_forces() const { return -internal_forces(Eig
 
 Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  add_external_forces(model_, dofs_, loads, time, sums);
+  add_external_forces({model_, materials_, properties_, dofs_, &state_}, loads, time, sums);
+  const ImposedStrains imposed(model_, loads, time);
+  if (!imposed.empty()) {
+    for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
+  }
+  return rounded(sums);
+}
+
+Eigen::VectorXd Assembler::initial_strain_forces(std::span<const AppliedLoad> loads, double time) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  const ImposedStrains imposed(model_, loads, time);
+  for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
   return rounded(sums);
 }
 
@@ -146,7 +160,14 @@ bool Assembler::is_linear() const {
   return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_linear(); });
 }
 
-ElementField Assembler::stresses(const Eigen::VectorXd& u) const {
+ElementField Assembler::stresses(const Eigen::VectorXd& u) const { return stresses(u, nullptr); }
+
+ElementField Assembler::stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const {
+  const ImposedStrains imposed(model_, loads, time);
+  return stresses(u, &imposed);
+}
+
+ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const {
   ElementField field;
   field.quantity = "SIEF_R";
   field.support = Support::gauss_point;
@@ -159,7 +180,7 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u) const {
   }
   for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
-  for (const auto& block : blocks_->list) write_stresses(*block, u, state_, field);
+  for (const auto& block : blocks_->list) write_stresses(*block, u, state_, imposed, field);
   return field;
 }
 

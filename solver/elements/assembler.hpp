@@ -16,6 +16,8 @@
 
 namespace comma::solver {
 
+class ImposedStrains;
+
 /// Sums element contributions over all degrees of freedom of a DofMap (no condition applied yet). Blocks of like cells are
 /// sorted once, in the constructor, and nothing is allocated inside an element loop. Keeps references to its arguments.
 class Assembler {
@@ -44,7 +46,12 @@ class Assembler {
   Eigen::VectorXd variable_forces() const;
 
   /// External forces (n) of the loads at a time: nodal forces and pressures, on the initial geometry.
+  /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains take part as
+  /// the forces of the stresses that would undo them.
   Eigen::VectorXd external_forces(std::span<const AppliedLoad> loads, double time) const;
+
+  /// The part of external_forces() that initial strains have.
+  Eigen::VectorXd initial_strain_forces(std::span<const AppliedLoad> loads, double time) const;
 
   /// Whether the tangent is the same for every u.
   bool is_linear() const;
@@ -55,12 +62,16 @@ class Assembler {
   /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), with SIXZ SIYZ in 3D; N for bars; N VY VZ MT MFY MFZ in own
   /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node). N > 0 in tension.
   ElementField stresses(const Eigen::VectorXd& u) const;
+  /// The same less the stresses of the initial strains that the loads impose at a time.
+  ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
   /// Elastic energy of each element (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
   /// per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;
 
  private:
+  ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+
   struct Blocks;
   const Model& model_;
   const MaterialField& materials_;

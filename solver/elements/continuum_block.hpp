@@ -120,6 +120,37 @@ class ContinuumBlock final : public ElementBlock {
     }
   }
 
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      map_.dofs(element, dofs.data());
+      const Coordinates x = coordinates(element);
+      Coordinates force = Coordinates::Zero();
+      for (int g = 0; g < point_count(); ++g) {
+        const Point point = locate(x, samples_[g]);
+        const Strain stress = point.weight * imposed_stress(imposed, element, g, x, state);
+        for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(samples_[g], point, a).transpose() * stress).transpose();
+      }
+      scatter_forces(force, dofs, forces);
+    }
+  }
+
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) {
+        target += samples_.size() * strains;
+        continue;
+      }
+      const Coordinates x = coordinates(element);
+      for (int g = 0; g < point_count(); ++g) {
+        Eigen::Map<Strain>(target) -= imposed_stress(imposed, element, g, x, state);
+        target += strains;
+      }
+    }
+  }
+
  private:
   /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing. The
   /// radial displacement is absolute as well, for the hoop strain.
@@ -296,6 +327,13 @@ class ContinuumBlock final : public ElementBlock {
       e(5) = h(1, 2) + h(2, 1);
     }
     return e;
+  }
+
+  Strain imposed_stress(const ImposedStrains& imposed, int element, int g, const Coordinates& x, const VariableState& state) const {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    at.head<Dim>() = x.transpose() * samples_[g].values;
+    const Behaviour behaviour(*this, element, g, x, state);
+    return *behaviour.law * imposed.continuum(cells_[element], at).template head<strains>();
   }
 
   Coordinates element_forces(int element, const Displacements& u, const VariableState& state) const {

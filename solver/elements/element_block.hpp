@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
@@ -46,6 +47,11 @@ class ElementBlock {
   virtual bool is_linear() const = 0;
   /// Whether the stiffness is the same in all states.
   virtual bool is_constant() const = 0;
+
+  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
+  virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
+  /// Takes those stresses away from `out`, laid out as in stresses().
+  virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
 
 /// Blocks for cells that share type and formulation.

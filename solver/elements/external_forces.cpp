@@ -4,32 +4,16 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/quadrature.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/elements/cell_quadrature.hpp"
+#include "solver/elements/inertia_forces.hpp"
+#include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-/// Shape functions of a skin cell type at the points of its family.
-struct SkinSample {
-  double weight;
-  Eigen::VectorXd values;
-  Eigen::MatrixXd derivatives;
-};
-
-using SkinSamples = std::array<std::vector<SkinSample>, cell_type_count>;
-
-const std::vector<SkinSample>& samples_of(CellType type, SkinSamples& known) {
-  auto& samples = known[static_cast<std::size_t>(type)];
-  if (samples.empty()) {
-    for (const auto& point : quadrature(type, boundary_family(type))) {
-      samples.push_back({point.weight, shape_functions(type, point.at), shape_derivatives(type, point.at)});
-    }
-  }
-  return samples;
-}
+constexpr std::array<std::string_view, 3> axis_names = {"X", "Y", "Z"};
 
 void add_nodal_force(const Mesh& mesh, const DofMap& dofs, const NodalForce& force, double factor, double time,
                      std::span<long double> forces) {
@@ -42,78 +26,152 @@ void add_nodal_force(const Mesh& mesh, const DofMap& dofs, const NodalForce& for
   forces[dof] += static_cast<long double>(factor) * value;
 }
 
-class PressureIntegrator {
+/// Components of a load at a place, its functions evaluated there.
+template <std::size_t N>
+Eigen::Matrix<double, static_cast<int>(N), 1> values_at(const std::array<double, N>& values,
+                                                        const std::array<FieldFunction, N>& functions, const Point& at,
+                                                        double time) {
+  Eigen::Matrix<double, static_cast<int>(N), 1> result;
+  for (std::size_t c = 0; c < N; ++c) result[static_cast<int>(c)] = functions[c] ? functions[c](at, time) : values[c];
+  return result;
+}
+
+Point to_point(const Eigen::Vector3d& at) {
+  return {at[0], at[1], at[2]};
+}
+
+void check_pressure(const Model& model, const PressureLoad& load) {
+  const Mesh& mesh = *model.mesh;
+  const int skin = dimension(mesh.cell_types[load.cell]);
+  const int body = continuum_dimension(model.formulations[load.cell]);
+  if (body == 0 || skin != body - 1) {
+    throw Error("not-a-skin",
+                fmt::format("pressure is applied to cell {}, a {}, which is not on the boundary of a body of the model",
+                            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
+  }
+  if (skin == 2 && (load.shear != 0.0 || load.shear_function)) {
+    throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
+                                           mesh.cell_name(load.cell)));
+  }
+}
+
+void check_distributed_force(const Model& model, const DistributedForce& load) {
+  const Mesh& mesh = *model.mesh;
+  const int body = continuum_dimension(model.formulations[load.cell]);
+  const int type_dimension = dimension(mesh.cell_types[load.cell]);
+  if (body == 0 || type_dimension == 0 || type_dimension > body) {
+    throw Error("unsupported",
+                fmt::format("a distributed force acts on cell {}, a {}, which is no part of a continuum of the model",
+                            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
+  }
+  for (int c = body; c < 3; ++c) {
+    if (load.force[c] == 0.0 && !load.functions[c]) continue;
+    throw Error("unknown-dof",
+                fmt::format("a force along {} acts on cell {}, whose nodes have no such degree of freedom",
+                            axis_names[c], mesh.cell_name(load.cell)));
+  }
+}
+
+/// Sums forces over edges, faces and volumes.
+class CellIntegrator {
  public:
-  PressureIntegrator(const Model& model, const DofMap& dofs, double time, std::span<long double> forces)
-      : model_(model), mesh_(*model.mesh), dofs_(dofs), time_(time), forces_(forces) {}
+  CellIntegrator(const ForceInput& input, double time, std::span<long double> forces)
+      : input_(input), mesh_(*input.model.mesh), time_(time), forces_(forces) {}
 
   void add(const PressureLoad& load, double factor) {
-    check(load);
-    const auto nodes = mesh_.cell(load.cell);
-    for (const SkinSample& sample : samples_of(mesh_.cell_types[load.cell], samples_)) {
-      const Eigen::Vector3d traction = factor * sample.weight * weighted_traction(load, sample);
-      for (std::size_t a = 0; a < nodes.size(); ++a) add_to_node(nodes[a], sample.values[a] * traction);
-    }
+    check_pressure(input_.model, load);
+    const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
+    integrate(load.cell, CellRole::skin, [&](const CellPoint& point) -> Eigen::Vector3d {
+      const Point at = to_point(point.at);
+      const double pressure = load.pressure_function ? load.pressure_function(at, time_) : load.pressure;
+      const double shear = load.shear_function ? load.shear_function(at, time_) : load.shear;
+      return factor * (shear * point.tangents.col(0) - pressure * point.normal(cell_dimension));
+    });
+  }
+
+  void add(const DistributedForce& load, double factor) {
+    check_distributed_force(input_.model, load);
+    const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
+    const CellRole role = input_.model.is_skin(load.cell) ? CellRole::skin : CellRole::body;
+    integrate(load.cell, role, [&](const CellPoint& point) -> Eigen::Vector3d {
+      return factor * point.measure(cell_dimension) * values_at(load.force, load.functions, to_point(point.at), time_);
+    });
+  }
+
+  void add(const GravityLoad& load, double factor) {
+    add_inertia(load.cells, gravity_field(load, input_.model), factor);
+  }
+
+  void add(const RotationLoad& load, double factor) {
+    add_inertia(load.cells, centrifugal_field(load, input_.model), factor);
   }
 
  private:
-  void check(const PressureLoad& load) const {
-    const int skin = dimension(mesh_.cell_types[load.cell]);
-    const int body = continuum_dimension(model_.formulations[load.cell]);
-    if (body == 0 || skin != body - 1) {
-      throw Error("not-a-skin", fmt::format("pressure is applied to cell {}, a {}, which is not on the boundary of a body of the model",
-                                            mesh_.cell_name(load.cell), name_of(mesh_.cell_types[load.cell])));
-    }
-    if (skin == 2 && (load.shear != 0.0 || load.shear_function)) {
-      throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
-                                             mesh_.cell_name(load.cell)));
+  /// `density`: force for a unit of reference measure at a point.
+  template <class F>
+  void integrate(int cell, CellRole role, F&& density) {
+    const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
+    const auto nodes = mesh_.cell(cell);
+    for (const CellSample& sample : samples_.of(mesh_.cell_types[cell], role)) {
+      const CellPoint point = locate(mesh_, cell, sample);
+      const Eigen::Vector3d force = (axisymmetric ? point.at[0] : 1.0) * sample.weight * density(point);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        add_to_node(nodes[a], sample.values[static_cast<Eigen::Index>(a)] * force);
     }
   }
 
-  /// Traction times the surface element that belongs to a unit of reference measure.
-  Eigen::Vector3d weighted_traction(const PressureLoad& load, const SkinSample& sample) const {
-    const auto nodes = mesh_.cell(load.cell);
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const Eigen::Map<const Eigen::Vector3d> node(mesh_.nodes[nodes[a]].data());
-      at += sample.values[a] * node;
-      for (int j = 0; j < sample.derivatives.cols(); ++j) tangents.col(j) += sample.derivatives(a, j) * node;
-    }
-    const Point place = {at[0], at[1], at[2]};
-    const double pressure = load.pressure_function ? load.pressure_function(place, time_) : load.pressure;
-    if (sample.derivatives.cols() == 2) return -pressure * tangents.col(0).cross(tangents.col(1));
-    const double shear = load.shear_function ? load.shear_function(place, time_) : load.shear;
-    const Eigen::Vector3d along = tangents.col(0);
-    const Eigen::Vector3d outward(along[1], -along[0], 0.0);
-    const double radius = is_axisymmetric(model_.formulations[load.cell]) ? at[0] : 1.0;
-    return radius * (shear * along - pressure * outward);
+  void add_inertia(std::span<const int> cells, const AccelerationField& field, double factor) {
+    for (const int cell : cells) add_inertia_forces(input_, cell, field, factor, samples_, forces_);
   }
 
   void add_to_node(int node, const Eigen::Vector3d& force) {
     for (int c = 0; c < 3; ++c) {
-      const int dof = dofs_.dof(node, static_cast<Component>(c));
+      const int dof = input_.dofs.dof(node, static_cast<Component>(c));
       if (dof >= 0) forces_[dof] += force[c];
     }
   }
 
-  const Model& model_;
+  const ForceInput& input_;
   const Mesh& mesh_;
-  const DofMap& dofs_;
   double time_;
   std::span<long double> forces_;
-  SkinSamples samples_;
+  CellSamples samples_;
 };
+
+void add_beam_force(const ForceInput& input, const BeamForce& load, double factor, double time,
+                    std::span<long double> forces) {
+  const Mesh& mesh = *input.model.mesh;
+  const Formulation formulation = input.model.formulations[load.cell];
+  if (input.model.components_of(load.cell) == 0 || (!is_beam(formulation) && !is_bar(formulation))) {
+    throw Error("not-a-beam",
+                fmt::format("a beam's force acts on cell {}, which is no bar or beam", mesh.cell_name(load.cell)));
+  }
+  const Eigen::Matrix3d axes = slender_axes(input, load.cell);
+  std::array<Eigen::Matrix<double, 6, 1>, 2> at_ends;
+  for (int end = 0; end < 2; ++end) {
+    at_ends[end] = factor * values_at(load.force, load.functions, mesh.nodes[mesh.cell(load.cell)[end]], time);
+    if (load.axes == BeamAxes::own) continue;
+    at_ends[end].head<3>() = (axes * at_ends[end].head<3>()).eval();
+    at_ends[end].tail<3>() = (axes * at_ends[end].tail<3>()).eval();
+  }
+  add_slender_load(input, load.cell, at_ends[0], at_ends[1], forces);
+}
 
 }  // namespace
 
-void add_external_forces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads, double time,
+void add_external_forces(const ForceInput& input, std::span<const AppliedLoad> loads, double time,
                          std::span<long double> forces) {
-  PressureIntegrator pressures(model, dofs, time, forces);
+  CellIntegrator integrator(input, time, forces);
   for (const AppliedLoad& applied : loads) {
+    const Load& load = *applied.load;
     const double factor = applied.multiplier ? applied.multiplier(time) : 1.0;
-    for (const auto& force : applied.load->nodal_forces) add_nodal_force(*model.mesh, dofs, force, factor, time, forces);
-    for (const auto& pressure : applied.load->pressures) pressures.add(pressure, factor);
+    for (const auto& force : load.nodal_forces)
+      add_nodal_force(*input.model.mesh, input.dofs, force, factor, time, forces);
+    for (const auto& pressure : load.pressures) integrator.add(pressure, factor);
+    for (const auto& force : load.distributed_forces) integrator.add(force, factor);
+    for (const auto& force : load.beam_forces) add_beam_force(input, force, factor, time, forces);
+    for (const auto& gravity : load.gravities) integrator.add(gravity, factor);
+    for (const auto& rotation : load.rotations) integrator.add(rotation, factor);
   }
 }
 

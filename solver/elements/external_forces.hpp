@@ -3,20 +3,38 @@
 
 #include <span>
 
+#include "solver/elements/section.hpp"
 #include "solver/loads/load.hpp"
+#include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {
 
-/// Adds the nodal forces and pressures of the loads at a time to `forces` (one a degree of freedom), on the initial geometry.
+/// What forces may depend on.
+struct ForceInput {
+  const Model& model;
+  const MaterialField& materials;
+  const ElementProperties& properties;
+  const DofMap& dofs;
+  const VariableState* state = nullptr;  ///< command variables, on which densities and moduli may depend
+};
+
+/// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,
+/// pressures, distributed forces, forces on beams, gravity and rotation. Initial strains act inside elements: see
+/// imposed_strains.hpp.
 ///
-/// A plane edge from node 1 to node 2 has the tangent t = (2 - 1) / |2 - 1| and the normal n = t turned by -90 degrees, which
-/// points out of a body whose boundary runs counter-clockwise; a face has its normal by the right-hand rule. Pressure p and shear
-/// q act as the traction -p n + q t (U4.44.01, PRES_REP). Axisymmetric loads are per radian.
+/// A plane edge from node 1 to node 2 has the tangent t = (2 - 1) / |2 - 1| and the normal n = t turned by -90 degrees,
+/// which points out of a body whose boundary runs counter-clockwise; a face has its normal by the right-hand rule.
+/// Pressure p and shear q act as the traction -p n + q t (U4.44.01, PRES_REP). Axisymmetric loads are per radian.
+///
+/// Gravity and centrifugal forces are those of the mass of continua, bars, beams and discrete elements; what they have
+/// across the plane of a plane model is left to the supports that such a model implies.
 ///
 /// Throws Error `unknown-dof` for a force on a component that its node does not carry, `not-a-skin` for a pressure on a
-/// cell that is no skin cell, `unsupported` for shear on a face.
-void add_external_forces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads, double time,
+/// cell that is no skin cell, `not-a-beam` for a beam's force elsewhere, `unsupported` for shear on a face, for a
+/// distributed force on a cell without continuum, and for gravity or rotation that an axisymmetric model cannot have;
+/// `missing-material` naming a cell without density; `zero-vector` for a rotation without axis.
+void add_external_forces(const ForceInput& input, std::span<const AppliedLoad> loads, double time,
                          std::span<long double> forces);
 
 }  // namespace comma::solver

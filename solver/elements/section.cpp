@@ -102,4 +102,31 @@ DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation fo
   return finish(mesh, cell, formulation, std::move(matrix), frame);
 }
 
+DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, const DiscreteInertia& inertia,
+                        DiscreteFrame frame) {
+  const int k = discrete_components(formulation);
+  const bool segment = mesh.cell(cell).size() == 2;
+  const bool turns = formulation == Formulation::spring_rotation_3d || formulation == Formulation::spring_rotation_2d;
+  if (!inertia.offset.isZero(0.0) && (segment || !turns)) {
+    throw Error("unsupported", fmt::format("the mass on {} has an offset, which only a point with rotations can have",
+                                           mesh.cell_name(cell)));
+  }
+  const Eigen::Matrix3d axes = frame == DiscreteFrame::local ? own_axes(mesh, cell) : Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d e = axes.transpose() * inertia.offset;
+  Eigen::Matrix3d lever;  // lever * a = e x a
+  lever << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
+  Eigen::Matrix<double, 6, 6> full;
+  full << inertia.mass * Eigen::Matrix3d::Identity(), -inertia.mass * lever,  //
+      inertia.mass * lever, axes.transpose() * inertia.tensor * axes - inertia.mass * lever * lever;
+  const std::vector<int> kept = k == 2   ? std::vector{0, 1}
+                                : !turns ? std::vector{0, 1, 2}
+                                : k == 3 ? std::vector{0, 1, 5}
+                                         : std::vector{0, 1, 2, 3, 4, 5};
+  const Eigen::MatrixXd node = full(kept, kept);
+  if (!segment) return node;
+  DiscreteMass result = DiscreteMass::Zero(2 * k, 2 * k);
+  result.topLeftCorner(k, k) = result.bottomRightCorner(k, k) = 0.5 * node;
+  return result;
+}
+
 }  // namespace comma::solver

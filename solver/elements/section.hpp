@@ -58,11 +58,27 @@ struct BeamSection {
   double torsion_reach = 1.0;  ///< torsional moment times this over the torsion constant is the largest shear stress (RT)
 };
 
-/// Characteristics by cell index.
+/// The mass matrix of a discrete element in global axes, of the size of its stiffness.
+using DiscreteMass = Eigen::MatrixXd;
+
+/// A rigid body: on a point at an offset from it, on a segment (without offset) half of it at each end, as M_T_D_N, M_TR_D_N,
+/// M_T_D_L and M_TR_D_L of U4.42.01. Offset and tensor are in the axes of `frame`.
+struct DiscreteInertia {
+  double mass = 0.0;
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();    ///< about the centre of mass; used where the element has rotations
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();    ///< from the node to the centre of mass
+};
+
+/// Throws Error `unsupported` for an offset on a segment or on an element without rotations.
+DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, const DiscreteInertia& inertia,
+                        DiscreteFrame frame);
+
+/// Characteristics by cell index. Discrete elements without an entry in `masses` have none.
 struct ElementProperties {
   /// Axes L, T, N (rows) of anisotropic materials; the global axes where none are given.
   std::unordered_map<int, Eigen::Matrix3d> material_axes;
   std::unordered_map<int, DiscreteStiffness> discrete;
+  std::unordered_map<int, DiscreteMass> masses;
   std::unordered_map<int, BeamSection> sections;
 };
 

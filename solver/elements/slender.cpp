@@ -199,7 +199,50 @@ class SlenderBlock final : public ElementBlock {
   bool is_linear() const override { return true; }
   bool is_constant() const override { return constant_; }
 
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      map_.dofs(element, dofs.data());
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element, state);
+      const Eigen::Matrix3d& own = axes(element);
+      const Eigen::Vector3d force = own.row(0).transpose() * resultants[0];
+      const Eigen::Vector3d moment = own.row(1).transpose() * resultants[1] + own.row(2).transpose() * resultants[2];
+      for (int i = 0; i < Components; ++i) {
+        const double end = i < 3 ? force[i] : moment[i - 3];
+        forces[dofs[i]] -= end;
+        forces[dofs[Components + i]] += end;
+      }
+    }
+  }
+
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
+    const auto names = stress_names().size();
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element, state);
+      for (int point = 0; point < point_count(); ++point, target += names) {
+        target[0] -= resultants[0];
+        if constexpr (is_beam) {
+          target[4] -= resultants[1];
+          target[5] -= resultants[2];
+        }
+      }
+    }
+  }
+
  private:
+  /// N, MFY and MFZ of the imposed strain at the middle of an element.
+  Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element, const VariableState& state) const {
+    const auto nodes = map_.nodes(element);
+    const Eigen::Vector3d middle = 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
+                                          Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data()));
+    const Member& member = members_[element];
+    const double young = named(element, [&] { return member.material->young(material_point(element, state)); });
+    const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0, is_beam ? member.section->inertia_z : 0.0);
+    return young * section.cwiseProduct(imposed.slender(cells_[element], middle));
+  }
+
   using Forces = std::array<long double, size>;
 
   /// The axial strain of the command variables, and the compression that holding it back takes.

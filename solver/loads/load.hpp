@@ -1,6 +1,8 @@
 // Loads and kinematic conditions as data. The commands layer fills them; nonlinear/ assembles them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,10 +45,66 @@ struct PressureLoad {
   FieldFunction shear_function;
 };
 
+/// A force per unit of the cell's own measure, in global axes: per volume in a solid, per area in a plane body (of thickness 1) or
+/// on a face, per length on an edge. Per radian in an axisymmetric body, where measures are those of the meridian plane times r.
+struct DistributedForce {
+  int cell;
+  std::array<double, 3> force{};
+  std::array<FieldFunction, 3> functions;  ///< one that is set replaces that component of `force`
+};
+
+/// In which axes the loads of a bar or beam are given: global, or own_axes() of the cell.
+enum class BeamAxes : std::uint8_t { global, own };
+
+/// Forces and moments per length on a bar or beam: FX FY FZ MX MY MZ, or N VY VZ MT MFY MFZ in its own axes. They vary linearly
+/// between the ends, where functions are evaluated (U4.44.01, FORCE_POUTRE).
+struct BeamForce {
+  int cell;
+  BeamAxes axes = BeamAxes::global;
+  std::array<double, 6> force{};
+  std::array<FieldFunction, 6> functions;  ///< one that is set replaces that component of `force`
+};
+
+/// Weight: each mass m of the cells gets the force m * acceleration. Cells without mass, such as skin cells, take no part.
+struct GravityLoad {
+  std::vector<int> cells;
+  std::array<double, 3> acceleration{};
+};
+
+/// Centrifugal force of a steady rotation: m speed^2 times the vector from the axis to the mass.
+struct RotationLoad {
+  std::vector<int> cells;
+  double speed = 0.0;               ///< radians per unit of time
+  std::array<double, 3> axis{};     ///< direction, of any length
+  std::array<double, 3> centre{};   ///< a point of the axis
+};
+
+/// Strain that a solid or plane element has without stress: xx, yy, zz, xy, xz, yz in global axes, as tensor components (half
+/// the shear angles). In an axisymmetric body zz is the hoop direction.
+struct InitialStrain {
+  int cell;
+  std::array<double, 6> strain{};
+  std::array<FieldFunction, 6> functions;  ///< one that is set replaces that component of `strain`
+};
+
+/// The same for a bar or beam in its own axes: elongation along x, then the curvatures d(rotation)/dx about y and z (beams
+/// only). Functions are evaluated at the middle of the cell.
+struct InitialSlenderStrain {
+  int cell;
+  std::array<double, 3> strain{};
+  std::array<FieldFunction, 3> functions;
+};
+
 struct Load {
   std::vector<LinearRelation> relations;
   std::vector<NodalForce> nodal_forces;
   std::vector<PressureLoad> pressures;
+  std::vector<DistributedForce> distributed_forces;
+  std::vector<BeamForce> beam_forces;
+  std::vector<GravityLoad> gravities;
+  std::vector<RotationLoad> rotations;
+  std::vector<InitialStrain> initial_strains;
+  std::vector<InitialSlenderStrain> initial_slender_strains;
 };
 
 /// A load as a computation applies it.

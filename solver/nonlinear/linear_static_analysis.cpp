@@ -65,7 +65,7 @@ class LinearStaticAnalysis {
     ResultStep step;
     step.instant = time;
     step.fields.emplace("DEPL", to_field(u, dofs_, "DEPL_R"));
-    if (stresses) step.fields.emplace("SIEF_ELGA", assembler_.stresses(u));
+    if (stresses) step.fields.emplace("SIEF_ELGA", assembler_.stresses(u, problem_.loads, time));
     return step;
   }
 

@@ -214,7 +214,7 @@ class StaticAnalysis {
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
     step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
-    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u));
+    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u, problem_.loads, instant));
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     step.parameters["ITER_GLOB"] = iterations;
     result_.steps.push_back(std::move(step));

@@ -4,8 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "sample_meshes.hpp"
-#include "solver/elements/quadrature.hpp"
+#include "load_scene.hpp"
 #include "solver/error.hpp"
 
 using namespace comma::solver;
@@ -13,21 +12,10 @@ using namespace comma::solver::testing;
 
 namespace {
 
-/// One curved cell with all its facets as skin cells.
-std::shared_ptr<Mesh> with_skin(CellType type, double bend) {
-  auto mesh = single_cell(type, bend);
-  for (const BoundaryFacet& facet : boundary_facets(type)) {
-    std::vector<int> nodes(facet.nodes.begin(), facet.nodes.begin() + node_count(facet.type));
-    mesh->add_cell(facet.type, nodes);
-  }
-  return mesh;
-}
-
-Formulation formulation_of(CellType type) { return dimension(type) == 3 ? Formulation::solid : Formulation::plane_strain; }
-
 AppliedLoad pressure_on_skin(const Mesh& mesh, const FieldFunction& pressure) {
   auto load = std::make_shared<Load>();
-  for (int cell = 1; cell < mesh.cell_count(); ++cell) load->pressures.push_back({cell, 0.0, 0.0, pressure, {}});
+  const int facets = static_cast<int>(boundary_facets(mesh.cell_types[0]).size());
+  for (int cell = 1; cell <= facets; ++cell) load->pressures.push_back({cell, 0.0, 0.0, pressure, {}});
   return {load, {}};
 }
 
@@ -56,11 +44,11 @@ double measure(const Body& body) {
 }  // namespace
 
 TEST_CASE("a uniform pressure all round a body has no resultant and no moment", "[loads]") {
-  for (const CellType type : {CellType::tria3, CellType::tria6, CellType::quad4, CellType::quad8, CellType::quad9, CellType::tetra4,
-                              CellType::tetra10, CellType::penta6, CellType::penta15, CellType::hexa8, CellType::hexa20, CellType::hexa27,
-                              CellType::pyram5, CellType::pyram13}) {
+  for (const CellType type : {CellType::tria3, CellType::tria6, CellType::quad4, CellType::quad8, CellType::quad9,
+                              CellType::tetra4, CellType::tetra10, CellType::penta6, CellType::penta15, CellType::hexa8,
+                              CellType::hexa20, CellType::hexa27, CellType::pyram5, CellType::pyram13}) {
     CAPTURE(name_of(type));
-    const Body body(with_skin(type, 0.05), formulation_of(type), elastic(1.0, 0.3));
+    const Body body(with_skin(type, 0.05), continuum_of(type), elastic(1.0, 0.3));
     const std::vector loads = {pressure_on_skin(*body.model.mesh, [](const Point&, double) { return 3.0; })};
     const Eigen::VectorXd forces = body.assembler->external_forces(loads, 0.0);
     CHECK(resultant(body, forces).norm() < 1e-13);
@@ -75,10 +63,11 @@ TEST_CASE("a uniform pressure all round a body has no resultant and no moment", 
 }
 
 TEST_CASE("a pressure that grows with x pushes by its gradient times the volume (divergence theorem)", "[loads]") {
-  for (const CellType type : {CellType::tria3, CellType::tria6, CellType::quad4, CellType::quad8, CellType::quad9, CellType::tetra4,
-                              CellType::tetra10, CellType::penta6, CellType::hexa8, CellType::hexa20}) {
+  for (const CellType type :
+       {CellType::tria3, CellType::tria6, CellType::quad4, CellType::quad8, CellType::quad9, CellType::tetra4,
+        CellType::tetra10, CellType::penta6, CellType::hexa8, CellType::hexa20}) {
     CAPTURE(name_of(type));
-    const Body body(with_skin(type, 0.0), formulation_of(type), elastic(1.0, 0.3));
+    const Body body(with_skin(type, 0.0), continuum_of(type), elastic(1.0, 0.3));
     const std::vector loads = {pressure_on_skin(*body.model.mesh, [](const Point& x, double t) { return t * x[0]; })};
     const Eigen::VectorXd sum = resultant(body, body.assembler->external_forces(loads, 2.0));
     CHECK(sum[0] == Approx(-2.0 * measure(body)).epsilon(1e-12));
@@ -149,4 +138,103 @@ TEST_CASE("pressure on a cell that is no skin is refused", "[loads]") {
   auto load = std::make_shared<Load>();
   load->pressures.push_back({0, 1.0, 0.0, {}, {}});
   CHECK_THROWS_WITH(body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0), Catch::Contains("M1"));
+}
+
+TEST_CASE(
+    "a uniform force on a cell has its measure as resultant and its centre as point of action: bodies, faces, edges",
+    "[loads]") {
+  std::vector<CellType> types(std::begin(plane_types), std::end(plane_types));
+  types.insert(types.end(), std::begin(solid_types), std::end(solid_types));
+  for (const CellType type : types) {
+    const Body body(with_skin(type, 0.0), continuum_of(type), elastic(1.0, 0.3));
+    const Mesh& mesh = *body.model.mesh;
+    const Eigen::Vector3d force(2.0, -3.0, dimension(type) == 3 ? 5.0 : 0.0);
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+      CAPTURE(name_of(type), cell, name_of(mesh.cell_types[cell]));
+      Load load;
+      load.distributed_forces.push_back({cell, {force[0], force[1], force[2]}, {}});
+      const Eigen::VectorXd forces = body.assembler->external_forces(applied(load), 0.0);
+      const Content reference = content(mesh, cell);
+      for (int c = 0; c < mesh.dimension; ++c) {
+        CHECK(work(body, forces, Eigen::Vector3d::Unit(c)) == Approx(reference.measure * force[c]));
+      }
+      for (int c = mesh.dimension == 3 ? 0 : 2; c < 3; ++c) {
+        CHECK(work(body, forces, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(c)) ==
+              Approx(reference.moment.cross(force)[c]).margin(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("a force that is linear in place has the first moment of the cell as resultant", "[loads]") {
+  for (const CellType type :
+       {CellType::tria6, CellType::quad8, CellType::tetra10, CellType::hexa8, CellType::penta6, CellType::pyram5}) {
+    const Body body(with_skin(type, 0.0), continuum_of(type), elastic(1.0, 0.3));
+    for (int cell = 0; cell < body.model.mesh->cell_count(); ++cell) {
+      CAPTURE(name_of(type), cell);
+      Load load;
+      load.distributed_forces.push_back({cell, {1.0, 99.0, 0.0}, {}});
+      load.distributed_forces[0].functions[1] = [](const Point& x, double t) { return t * x[0]; };
+      const Eigen::VectorXd forces =
+          body.assembler->external_forces(applied(load, [](double t) { return 1.0 + t; }), 2.0);
+      const Content reference = content(*body.model.mesh, cell);
+      CHECK(work(body, forces, Eigen::Vector3d::UnitX()) == Approx(3.0 * reference.measure));
+      CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == Approx(6.0 * reference.moment[0]));
+    }
+  }
+}
+
+TEST_CASE("forces turn with the body: a rotated curved cell under rotated forces and the same pressure", "[loads]") {
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized())).toRotationMatrix();
+  for (const CellType type : solid_types) {
+    CAPTURE(name_of(type));
+    auto mesh = with_skin(type, 0.05);
+    auto turned = std::make_shared<Mesh>(*mesh);
+    for (Point& node : turned->nodes)
+      Eigen::Map<Eigen::Vector3d>(node.data()) = (turn * Eigen::Vector3d(node.data())).eval();
+    const auto forces_on = [](const std::shared_ptr<Mesh>& on, const Eigen::Vector3d& force) {
+      const Body body(on, Formulation::solid, elastic(1.0, 0.3));
+      Load load;
+      for (int cell = 0; cell < on->cell_count(); ++cell)
+        load.distributed_forces.push_back({cell, {force[0], force[1], force[2]}, {}});
+      load.pressures.push_back({1, 4.0, 0.0, {}, {}});
+      return body.assembler->external_forces(applied(load), 0.0);
+    };
+    const Eigen::Vector3d force(1.0, -2.0, 0.5);
+    const Eigen::VectorXd straight = forces_on(mesh, force);
+    const Eigen::VectorXd rotated = forces_on(turned, turn * force);
+    for (int i = 0; i < straight.size(); i += 3) {
+      CHECK((rotated.segment<3>(i) - turn * straight.segment<3>(i)).norm() < 1e-13 * straight.norm());
+    }
+  }
+}
+
+TEST_CASE("distributed forces in an axisymmetric body count per radian", "[loads]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{1, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}};
+  mesh->add_cell(CellType::quad4, std::array{0, 1, 2, 3});
+  mesh->add_cell(CellType::seg2, std::array{1, 2});
+  const Body body(mesh, Formulation::axisymmetric, elastic(1.0, 0.3));
+  Load load;
+  load.distributed_forces.push_back({0, {0.0, 2.0, 0.0}, {}});
+  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == Approx(2.0 * (9.0 - 1.0) / 2));
+  load.distributed_forces[0].cell = 1;
+  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == Approx(2.0 * 3.0));
+}
+
+TEST_CASE("a distributed force is refused where nothing can take it", "[loads]") {
+  const Body body(single_cell(CellType::tria3), Formulation::plane_strain, elastic(1.0, 0.3));
+  Load load;
+  load.distributed_forces.push_back({0, {0.0, 0.0, 1.0}, {}});
+  CHECK_THROWS_WITH(body.assembler->external_forces(applied(load), 0.0),
+                    Catch::Contains("along Z") && Catch::Contains("M1"));
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{0, 0, 0}};
+  mesh->add_cell(CellType::poi1, std::array{0});
+  ElementProperties springs;
+  springs.discrete[0] =
+      diagonal_stiffness(*mesh, 0, Formulation::spring_3d, std::array{1.0, 1.0, 1.0}, DiscreteFrame::global);
+  const Body spring(mesh, std::vector{Formulation::spring_3d}, nullptr, springs);
+  CHECK_THROWS_WITH(spring.assembler->external_forces(applied(load), 0.0), Catch::Contains("no part of a continuum"));
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/mesh/axes.hpp"
 
 using namespace comma::solver;
 
@@ -119,14 +120,6 @@ TEST_CASE("constants that would give negative energy are refused", "[materials]"
   const Elasticity elasticity = material;
   CHECK_THROWS_WITH(solid_stiffness(CellMaterial{&elasticity, nullptr}, MaterialPoint()),
                     Catch::Contains("negative strain energy"));
-}
-
-TEST_CASE("cylindrical axes point away from the axis, round it and along it", "[materials]") {
-  const Eigen::Matrix3d axes = cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 7, 50});  // axis along +Z
-  CHECK((axes.row(0) - Eigen::RowVector3d(0, 1, 0)).norm() < 1e-14);
-  CHECK((axes.row(1) - Eigen::RowVector3d(-1, 0, 0)).norm() < 1e-14);
-  CHECK((axes.row(2) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-14);
-  CHECK_THROWS_AS(cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 2, 50}), Error);
 }
 
 TEST_CASE("thermal strain vanishes at the reference and does not depend on where expansion was measured from",

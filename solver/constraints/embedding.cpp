@@ -1,0 +1,156 @@
+#include "solver/constraints/embedding.hpp"
+
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "solver/contact/box_tree.hpp"
+#include "solver/contact/projection.hpp"
+#include "solver/elements/cell_quadrature.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// A shape function's value this small at a host's node is rounding: the point lies on the opposite facet.
+constexpr double negligible_weight = 1e-12;
+/// Reference coordinates are of order one; Newton's last step doubles the digits.
+constexpr double step_tolerance = 1e-8;
+constexpr double far_outside = 1e3;
+constexpr int max_newton_iterations = 30;
+/// How far outside the reference cell, in its coordinates, a point still counts as inside.
+constexpr double inside_tolerance = 1e-10;
+
+Eigen::Vector3d place(const Mesh& mesh, int node) {
+  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
+}
+
+bool is_inside(CellType type, const ReferencePoint& at) {
+  const auto [x, y, z] = at;
+  const double t = inside_tolerance;
+  switch (corner_count(type)) {
+    case 4:
+      return x >= -t && y >= -t && z >= -t && x + y + z <= 1.0 + t;  // tetrahedron
+    case 5:
+      return z >= -t && std::abs(x) + std::abs(y) <= 1.0 - z + t;  // pyramid
+    case 6:
+      return std::abs(x) <= 1.0 + t && y >= -t && z >= -t && y + z <= 1.0 + t;  // pentahedron
+    default:
+      return std::abs(x) <= 1.0 + t && std::abs(y) <= 1.0 + t && std::abs(z) <= 1.0 + t;  // hexahedron
+  }
+}
+
+/// The shape functions of a solid at a point of space inside it; empty if it lies outside.
+std::optional<std::vector<double>> weights_inside(const Mesh& mesh, int cell, const Eigen::Vector3d& point) {
+  const CellType type = mesh.cell_types[cell];
+  ReferencePoint at{};
+  const auto nodes = reference_nodes(type).first(static_cast<std::size_t>(corner_count(type)));
+  for (const ReferencePoint& node : nodes) {
+    for (int c = 0; c < 3; ++c) at[c] += node[c] / static_cast<double>(nodes.size());
+  }
+  for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {
+    const CellPoint here = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
+    const Eigen::Vector3d step = here.tangents.partialPivLu().solve(point - here.at);
+    if (!step.allFinite() || step.norm() > far_outside) return std::nullopt;
+    for (int c = 0; c < 3; ++c) at[c] += step[c];
+    if (step.norm() > step_tolerance) continue;
+    if (!is_inside(type, at)) return std::nullopt;
+    const Eigen::VectorXd weights = shape_functions(type, at);
+    return std::vector<double>(weights.begin(), weights.end());
+  }
+  return std::nullopt;
+}
+
+Embedding on_facet(const Mesh& mesh, int node, int cell, CellType type, std::span<const int> local) {
+  std::vector<Eigen::Vector3d> points;
+  for (const int a : local) points.push_back(place(mesh, mesh.cell(cell)[a]));
+  Embedding result{node, cell, std::vector<double>(mesh.cell(cell).size(), 0.0),
+                   std::numeric_limits<double>::infinity()};
+  const auto foot = project(place(mesh, node), type, points);
+  if (!foot) return result;
+  result.distance = foot->distance;
+  for (std::size_t a = 0; a < local.size(); ++a) result.weights[local[a]] = foot->weights[a];
+  return result;
+}
+
+Embedding on_cell(const Mesh& mesh, int node, int cell) {
+  const CellType type = mesh.cell_types[cell];
+  if (dimension(type) < 3) {
+    std::vector<int> local(mesh.cell(cell).size());
+    for (std::size_t a = 0; a < local.size(); ++a) local[a] = static_cast<int>(a);
+    return on_facet(mesh, node, cell, type, local);
+  }
+  if (auto weights = weights_inside(mesh, cell, place(mesh, node))) return {node, cell, std::move(*weights), 0.0};
+  Embedding best{node, cell, {}, std::numeric_limits<double>::infinity()};
+  for (const BoundaryFacet& facet : boundary_facets(type)) {
+    const std::vector<int> local(facet.nodes.begin(), facet.nodes.begin() + node_count(facet.type));
+    Embedding here = on_facet(mesh, node, cell, facet.type, local);
+    if (here.distance < best.distance) best = std::move(here);
+  }
+  return best;
+}
+
+/// Boxes of the cells, wider by half their size where sides may bulge out of the box of their nodes.
+std::vector<Box> boxes_of(const Mesh& mesh, std::span<const int> cells) {
+  std::vector<Box> boxes;
+  for (const int cell : cells) {
+    Box box;
+    for (const int node : mesh.cell(cell)) box.extend(place(mesh, node));
+    const bool may_bulge = node_count(mesh.cell_types[cell]) > corner_count(mesh.cell_types[cell]);
+    if (may_bulge) {
+      const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * box.diagonal().norm());
+      box = Box(box.min() - margin, box.max() + margin);
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                             double farthest) {
+  const BoxTree tree(boxes_of(mesh, cells));
+  std::set<int> known;
+  for (const int cell : cells) known.insert(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  std::vector<Embedding> result;
+  for (const int node : nodes) {
+    if (!known.insert(node).second) continue;
+    Embedding best{node, -1, {}, std::numeric_limits<double>::infinity()};
+    tree.search(place(mesh, node), [&](int item) {
+      Embedding here = on_cell(mesh, node, cells[item]);
+      const bool is_better =
+          here.distance < best.distance || (here.distance == best.distance && cells[item] < best.cell);
+      if (is_better) best = std::move(here);
+      return best.distance;
+    });
+    if (best.cell < 0 || best.distance > farthest) {
+      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}", mesh.node_name(node),
+                                         best.distance));
+    }
+    result.push_back(std::move(best));
+  }
+  return result;
+}
+
+std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                std::span<const Embedding> embeddings, const Origin& origin) {
+  std::vector<LinearRelation> relations;
+  for (const Embedding& embedding : embeddings) {
+    const auto host = mesh.cell(embedding.cell);
+    for (const Component component : {Component::dx, Component::dy, Component::dz}) {
+      if (dofs.dof(embedding.node, component) < 0) continue;
+      LinearRelation relation{{{embedding.node, component, 1.0}}, 0.0, {}, origin};
+      for (std::size_t a = 0; a < host.size(); ++a) {
+        if (std::abs(embedding.weights[a]) > negligible_weight)
+          relation.terms.push_back({host[a], component, -embedding.weights[a]});
+      }
+      relations.push_back(std::move(relation));
+    }
+  }
+  return relations;
+}
+
+}  // namespace comma::solver

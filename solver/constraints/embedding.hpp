@@ -1,0 +1,31 @@
+// Nodes that move with the cell in or on which they lie.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solver/loads/load.hpp"
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+/// Where a node is tied to a cell.
+struct Embedding {
+  int node;
+  int cell;
+  std::vector<double> weights;  ///< shape functions of the cell there, one a node
+  double distance = 0.0;        ///< from the node to that point, 0 inside the cell
+};
+
+/// Each node with the nearest of the cells (edges, faces or solids) and the point of it that is nearest. Nodes of the
+/// cells themselves are left out: they move with them anyway. Throws Error `no-host` for a node further than `farthest`
+/// from all cells.
+std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                             double farthest = std::numeric_limits<double>::infinity());
+
+/// u(node) = sum of weight * u(cell's node), for each translation that the node has (U4.44.01, LIAISON_MAIL).
+std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                std::span<const Embedding> embeddings, const Origin& origin);
+
+}  // namespace comma::solver

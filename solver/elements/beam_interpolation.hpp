@@ -1,0 +1,31 @@
+// How a straight beam moves between its ends, and the end forces that do the work of a distributed load (R3.08.01).
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "solver/elements/section.hpp"
+#include "solver/materials/elasticity.hpp"
+
+namespace comma::solver {
+
+/// `softening`: the ratio of shear to bending flexibility, 12 E I / (G A_reduced L^2), for bending in the planes (x, y)
+/// and (x, z); 0 for Euler's beam.
+struct BeamInterpolation {
+  double length = 0.0;
+  double softening_y = 0.0;
+  double softening_z = 0.0;
+};
+
+BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material,
+                                           double length);
+
+/// Displacements and rotations in own axes at x = position * length, position in [0, 1], from those of the ends: the
+/// exact solution for a beam that is loaded at its ends alone.
+Eigen::Matrix<double, 6, 12> interpolate(const BeamInterpolation& beam, double position);
+
+/// Forces and moments at the ends (own axes) for a load per length (N VY VZ MT MFY MFZ) that goes linearly from `first`
+/// to `second`. They give the exact displacements at the ends.
+Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const Eigen::Matrix<double, 6, 1>& first,
+                                        const Eigen::Matrix<double, 6, 1>& second);
+
+}  // namespace comma::solver

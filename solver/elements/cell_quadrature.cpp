@@ -1,0 +1,44 @@
+#include "solver/elements/cell_quadrature.hpp"
+
+#include <cmath>
+
+#include "solver/elements/quadrature.hpp"
+
+namespace comma::solver {
+
+double CellPoint::measure(int dimension) const {
+  if (dimension == 1) return tangents.col(0).norm();
+  if (dimension == 2) return tangents.col(0).cross(tangents.col(1)).norm();
+  return std::abs(tangents.determinant());
+}
+
+Eigen::Vector3d CellPoint::normal(int dimension) const {
+  if (dimension == 2) return tangents.col(0).cross(tangents.col(1));
+  return {tangents(1, 0), -tangents(0, 0), 0.0};
+}
+
+CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample) {
+  const auto nodes = mesh.cell(cell);
+  CellPoint point;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    const Eigen::Map<const Eigen::Vector3d> node(mesh.nodes[nodes[a]].data());
+    point.at += sample.values[row] * node;
+    for (Eigen::Index j = 0; j < sample.derivatives.cols(); ++j)
+      point.tangents.col(j) += sample.derivatives(row, j) * node;
+  }
+  return point;
+}
+
+const std::vector<CellSample>& CellSamples::of(CellType type, CellRole role) {
+  auto& samples = known_[static_cast<std::size_t>(type)][static_cast<std::size_t>(role)];
+  if (samples.empty()) {
+    const auto family = role == CellRole::body ? mass_family(type) : boundary_family(type);
+    for (const auto& point : quadrature(type, family)) {
+      samples.push_back({point.weight, shape_functions(type, point.at), shape_derivatives(type, point.at)});
+    }
+  }
+  return samples;
+}
+
+}  // namespace comma::solver

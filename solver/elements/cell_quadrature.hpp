@@ -1,0 +1,48 @@
+// Integration over real edges, faces and volumes, whatever their dimension.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::solver {
+
+/// Which family of R3.01.01 integrates over a cell: its own as part of a body, or that of a skin.
+enum class CellRole : std::uint8_t { body, skin };
+
+/// Values of the shape functions (one a node) and their derivatives (node x dimension) at a point of the reference
+/// cell.
+struct CellSample {
+  double weight;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd derivatives;
+};
+
+/// A sample in the real cell.
+struct CellPoint {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d tangents = Eigen::Matrix3d::Zero();  ///< columns d(at)/d(xi), zero past the cell's dimension
+
+  /// Length, area or volume for a unit of reference measure.
+  double measure(int dimension) const;
+  /// Normal of a face (right-hand rule) or of an edge in the plane (the tangent turned by -90 degrees), of length
+  /// measure().
+  Eigen::Vector3d normal(int dimension) const;
+};
+
+CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample);
+
+/// The samples of each cell type, made when first asked for.
+class CellSamples {
+ public:
+  const std::vector<CellSample>& of(CellType type, CellRole role);
+
+ private:
+  std::array<std::array<std::vector<CellSample>, 2>, cell_type_count> known_;
+};
+
+}  // namespace comma::solver

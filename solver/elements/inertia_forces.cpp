@@ -1,0 +1,119 @@
+#include "solver/elements/inertia_forces.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "solver/elements/slender_forces.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Eigen::Vector3d place(const Mesh& mesh, int node) {
+  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
+}
+
+bool any_axisymmetric(const Model& model, std::span<const int> cells) {
+  return std::any_of(cells.begin(), cells.end(), [&](int cell) { return is_axisymmetric(model.formulations[cell]); });
+}
+
+void add_continuum(const ForceInput& input, int cell, const AccelerationField& field, double factor,
+                   CellSamples& samples, std::span<long double> forces) {
+  const double per_volume = factor * density(elasticity_of(input, cell), material_point_of(input, cell));
+  if (per_volume == 0.0) return;
+  const Mesh& mesh = *input.model.mesh;
+  const CellType type = mesh.cell_types[cell];
+  const bool axisymmetric = is_axisymmetric(input.model.formulations[cell]);
+  const auto nodes = mesh.cell(cell);
+  const int components = dimension(type);
+  for (const CellSample& sample : samples.of(type, CellRole::body)) {
+    const CellPoint point = locate(mesh, cell, sample);
+    const double mass = per_volume * sample.weight * point.measure(components) * (axisymmetric ? point.at[0] : 1.0);
+    const Eigen::Vector3d force = mass * field.at(point.at);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const int first = input.dofs.dof(nodes[a], Component::dx);
+      for (int c = 0; c < components; ++c) forces[first + c] += sample.values[static_cast<Eigen::Index>(a)] * force[c];
+    }
+  }
+}
+
+void add_slender(const ForceInput& input, int cell, const AccelerationField& field, double factor,
+                 std::span<long double> forces) {
+  const double line_density =
+      factor * density(elasticity_of(input, cell), material_point_of(input, cell)) * section_of(input, cell).area;
+  const auto nodes = input.model.mesh->cell(cell);
+  const Eigen::Matrix3d axes = slender_axes(input, cell);
+  std::array<Vector6, 2> loads = {Vector6::Zero(), Vector6::Zero()};
+  for (int end = 0; end < 2; ++end) {
+    loads[end].head<3>() = line_density * (axes * field.at(place(*input.model.mesh, nodes[end])));
+  }
+  add_slender_load(input, cell, loads[0], loads[1], forces);
+}
+
+/// Its mass matrix times the accelerations of its nodes.
+void add_discrete(const ForceInput& input, int cell, const AccelerationField& field, double factor,
+                  std::span<long double> forces) {
+  const auto found = input.properties.masses.find(cell);
+  if (found == input.properties.masses.end()) return;
+  const auto nodes = input.model.mesh->cell(cell);
+  const ComponentMask mask = input.model.components_of(cell);
+  std::vector<int> dofs;
+  std::vector<double> accelerations;
+  for (const int node : nodes) {
+    const Eigen::Vector3d a = field.at(place(*input.model.mesh, node));
+    for (int c = 0; c < component_count; ++c) {
+      if (!contains(mask, static_cast<Component>(c))) continue;
+      dofs.push_back(input.dofs.dof(node, static_cast<Component>(c)));
+      accelerations.push_back(c < 3 ? factor * a[c] : 0.0);
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(dofs.size());
+  if (found->second.rows() != size || found->second.cols() != size) {
+    throw Error("wrong-size",
+                fmt::format("the mass of the discrete element on cell {} is {} x {}, not {} x {}",
+                            input.model.mesh->cell_name(cell), found->second.rows(), found->second.cols(), size, size));
+  }
+  const Eigen::VectorXd force = found->second * Eigen::Map<const Eigen::VectorXd>(accelerations.data(), size);
+  for (Eigen::Index i = 0; i < size; ++i) forces[dofs[i]] += force[i];
+}
+
+}  // namespace
+
+AccelerationField gravity_field(const GravityLoad& load, const Model& model) {
+  const Eigen::Vector3d acceleration(load.acceleration.data());
+  if (acceleration[0] != 0.0 && any_axisymmetric(model, load.cells)) {
+    throw Error("unsupported", "gravity in an axisymmetric model can only act along its axis Y",
+                "give it the direction (0, -1, 0)");
+  }
+  return {acceleration, Eigen::Matrix3d::Zero()};
+}
+
+AccelerationField centrifugal_field(const RotationLoad& load, const Model& model) {
+  const Eigen::Vector3d given(load.axis.data());
+  if (!(given.norm() > 0.0)) throw Error("zero-vector", "the axis of a rotation has no length");
+  const Eigen::Vector3d axis = given.normalized();
+  const Eigen::Vector3d centre(load.centre.data());
+  const bool about_y = axis[0] == 0.0 && axis[2] == 0.0 && centre[0] == 0.0 && centre[2] == 0.0;
+  if (!about_y && any_axisymmetric(model, load.cells)) {
+    throw Error("unsupported", "an axisymmetric model can only turn about its axis Y",
+                "give the axis (0, 1, 0) and a centre on it");
+  }
+  const Eigen::Matrix3d gradient = load.speed * load.speed * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
+  return {-gradient * centre, gradient};
+}
+
+void add_inertia_forces(const ForceInput& input, int cell, const AccelerationField& field, double factor,
+                        CellSamples& samples, std::span<long double> forces) {
+  if (input.model.components_of(cell) == 0 || input.model.is_skin(cell)) return;
+  const Formulation formulation = input.model.formulations[cell];
+  if (continuum_dimension(formulation) > 0) return add_continuum(input, cell, field, factor, samples, forces);
+  if (is_bar(formulation) || is_beam(formulation)) return add_slender(input, cell, field, factor, forces);
+  add_discrete(input, cell, field, factor, forces);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,88 @@
+#include "solver/constraints/embedding.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
+
+using namespace comma::solver;
+using namespace comma::solver::testing;
+
+namespace {
+
+const Origin origin = std::make_shared<const std::string>("test");
+
+double quadratic(const Point& x) {
+  return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2] + 0.3 * x[0] * x[1] - 0.2 * x[1] * x[1];
+}
+double linear(const Point& x) {
+  return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2];
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a node in a cell takes the cell's linear field, on curved cells too; quadratic cells give quadratic fields when "
+    "straight") {
+  std::vector<CellType> types(std::begin(plane_types), std::end(plane_types));
+  types.insert(types.end(), std::begin(solid_types), std::end(solid_types));
+  for (const CellType type : types) {
+    CAPTURE(name_of(type));
+    for (const double bend : {0.0, 0.04}) {
+      auto mesh = single_cell(type, bend);
+      // A point of the reference cell off its symmetries, by the map that single_cell uses.
+      const bool solid = dimension(type) == 3;
+      const bool simplex = corner_count(type) == 3 || (solid && corner_count(type) == 4);
+      const double r = simplex ? 0.2 : 0.15, s = simplex ? 0.3 : 0.25, t = solid ? 0.1 : 0.0;
+      const Eigen::VectorXd n = shape_functions(type, {r, s, t});
+      Eigen::Vector3d x = Eigen::Vector3d::Zero();
+      for (int a = 0; a < n.size(); ++a) x += n[a] * Eigen::Vector3d(mesh->nodes[a].data());
+      mesh->nodes.push_back({x[0], x[1], x[2]});
+      const int node = mesh->node_count() - 1;
+      const auto embeddings = embed(*mesh, std::vector{0, node}, std::vector{0});
+      REQUIRE(embeddings.size() == 1);  // node 0 is the cell's own
+      CHECK(embeddings[0].distance < 1e-12);
+      double value = 0.0, square = 0.0;
+      for (int a = 0; a < n.size(); ++a) {
+        value += embeddings[0].weights[a] * linear(mesh->nodes[a]);
+        square += embeddings[0].weights[a] * quadratic(mesh->nodes[a]);
+      }
+      CHECK(value == Approx(linear(mesh->nodes[node])));
+      const bool complete = bend == 0.0 && node_count(type) > corner_count(type) && type != CellType::pyram13;
+      if (complete) CHECK(square == Approx(quadratic(mesh->nodes[node])));
+    }
+  }
+}
+
+TEST_CASE("a node beside the cells is tied to the nearest point of the nearest one, within the distance allowed") {
+  Mesh mesh;
+  for (const auto& at : reference_nodes(CellType::hexa8)) mesh.nodes.push_back({at[0], at[1], at[2]});
+  for (const auto& at : reference_nodes(CellType::hexa8)) mesh.nodes.push_back({at[0] + 10.0, at[1], at[2]});
+  mesh.nodes.push_back({1.5, 0.2, -0.6});
+  mesh.nodes.push_back({8.0, 5.0, 0.0});
+  std::vector<int> first(8), second(8);
+  for (int a = 0; a < 8; ++a) {
+    first[a] = a;
+    second[a] = a + 8;
+  }
+  mesh.add_cell(CellType::hexa8, first);
+  mesh.add_cell(CellType::hexa8, second);
+  const auto embeddings = embed(mesh, std::vector{16, 17}, std::vector{0, 1});
+  REQUIRE(embeddings.size() == 2);
+  CHECK(embeddings[0].cell == 0);
+  CHECK(embeddings[0].distance == Approx(0.5));
+  CHECK(embeddings[1].cell == 1);
+  CHECK(embeddings[1].distance == Approx(std::sqrt(1.0 + 16.0)));
+  CHECK_THROWS_WITH(embed(mesh, std::vector{16}, std::vector{0, 1}, 0.4), Catch::Contains("N17"));
+  mesh.dimension = 3;
+  Model model{std::make_shared<Mesh>(mesh), {Formulation::solid, Formulation::solid}};
+  model.mesh->add_cell(CellType::poi1, std::vector{16});
+  model.formulations.push_back(Formulation::spring_3d);
+  const auto relations = embedding_relations(mesh, DofMap(model), embeddings, origin);
+  REQUIRE(relations.size() == 3);  // the second node has no degrees of freedom
+  CHECK(relations[2].terms[0].component == Component::dz);
+  CHECK(relations[2].terms.size() == 5);  // the four corners of the face
+  double sum = 0.0;
+  for (const auto& term : relations[0].terms) sum += term.coefficient;
+  CHECK(sum == Approx(0.0).margin(1e-15));
+}

@@ -1,0 +1,105 @@
+#include "solver/elements/imposed_strains.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "load_scene.hpp"
+
+using namespace comma::solver;
+using namespace comma::solver::testing;
+
+namespace {
+
+constexpr std::array<double, 6> strain = {1e-3, -2e-3, 5e-4, 3e-4, -4e-4, 7e-4};
+
+/// The displacement whose gradient is the strain, in space or in the plane.
+double stretched(const Point& x, int c, int dimension) {
+  const Eigen::Matrix3d e = (Eigen::Matrix3d() << strain[0], strain[3], strain[4], strain[3], strain[1], strain[5],  //
+                             strain[4], strain[5], strain[2])
+                                .finished();
+  Eigen::Vector3d at(x.data());
+  if (dimension == 2) at[2] = 0.0;
+  return (e * at)[c];
+}
+
+double largest_stress(const ElementField& field) {
+  double largest = 0.0;
+  for (const double value : field.values) largest = std::max(largest, std::isnan(value) ? 0.0 : std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a free body takes an initial strain without stress, on every cell", "[loads]") {
+  std::vector<CellType> types(std::begin(plane_types), std::end(plane_types));
+  types.insert(types.end(), std::begin(solid_types), std::end(solid_types));
+  for (const CellType type : types) {
+    CAPTURE(name_of(type));
+    const int d = dimension(type);
+    const Body body(single_cell(type, 0.04), d == 3 ? Formulation::solid : Formulation::plane_stress,
+                    elastic(100.0, 0.3));
+    Load load;
+    load.initial_strains.push_back({0, strain, {}});
+    load.initial_strains.back().strain[0] = 99.0;
+    load.initial_strains.back().functions[0] = [](const Point&, double t) { return strain[0] * t / 2.0; };
+    auto both = applied(load, [](double t) { return 1.0 / t; });  // two halves at t = 2
+    both.push_back(both.front());
+    const Eigen::VectorXd u = body.displacements([&](const Point& x, int c) { return stretched(x, c, d); });
+    const Eigen::VectorXd forces = body.assembler->external_forces(both, 2.0);
+    CHECK((body.assembler->internal_forces(u) - forces).norm() < 1e-13);
+    CHECK((body.assembler->initial_strain_forces(both, 2.0) - forces).norm() == 0.0);
+    CHECK(largest_stress(body.assembler->stresses(u, both, 2.0)) < 1e-13);
+    CHECK(largest_stress(body.assembler->stresses(u)) > 1e-2);
+  }
+}
+
+TEST_CASE("a held body answers an initial strain by minus Hooke's law times it", "[loads]") {
+  const Body body(single_cell(CellType::quad4), Formulation::plane_strain, elastic(100.0, 0.25));
+  Load load;
+  load.initial_strains.push_back({0, {1e-3, 1e-3, 1e-3, 0, 0, 0}, {}});
+  const ElementField field = body.assembler->stresses(body.zero(), applied(load), 0.0);
+  for (const int c : {0, 1, 2}) CHECK(field.at(0, 0, c) == Approx(-100.0 * 1e-3 / (1 - 2 * 0.25)));
+  CHECK(field.at(0, 0, 3) == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("bars and beams take elongation and curvature without section forces", "[loads]") {
+  for (const Formulation formulation :
+       {Formulation::bar, Formulation::bar_2d, Formulation::euler_beam, Formulation::timoshenko_beam}) {
+    const bool beam = formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+    auto mesh = std::make_shared<Mesh>();
+    mesh->dimension = formulation == Formulation::bar_2d ? 2 : 3;
+    mesh->nodes = {{0, 0, 0}, {0, 2, 0}};
+    mesh->add_cell(CellType::seg2, std::array{0, 1});
+    ElementProperties properties;
+    properties.sections[0] = {0.5, 0.02, 0.03, 0.01, 1.2, 1.3, 0.3};
+    const Body body(mesh, std::vector{formulation}, elastic(100.0, 0.25), properties);
+    const double elongation = 1e-3, curvature_y = beam ? 2e-3 : 0.0, curvature_z = beam ? -3e-3 : 0.0;
+    Load load;
+    load.initial_slender_strains.push_back({0, {elongation, curvature_y, curvature_z}, {}});
+    Eigen::VectorXd u = body.zero();
+    const Eigen::Matrix3d axes = own_axes(*mesh, 0, beam ? 0.3 : 0.0);
+    // Fixed first end: deflections k_z L^2 / 2 along y, -k_y L^2 / 2 along z, rotations k L.
+    const Eigen::Vector3d moved = axes.transpose() * Eigen::Vector3d(2 * elongation, 2 * curvature_z, -2 * curvature_y);
+    const Eigen::Vector3d turned = axes.transpose() * Eigen::Vector3d(0.0, 2 * curvature_y, 2 * curvature_z);
+    for (int c = 0; c < 3; ++c) {
+      const int move = body.dofs->dof(1, static_cast<Component>(c)),
+                turn = body.dofs->dof(1, static_cast<Component>(c + 3));
+      if (move >= 0) u[move] = moved[c];
+      if (turn >= 0) u[turn] = turned[c];
+    }
+    CHECK((body.assembler->internal_forces(u) - body.assembler->external_forces(applied(load), 0.0)).norm() < 1e-14);
+    CHECK(largest_stress(body.assembler->stresses(u, applied(load), 0.0)) < 1e-14);
+    CHECK(body.assembler->stresses(body.zero(), applied(load), 0.0).at(0, 0, 0) == Approx(-100.0 * 0.5 * elongation));
+    if (beam) continue;
+    load.initial_slender_strains[0].strain[1] = 1.0;
+    CHECK_THROWS_WITH(body.assembler->external_forces(applied(load), 0.0), Catch::Contains("curvature"));
+  }
+}
+
+TEST_CASE("initial strains are refused where there is no such strain", "[loads]") {
+  const Body body(with_skin(CellType::hexa8, 0.0), Formulation::solid, elastic(100.0, 0.25));
+  Load skin, beam;
+  skin.initial_strains.push_back({1, strain, {}});
+  beam.initial_slender_strains.push_back({0, {1.0, 0, 0}, {}});
+  CHECK_THROWS_WITH(body.assembler->external_forces(applied(skin), 0.0), Catch::Contains("M2"));
+  CHECK_THROWS_WITH(body.assembler->external_forces(applied(beam), 0.0), Catch::Contains("M1"));
+}
