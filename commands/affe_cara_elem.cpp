@@ -18,7 +18,7 @@ bool is_discrete(Formulation formulation) {
 
 // CARA names the support by its last letter (U4.42.01): ..._L lies on a segment, ..._N on a point.
 void check_support(const Keywords& assignment, const solver::Model& model, int cell) {
-  const std::string& kind = assignment.texts("CARA").front();
+  const std::string kind = assignment.texts("CARA").front();
   const bool segment = kind.back() == 'L';
   if (!is_discrete(model.formulations[cell])) {
     throw DiagnosticError("not-discrete", "DISCRET_2D: cell " + model.mesh->cell_name(cell) + " carries no discrete element",

@@ -23,4 +23,9 @@ Product affe_char_cine(const Call& call, Context&) {
   return product;
 }
 
+// The same with functions in place of numbers.
+Product affe_char_meca_f(const Call& call, Context& context) { return affe_char_meca(call, context); }
+
+Product affe_char_cine_f(const Call& call, Context& context) { return affe_char_cine(call, context); }
+
 }  // namespace comma::commands

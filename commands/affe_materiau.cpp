@@ -9,6 +9,10 @@ Product affe_materiau(const Call& call, Context&) {
   auto field = std::make_shared<solver::MaterialField>();
   field->by_cell.resize(static_cast<std::size_t>(mesh.cell_count()));
   for (const Keywords& assignment : call.factors("AFFE")) {
+    if (assignment.concepts("MATER").size() > 1) {
+      throw interpreter::DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material", assignment.span_of("MATER"),
+                                         "put all laws into one DEFI_MATERIAU");
+    }
     const auto& material = interpreter::data_of<MaterialConcept>(assignment.concepts("MATER").front(), "MATER").material;
     for (const int cell : selected_cells(assignment, mesh)) field->by_cell[cell] = material;
   }

@@ -5,14 +5,6 @@
 
 namespace comma::commands {
 
-Value FunctionConcept::call(const std::vector<Value>& arguments) const {
-  if (arguments.size() != 1 || !(arguments[0].is_number() || arguments[0].is_bool())) {
-    throw interpreter::DiagnosticError("type-error", "a function of one parameter is called with one number", {},
-                                       "write F(" + table.parameter + ")");
-  }
-  return Value(table(arguments[0].as_real()));
-}
-
 Value TableConcept::subscript(const Value& key) const {
   const bool shaped = key.is_tuple() && key.items().size() == 2 && key.items()[0].is_text() && key.items()[1].is_integer();
   if (!shaped) {
@@ -42,7 +34,5 @@ Value TableConcept::subscript(const Value& key) const {
       },
       table.rows[row - 1][column]);
 }
-
-solver::TimeFunction time_function(const FunctionConcept& function) { return function.table; }
 
 }  // namespace comma::commands

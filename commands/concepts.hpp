@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "commands/functions.hpp"
 #include "commands/table.hpp"
 #include "interpreter/concept.hpp"
 #include "solver/contact/definition.hpp"
@@ -49,13 +50,6 @@ struct LoadConcept : ConceptData {
   std::shared_ptr<const solver::Load> load;
 };
 
-/// DEFI_FONCTION and DEFI_CONSTANTE.
-struct FunctionConcept : ConceptData {
-  solver::TabulatedFunction table;
-
-  Value call(const std::vector<Value>& arguments) const override;
-};
-
 struct ListConcept : ConceptData {
   std::vector<double> values;
 };
@@ -78,8 +72,5 @@ struct TableConcept : ConceptData {
 
 /// What a command function returns; null for a command that produces nothing.
 using Product = std::shared_ptr<ConceptData>;
-
-/// The function of time behind a function concept.
-solver::TimeFunction time_function(const FunctionConcept& function);
 
 }  // namespace comma::commands

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/mesh/orientation.hpp"
 
 namespace comma::commands {
 
@@ -8,11 +11,6 @@ namespace {
 
 using interpreter::DiagnosticError;
 using solver::Component;
-
-solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const std::string& keyword) {
-  solver::TimeFunction function = time_function(interpreter::data_of<FunctionConcept>(handle, keyword));
-  return [function = std::move(function)](const solver::Point&, double time) { return function(time); };
-}
 
 Component component(const Keywords& zone, const std::string& name, const std::vector<int>& nodes, const solver::DofMap& dofs) {
   const auto known = solver::component_named(name);
@@ -29,22 +27,34 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
   const solver::DofMap dofs(model);
   solver::UnilateralCondition condition;
   condition.nodes = selected_nodes(zone, *model.mesh);
+  const auto left_out = selected_nodes(zone, *model.mesh, {"", "SANS_GROUP_NO", "", "", ""});
+  std::erase_if(condition.nodes, [&](int node) { return std::find(left_out.begin(), left_out.end(), node) != left_out.end(); });
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
-  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, "COEF_MULT"));
+  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, zone.span_of("COEF_MULT")));
   if (condition.coefficients.size() != condition.components.size()) {
     throw DiagnosticError("wrong-count", "DEFI_CONTACT: each of the " + std::to_string(condition.components.size()) +
                                              " components of NOM_CMP needs its coefficient",
                           zone.span_of("COEF_MULT"), "give as many functions to COEF_MULT as names to NOM_CMP");
   }
-  condition.bound = field_function(zone.concept_of("COEF_IMPO"), "COEF_IMPO");
+  condition.bound = field_function(zone.concept_of("COEF_IMPO"), zone.span_of("COEF_IMPO"));
   return condition;
 }
 
 solver::NormalSide normal_side(const std::string& word) {
   if (word == "ESCL") return solver::NormalSide::slave;
   return word == "MAIT_ESCL" ? solver::NormalSide::average : solver::NormalSide::master;
+}
+
+// A gap has a sign only if the normals point out of the bodies (U4.44.11, VERI_NORM).
+void check_normals(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells, const solver::Mesh& mesh) {
+  const auto inward = solver::inward_skin(mesh, cells);
+  if (inward.empty()) return;
+  throw DiagnosticError("inward-normals",
+                        "DEFI_CONTACT: the normals of " + std::to_string(inward.size()) + " of these " + std::to_string(cells.size()) +
+                            " cells point into the body, that of " + mesh.cell_name(inward.front()) + " for one",
+                        zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
 solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
@@ -59,7 +69,7 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   }
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
-  if (keywords.has("TOLE_APPA")) zone.pairing_distance = keywords.real("TOLE_APPA");
+  if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }
 
@@ -76,7 +86,12 @@ solver::ContactDefinition discrete_contact(const Call& call, const solver::Mesh&
   if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
-  for (const Keywords& zone : call.factors("ZONE")) definition.zones.push_back(contact_zone(zone, mesh));
+  for (const Keywords& keywords : call.factors("ZONE")) {
+    const solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    if (call.text("VERI_NORM") != "OUI") continue;
+    check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
+    check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
+  }
   return definition;
 }
 

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "commands/commands.hpp"
+#include "commands/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -9,16 +10,6 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-using solver::Extension;
-using solver::Scale;
-
-Extension extension(const std::string& word) {
-  if (word == "CONSTANT") return Extension::constant;
-  if (word == "LINEAIRE") return Extension::linear;
-  return Extension::excluded;
-}
-
-Scale scale(const std::string& word) { return word == "LOG" ? Scale::logarithmic : Scale::linear; }
 
 void read_points(const Call& call, solver::TabulatedFunction& function) {
   if (call.has("VALE")) {
@@ -44,8 +35,11 @@ void read_points(const Call& call, solver::TabulatedFunction& function) {
   }
 }
 
-// Code_Aster sorts the points by abscissa, and refuses two points at one (U4.31.02).
+// Abscissas rise unless VERIF="NON" lets comma sort them; two points never share one (U4.31.02).
 void sort_points(const Call& call, solver::TabulatedFunction& function) {
+  if (call.text("VERIF") == "CROISSANT" && !std::is_sorted(function.x.begin(), function.x.end())) {
+    throw DiagnosticError("wrong-order", "DEFI_FONCTION: the abscissas do not rise", call.span, "put the points in order, or give VERIF=\"NON\"");
+  }
   std::vector<std::size_t> order(function.x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
@@ -65,27 +59,15 @@ void sort_points(const Call& call, solver::TabulatedFunction& function) {
 }  // namespace
 
 Product defi_fonction(const Call& call, Context&) {
-  auto product = std::make_shared<FunctionConcept>();
-  solver::TabulatedFunction& function = product->table;
+  solver::TabulatedFunction function;
   function.parameter = call.text("NOM_PARA");
   function.result = call.text("NOM_RESU");
   read_points(call, function);
   sort_points(call, function);
-  const auto scales = call.texts("INTERPOL");
-  function.x_scale = scale(scales.front());
-  function.y_scale = scale(scales.back());
-  function.left = extension(call.text("PROL_GAUCHE"));
-  function.right = extension(call.text("PROL_DROITE"));
-  return product;
+  read_shape(call, function);
+  return std::make_shared<TabulatedConcept>(std::move(function));
 }
 
-Product defi_constante(const Call& call, Context&) {
-  auto product = std::make_shared<FunctionConcept>();
-  product->table.x = {0.0};
-  product->table.y = {call.real("VALE")};
-  product->table.result = call.text("NOM_RESU");
-  product->table.left = product->table.right = Extension::constant;
-  return product;
-}
+Product defi_constante(const Call& call, Context&) { return std::make_shared<ConstantConcept>(call.real("VALE")); }
 
 }  // namespace comma::commands

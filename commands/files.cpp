@@ -47,6 +47,33 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
                                      "put one of " + tried + " beside the command file, or name it in an .export");
 }
 
+fs::path Files::included(int unit, const interpreter::Span& where) const {
+  for (const ExportFile& file : exported_) {
+    if (file.unit == unit && file.input) return file.path;
+  }
+  const fs::path name = command_file_.stem().string() + "." + std::to_string(unit);
+  const fs::path candidate = command_file_.parent_path() / name;
+  if (fs::is_regular_file(candidate)) return candidate;
+  throw interpreter::DiagnosticError("missing-file", "no file stands for unit " + std::to_string(unit), where,
+                                     "put " + name.string() + " beside the command file, or name it in an .export");
+}
+
+fs::path Files::included(const std::string& name, const interpreter::Span& where) const {
+  const fs::path wanted(name);
+  // A plain name leads nowhere but into the folder itself.
+  if (wanted.filename() != wanted || name.empty() || name == "." || name == "..") {
+    throw interpreter::DiagnosticError("forbidden-file", "a command file reads only what lies in its own folder", where,
+                                       "write the bare name of a file beside the command file");
+  }
+  for (const ExportFile& file : exported_) {
+    if (file.input && file.path.filename() == wanted) return file.path;
+  }
+  const fs::path candidate = command_file_.parent_path() / wanted;
+  // A link could lead out of the folder again.
+  if (fs::is_regular_file(fs::symlink_status(candidate))) return candidate;
+  throw interpreter::DiagnosticError("missing-file", "there is no file " + name + " beside the command file", where);
+}
+
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.output) return file.path;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/source.hpp"
+
 namespace comma::commands {
 
 /// One line `F type name D|R|DR|RC unit` of an .export.
@@ -27,6 +29,12 @@ class Files {
   /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
   /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
+
+  /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of the
+  /// command file, or one that the .export names). Throws DiagnosticError `missing-file`; `forbidden-file` for a name
+  /// that leads elsewhere.
+  std::filesystem::path included(int unit, const interpreter::Span& where) const;
+  std::filesystem::path included(const std::string& name, const interpreter::Span& where) const;
 
   /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,
   /// `<stem>.<unit>.<extension>` for another.

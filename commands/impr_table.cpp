@@ -33,11 +33,12 @@ Product impr_table(const Call& call, Context& context) {
   constexpr int result_unit = 8;
   Table table = call.data<TableConcept>("TABLE").table;
   if (call.has("NOM_PARA")) table = restricted(table, call.texts("NOM_PARA"), call);
-  if (call.has("TITRE")) table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
+  const std::string comment = call.text("COMMENTAIRE");
+  if (call.has("TITRE")) table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n" + comment + " "));
   const std::string format = call.has("FORMAT_R") ? call.text("FORMAT_R") : "E12.5";
   const std::string separator = call.has("SEPARATEUR") ? call.text("SEPARATEUR") : " ";
   const auto path = context.files.output(static_cast<int>(call.integer("UNITE")), "resu", result_unit);
-  context.write(path, format_table(table, separator, format) + "\n");
+  context.write(path, format_table(table, separator, format, comment) + "\n");
   return nullptr;
 }
 

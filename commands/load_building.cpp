@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "commands/functions.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -16,6 +17,12 @@ using interpreter::Keywords;
 using solver::Component;
 
 namespace {
+
+// What a keyword gives: a number, or the function that AFFE_CHAR_..._F takes in its place.
+struct Amount {
+  double value = 0.0;
+  solver::FieldFunction function;
+};
 
 struct NamedComponent {
   const char* keyword;
@@ -51,14 +58,20 @@ std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named,
   return found;
 }
 
-// Visits (node, component, value) for each of the component keywords given.
+Amount amount_of(const Keywords& keywords, const std::string& name) {
+  if (!keywords.has(name)) return {};
+  if (!keywords.at(name).value.is_concept()) return {keywords.real(name), {}};
+  return {0.0, field_function(keywords.concept_of(name), keywords.span_of(name))};
+}
+
+// Visits (node, component, amount) for each of the component keywords given.
 template <class Visit>
 void each_component(const Keywords& keywords, const std::array<NamedComponent, 6>& names, const LoadedModel& target, Visit visit) {
   const auto nodes = selected_nodes(keywords, *target.model.mesh);
   for (const NamedComponent& named : names) {
     if (!keywords.given(named.keyword)) continue;
-    const double value = keywords.real(named.keyword);
-    for (const int node : carriers(keywords, named, nodes, target.dofs)) visit(node, named.component, value);
+    const Amount amount = amount_of(keywords, named.keyword);
+    for (const int node : carriers(keywords, named, nodes, target.dofs)) visit(node, named.component, amount);
   }
 }
 
@@ -73,24 +86,32 @@ solver::Origin origin_of(const Keywords& keywords, const std::string& keyword) {
 
 void add_imposed_displacements(const Keywords& keywords, const std::string& name, const LoadedModel& target, solver::Load& load) {
   const auto origin = origin_of(keywords, name);
-  each_component(keywords, displacement_keywords, target, [&](int node, Component component, double value) {
-    load.relations.push_back({{{node, component, 1.0}}, value, {}, origin});
-  });
+  const auto impose = [&](int node, Component component, const Amount& amount) {
+    load.relations.push_back({{{node, component, 1.0}}, amount.value, amount.function, origin});
+  };
+  each_component(keywords, displacement_keywords, target, impose);
+  if (!keywords.given("BLOCAGE")) return;
+  // BLOCAGE="DEPLACEMENT": every translation that a node has.
+  for (const int node : selected_nodes(keywords, *target.model.mesh)) {
+    for (const Component component : {Component::dx, Component::dy, Component::dz}) {
+      if (target.dofs.dof(node, component) >= 0) impose(node, component, {});
+    }
+  }
 }
 
 void add_nodal_forces(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
-  each_component(keywords, force_keywords, target, [&](int node, Component component, double value) {
-    load.nodal_forces.push_back({node, component, value, {}});
+  each_component(keywords, force_keywords, target, [&](int node, Component component, const Amount& amount) {
+    load.nodal_forces.push_back({node, component, amount.value, amount.function});
   });
 }
 
 void add_pressures(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
-  const double pressure = keywords.has("PRES") ? keywords.real("PRES") : 0.0;
-  const double shear = keywords.has("CISA_2D") ? keywords.real("CISA_2D") : 0.0;
+  const Amount pressure = amount_of(keywords, "PRES");
+  const Amount shear = amount_of(keywords, "CISA_2D");
   int loaded = 0;
   for (const int cell : selected_cells(keywords, *target.model.mesh)) {
     if (!target.model.is_skin(cell)) continue;
-    load.pressures.push_back({cell, pressure, shear, {}, {}});
+    load.pressures.push_back({cell, pressure.value, shear.value, pressure.function, shear.function});
     ++loaded;
   }
   if (loaded == 0) {

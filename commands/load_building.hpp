@@ -20,6 +20,9 @@ struct LoadedModel {
 /// "zzzz237b.comm:66, DDL_IMPO": how messages name a condition.
 solver::Origin origin_of(const interpreter::Keywords& keywords, const std::string& keyword);
 
+/// Values are numbers or, in the commands that end in _F, functions of X, Y, Z and INST; a function of anything else throws
+/// DiagnosticError `unknown-parameter`.
+
 /// Adds u(node, component) = value for each component keyword given (DX, DY ... DRZ) on each node that carries it.
 /// Throws DiagnosticError `unknown-component` at a component that none of the nodes carries.
 void add_imposed_displacements(const interpreter::Keywords& keywords, const std::string& name, const LoadedModel& target,

@@ -16,8 +16,25 @@ using solver::ResultStep;
 
 namespace {
 
-// Code_Aster's default precision in the search of an instant (U4.71.00).
-constexpr double default_instant_precision = 1e-6;
+// How near a stored instant must lie to the one asked for.
+struct InstantTolerance {
+  double precision = 1e-6;
+  bool relative = true;
+
+  double reach(double instant) const { return relative && instant != 0.0 ? precision * std::abs(instant) : precision; }
+};
+
+// PRECISION and CRITERE, but in TEST_* the second values of TOLE_MACHINE and CRITERE, whose first ones are the verdict's (U4.92.01).
+InstantTolerance instant_tolerance(const Keywords& keywords) {
+  InstantTolerance tolerance;
+  const bool verdict = keywords.has("TOLE_MACHINE");
+  const auto precisions = verdict ? keywords.reals("TOLE_MACHINE") : keywords.reals("PRECISION");
+  const auto criteria = keywords.texts("CRITERE");
+  const std::size_t which = verdict ? 1 : 0;
+  if (precisions.size() > which) tolerance.precision = precisions[which];
+  if (criteria.size() > which) tolerance.relative = criteria[which] == "RELATIF";
+  return tolerance;
+}
 
 std::string known_instants(const solver::Result& result) {
   if (result.steps.empty()) return "the result holds no step";
@@ -26,10 +43,7 @@ std::string known_instants(const solver::Result& result) {
 }
 
 const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
-  const double precision = keywords.given("PRECISION") && !keywords.given("VALE_REFE") && !keywords.given("VALE_CALC")
-                               ? keywords.real("PRECISION")
-                               : default_instant_precision;
-  const double reach = precision * (instant == 0.0 ? 1.0 : std::abs(instant));
+  const double reach = instant_tolerance(keywords).reach(instant);
   for (const ResultStep& step : result.steps) {
     if (std::abs(step.instant - instant) <= reach) return step;
   }
@@ -51,6 +65,8 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   std::vector<const ResultStep*> steps;
   if (keywords.given("INST")) {
     for (const double instant : keywords.reals("INST")) steps.push_back(&step_at(keywords, result, instant));
+  } else if (keywords.given("LIST_INST")) {
+    for (const double instant : keywords.data<ListConcept>("LIST_INST").values) steps.push_back(&step_at(keywords, result, instant));
   } else if (keywords.given("NUME_ORDRE")) {
     for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order));
   } else {

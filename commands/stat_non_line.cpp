@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -15,7 +18,9 @@ std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
   for (const Keywords& excitation : call.factors("EXCIT")) {
     solver::AppliedLoad& applied = loads.emplace_back();
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
-    if (excitation.has("FONC_MULT")) applied.multiplier = time_function(excitation.data<FunctionConcept>("FONC_MULT"));
+    if (excitation.has("FONC_MULT")) {
+      applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
+    }
   }
   return loads;
 }
@@ -45,6 +50,41 @@ std::optional<LinearMethod> linear_method(const std::string& word) {
   return std::nullopt;
 }
 
+// NPREC (U4.50.01): 0 stands for the default; a negative number means no test to MUMPS alone, elsewhere its sign says whether
+// to stop, which comma always does.
+int singular_digits(const Keywords& solver) {
+  constexpr int default_digits = 8;
+  const int digits = static_cast<int>(solver.integer("NPREC"));
+  if (digits == 0) return default_digits;
+  return solver.text("METHODE") == "MUMPS" ? digits : std::abs(digits);
+}
+
+// The instants that INCREMENT keeps of its list; the first is the initial state.
+std::vector<double> instants(const Keywords& increment) {
+  const auto& all = increment.data<ListConcept>("LIST_INST").values;
+  const auto index_of = [&](const char* number, const char* instant, std::size_t otherwise) {
+    if (increment.given(number)) {
+      const auto index = increment.integer(number);
+      if (index >= 0 && index < static_cast<std::int64_t>(all.size())) return static_cast<std::size_t>(index);
+      throw DiagnosticError("unknown-step", fmt::format("LIST_INST has the numbers 0 to {}", all.size() - 1), increment.span_of(number));
+    }
+    if (!increment.given(instant)) return otherwise;
+    const double wanted = increment.real(instant);
+    const double reach = increment.real("PRECISION") * (wanted == 0.0 ? 1.0 : std::abs(wanted));
+    const auto found = std::find_if(all.begin(), all.end(), [&](double each) { return std::abs(each - wanted) <= reach; });
+    if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+    throw DiagnosticError("unknown-step", fmt::format("LIST_INST has no instant {}", wanted), increment.span_of(instant),
+                          fmt::format("it goes from {} to {}", all.front(), all.back()));
+  };
+  const std::size_t first = index_of("NUME_INST_INIT", "INST_INIT", 0);
+  const std::size_t last = index_of("NUME_INST_FIN", "INST_FIN", all.size() - 1);
+  if (last <= first) {
+    throw DiagnosticError("wrong-order", "STAT_NON_LINE: INCREMENT leaves no step to compute", increment.span,
+                          "the last instant must lie beyond the first");
+  }
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last) + 1};
+}
+
 solver::NewtonOptions newton_options(const Call& call) {
   solver::NewtonOptions options;
   if (call.has("CONVERGENCE")) {
@@ -60,12 +100,13 @@ solver::NewtonOptions newton_options(const Call& call) {
     const Keywords& solver = call.factor("SOLVEUR");
     // Without METHODE in the file the choice is comma's own: the fastest that is safe for the matrix.
     if (solver.given("METHODE")) options.method = linear_method(solver.text("METHODE"));
-    if (solver.has("NPREC")) options.linear.singular_digits = static_cast<int>(solver.integer("NPREC"));
+    options.linear.singular_digits = singular_digits(solver);
   }
   return options;
 }
 
-void show_header(const Context& context) {
+void show_header(const Call& call, const Context& context) {
+  context.console.progress("STAT_NON_LINE " + call.result->name);
   context.console.progress("     instant  iter   relative   absolute  worst                 active  changes");
 }
 
@@ -84,11 +125,11 @@ Product stat_non_line(const Call& call, Context& context) {
   auto product = std::make_shared<ResultConcept>();
   product->problem = problem_of(call);
   product->result.model = product->problem.model;
-  const auto& instants = call.factor("INCREMENT").data<ListConcept>("LIST_INST").values;
-  show_header(context);
+  const auto steps = instants(call.factor("INCREMENT"));
+  show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
-  solver::solve_static(product->problem, instants, newton_options(call), product->result, context.counters, live_table(context));
+  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context));
   return product;
 }
 

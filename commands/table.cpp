@@ -32,7 +32,8 @@ std::string format_cell(const Cell& cell, const std::string& real_format) {
 
 }  // namespace
 
-std::string format_table(const Table& table, std::string_view separator, const std::string& real_format) {
+std::string format_table(const Table& table, std::string_view separator, const std::string& real_format,
+                         std::string_view comment) {
   std::vector<std::vector<std::string>> lines = {table.columns};
   for (const auto& row : table.rows) {
     auto& line = lines.emplace_back();
@@ -43,7 +44,7 @@ std::string format_table(const Table& table, std::string_view separator, const s
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   }
   std::string text;
-  if (!table.title.empty()) text += "# " + table.title + "\n";
+  if (!table.title.empty()) text += fmt::format("{} {}\n", comment, table.title);
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       text += fmt::format("{}{:<{}}", separator, line[i], widths[i]);

@@ -23,7 +23,8 @@ struct Table {
   int add_column(const std::string& name);
 };
 
-/// The table as aligned text: a `#` title, the column names, a line a row; an empty cell is `separator`'s "-".
-std::string format_table(const Table& table, std::string_view separator, const std::string& real_format);
+/// The table as aligned text: the title behind the comment sign, the column names, a line a row; an empty cell is `separator`'s "-".
+std::string format_table(const Table& table, std::string_view separator, const std::string& real_format,
+                         std::string_view comment = "#");
 
 }  // namespace comma::commands

@@ -50,7 +50,16 @@ const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
 const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
 
 std::vector<int> components_tested(const Keywords& test, const std::vector<std::string>& components) {
-  if (test.given("NOM_CMP")) return {component_of(test, components, test.texts("NOM_CMP").front())};
+  if (test.given("NOM_CMP")) {
+    const auto names = test.texts("NOM_CMP");
+    if (names.size() > 1 && !test.given("TYPE_TEST")) {
+      throw DiagnosticError("wrong-count", fmt::format("NOM_CMP names {} components; a value is tested of one", names.size()),
+                            test.span_of("NOM_CMP"), "name one, or use TYPE_TEST over several");
+    }
+    std::vector<int> chosen;
+    for (const std::string& name : names) chosen.push_back(component_of(test, components, name));
+    return chosen;
+  }
   std::vector<int> all(components.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -153,7 +162,8 @@ std::string label_of(const Keywords& test, const solver::ResultStep& step) {
     lead = " of ";
   }
   if (test.given("POINT")) label += fmt::format(" point {}", test.integer("POINT"));
-  return label + fmt::format(", INST={:g}", step.instant);
+  label += fmt::format(", INST={:g}", step.instant);
+  return test.given("LEGENDE") ? test.text("LEGENDE") + ": " + label : label;
 }
 
 void test_result(const Keywords& test, Context& context) {

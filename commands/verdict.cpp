@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace comma::commands {
@@ -32,11 +33,27 @@ void compare(Verdict& verdict) {
   verdict.passed = verdict.error <= verdict.tolerance;  // false for a NaN
 }
 
-std::optional<TestedValue> given_reference(const Keywords& test, const std::string& stem) {
-  if (test.given(stem)) return test.reals(stem).front();
-  if (test.given(stem + "_I")) return test.integers(stem + "_I").front();
+// Of several admitted values the nearest counts (U4.92.01).
+template <class Number>
+TestedValue nearest_to(const TestedValue& computed, const std::vector<Number>& references) {
+  if (std::holds_alternative<std::string>(computed)) return references.front();
+  const double value = as_double(computed);
+  return *std::min_element(references.begin(), references.end(), [&](Number a, Number b) {
+    return std::abs(static_cast<double>(a) - value) < std::abs(static_cast<double>(b) - value);
+  });
+}
+
+std::optional<TestedValue> given_reference(const Keywords& test, const std::string& stem, const TestedValue& computed) {
+  if (test.given(stem)) return nearest_to(computed, test.reals(stem));
+  if (test.given(stem + "_I")) return nearest_to(computed, test.integers(stem + "_I"));
   if (test.given(stem + "_K")) return test.texts(stem + "_K").front();
   return std::nullopt;
+}
+
+TestedValue tested_value(const interpreter::Value& value) {
+  if (value.is_real()) return value.as_real();
+  if (value.is_integer()) return value.as_integer();
+  return value.is_none() ? "" : value.repr();
 }
 
 }  // namespace
@@ -55,7 +72,7 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
   }
 
   std::vector<Verdict> verdicts;
-  if (const auto reference = given_reference(test, "VALE_CALC")) {
+  if (const auto reference = given_reference(test, "VALE_CALC", *common.computed)) {
     Verdict verdict = common;
     verdict.kind = "VALE_CALC";
     verdict.reference_type = "NON_REGRESSION";
@@ -68,7 +85,7 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
     compare(verdict);
     verdicts.push_back(std::move(verdict));
   }
-  if (const auto reference = given_reference(test, "VALE_REFE")) {
+  if (const auto reference = given_reference(test, "VALE_REFE", *common.computed)) {
     Verdict verdict = common;
     verdict.kind = "VALE_REFE";
     verdict.reference_type = test.has("REFERENCE") ? test.text("REFERENCE") : "NON_DEFINI";
@@ -80,18 +97,34 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
   return verdicts;
 }
 
+Verdict verdict_of(const interpreter::Assertion& assertion) {
+  Verdict verdict;
+  verdict.file = assertion.span ? assertion.span.file->path() : "";
+  verdict.line = assertion.span ? assertion.span.file->position(assertion.span.begin).line : 0;
+  verdict.command = "TestCase";
+  verdict.label = assertion.message.empty() ? assertion.method : assertion.method + ": " + assertion.message;
+  verdict.kind = "VALE_REFE";
+  verdict.reference_type = "ASSERTION";
+  verdict.computed = tested_value(assertion.computed);
+  verdict.reference = tested_value(assertion.reference);
+  verdict.relative = false;
+  verdict.tolerance = assertion.tolerance;
+  const bool numbers = assertion.computed.is_number() && assertion.reference.is_number();
+  if (numbers) verdict.error = std::abs(assertion.computed.as_real() - assertion.reference.as_real());
+  if (!numbers && !assertion.holds) verdict.error = 1.0;
+  verdict.passed = assertion.holds;
+  return verdict;
+}
+
 std::string format_verdict(const Verdict& verdict) {
   const auto shown = [](const TestedValue& value) {
     if (const auto* real = std::get_if<double>(&value)) return fmt::format("{:.9g}", *real);
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
     return std::get<std::string>(value);
   };
-  const std::string judged = fmt::format("{} {} {} {}", verdict.relative ? "relative error" : "absolute error",
-                                         fmt::format("{:.1e}", verdict.error), verdict.passed ? "<=" : "over",
-                                         fmt::format("{:.1e}", verdict.tolerance));
-  return fmt::format("{} {:<34} {} {:<16} {:>16}  computed {:>16}  {}", verdict.passed ? "  ok    " : "  FAILED", verdict.label,
-                     verdict.kind, verdict.kind == "VALE_CALC" ? "" : verdict.reference_type, shown(verdict.reference),
-                     verdict.computed ? shown(*verdict.computed) : "nothing", judged);
+  return fmt::format("  {:<7}{:<28} {} {:>15}  for {:>15}  {} error {:.1e} {} {:.0e}", verdict.passed ? "ok" : "FAILED", verdict.label,
+                     verdict.kind, verdict.computed ? shown(*verdict.computed) : "nothing", shown(verdict.reference),
+                     verdict.relative ? "relative" : "absolute", verdict.error, verdict.passed ? "<=" : "over", verdict.tolerance);
 }
 
 }  // namespace comma::commands

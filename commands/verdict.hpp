@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/call.hpp"
+#include "interpreter/host.hpp"
 
 namespace comma::commands {
 
@@ -33,6 +34,10 @@ struct Verdict {
 /// VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS).
 std::vector<Verdict> judge(const interpreter::Keywords& test, const std::string& command, const std::string& label,
                            const TestedValue& computed);
+
+/// The verdict of a claim that the file makes itself (CA.TestCase): kind VALE_REFE, reference type ASSERTION. Values that are
+/// no numbers stand as the language writes them.
+Verdict verdict_of(const interpreter::Assertion& assertion);
 
 /// One line for the console: ok or FAILED, what, the computed value, the reference, the error against its tolerance.
 std::string format_verdict(const Verdict& verdict);

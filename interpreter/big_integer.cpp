@@ -72,7 +72,8 @@ std::int64_t BigInteger::to_int64() const {
 double BigInteger::to_double() const {
   const std::size_t bits = bit_length();
   if (bits <= 63) return static_cast<double>(to_int64());
-  if (bits > 1100) return negative_ ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  if (bits > 1100)
+    return negative_ ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
   // The top 64 bits, with the last one set if anything was cut off, round as the whole number does.
   const std::uint64_t drop = bits - 64;
   const BigInteger top = magnitude().shifted_right(drop);
@@ -82,8 +83,22 @@ double BigInteger::to_double() const {
   return negative_ ? -value : value;
 }
 
+/// Digits of a base 2^bits, most significant first: cut out of the limbs.
+std::string BigInteger::bit_digits(unsigned bits) const {
+  std::string digits = negative_ ? "-" : "";
+  const std::size_t count = (bit_length() + bits - 1) / bits;
+  for (std::size_t i = count; i-- > 0;) {
+    const std::size_t place = i * bits;
+    std::uint64_t window = limbs_[place / 32];
+    if (place / 32 + 1 < limbs_.size()) window |= static_cast<std::uint64_t>(limbs_[place / 32 + 1]) << 32;
+    digits += "0123456789abcdef"[(window >> (place % 32)) & ((1U << bits) - 1)];
+  }
+  return digits;
+}
+
 std::string BigInteger::to_string(int base) const {
   if (is_zero()) return "0";
+  if (base == 2 || base == 8 || base == 16) return bit_digits(base == 2 ? 1 : base == 8 ? 3 : 4);
   // As many digits at once as fit a limb, so that the number is divided as seldom as possible.
   std::uint32_t chunk = static_cast<std::uint32_t>(base);
   int chunk_digits = 1;
@@ -166,7 +181,9 @@ BigInteger operator+(const BigInteger& a, const BigInteger& b) {
   return result;
 }
 
-BigInteger operator-(const BigInteger& a, const BigInteger& b) { return a + (-b); }
+BigInteger operator-(const BigInteger& a, const BigInteger& b) {
+  return a + (-b);
+}
 
 BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   BigInteger result;
@@ -232,7 +249,8 @@ std::pair<BigInteger::Limbs, BigInteger::Limbs> BigInteger::divide(const Limbs& 
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i <= n; ++i) {
       carry += i < n ? guess * v[i] : 0;
-      const std::int64_t t = static_cast<std::int64_t>(u[i + j]) - borrow - static_cast<std::int64_t>(carry & 0xFFFFFFFFU);
+      const std::int64_t t =
+          static_cast<std::int64_t>(u[i + j]) - borrow - static_cast<std::int64_t>(carry & 0xFFFFFFFFU);
       u[i + j] = static_cast<std::uint32_t>(t);
       borrow = t < 0 ? 1 : 0;
       carry >>= 32;
@@ -314,7 +332,8 @@ BigInteger BigInteger::shifted_right(std::uint64_t bits) const {
   if (whole >= limbs_.size()) return negative_ ? BigInteger(-1) : BigInteger();
   BigInteger result;
   const auto part = static_cast<unsigned>(bits % 32);
-  bool lost = std::any_of(limbs_.begin(), limbs_.begin() + static_cast<std::ptrdiff_t>(whole), [](auto l) { return l != 0; });
+  bool lost =
+      std::any_of(limbs_.begin(), limbs_.begin() + static_cast<std::ptrdiff_t>(whole), [](auto l) { return l != 0; });
   lost = lost || (limbs_[whole] & ((std::uint32_t{1} << part) - 1)) != 0;
   for (std::size_t i = whole; i < limbs_.size(); ++i) {
     const std::uint64_t high = i + 1 < limbs_.size() ? limbs_[i + 1] : 0;

@@ -54,6 +54,7 @@ class BigInteger {
  private:
   using Limbs = std::vector<std::uint32_t>;
   void trim();
+  std::string bit_digits(unsigned bits) const;
   static std::strong_ordering compare_magnitudes(const Limbs& a, const Limbs& b);
   static Limbs add(const Limbs& a, const Limbs& b);
   static Limbs subtract(const Limbs& larger, const Limbs& smaller);

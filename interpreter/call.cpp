@@ -31,7 +31,9 @@ std::vector<T> converted(const std::vector<Keyword>& items, std::string_view nam
 
 }  // namespace
 
-bool Keywords::has(std::string_view keyword) const { return find(items, keyword) != nullptr; }
+bool Keywords::has(std::string_view keyword) const {
+  return find(items, keyword) != nullptr;
+}
 
 bool Keywords::given(std::string_view keyword) const {
   const Keyword* found = find(items, keyword);
@@ -44,13 +46,21 @@ const Keyword& Keywords::at(std::string_view keyword) const {
   return *found;
 }
 
-double Keywords::real(std::string_view keyword) const { return at(keyword).value.as_real(); }
+double Keywords::real(std::string_view keyword) const {
+  return at(keyword).value.as_real();
+}
 
-std::int64_t Keywords::integer(std::string_view keyword) const { return at(keyword).value.as_integer(); }
+std::int64_t Keywords::integer(std::string_view keyword) const {
+  return at(keyword).value.as_integer();
+}
 
-const std::string& Keywords::text(std::string_view keyword) const { return at(keyword).value.as_text(); }
+const std::string& Keywords::text(std::string_view keyword) const {
+  return at(keyword).value.as_text();
+}
 
-const ConceptPtr& Keywords::concept_of(std::string_view keyword) const { return at(keyword).value.as_concept(); }
+const ConceptPtr& Keywords::concept_of(std::string_view keyword) const {
+  return at(keyword).value.as_concept();
+}
 
 std::vector<double> Keywords::reals(std::string_view keyword) const {
   return converted<double>(items, keyword, [](const Value& value) { return value.as_real(); });
@@ -76,7 +86,8 @@ const std::vector<Keywords>& Keywords::factors(std::string_view keyword) const {
 
 const Keywords& Keywords::factor(std::string_view keyword) const {
   const std::vector<Keywords>& all = factors(keyword);
-  if (all.size() != 1) throw std::logic_error(fmt::format("{} occurrences of {} where one is expected", all.size(), keyword));
+  if (all.size() != 1)
+    throw std::logic_error(fmt::format("{} occurrences of {} where one is expected", all.size(), keyword));
   return all.front();
 }
 
@@ -87,9 +98,10 @@ Span Keywords::span_of(std::string_view keyword) const {
 
 void throw_wrong_data(std::string_view keyword, const Concept* concept_handle) {
   if (concept_handle == nullptr) throw std::logic_error(fmt::format("keyword {} holds no concept", keyword));
-  const char* why = concept_handle->data == nullptr ? "has not been computed" : "holds data of another kind than expected";
-  throw std::logic_error(fmt::format("{} ({}), the concept of keyword {}, {}", concept_handle->name, concept_handle->type,
-                                     keyword, why));
+  const char* why =
+      concept_handle->data == nullptr ? "has not been computed" : "holds data of another kind than expected";
+  throw std::logic_error(
+      fmt::format("{} ({}), the concept of keyword {}, {}", concept_handle->name, concept_handle->type, keyword, why));
 }
 
 }  // namespace comma::interpreter

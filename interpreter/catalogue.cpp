@@ -9,10 +9,11 @@
 namespace comma::interpreter {
 namespace {
 
-constexpr std::array<std::pair<Kind, std::string_view>, 15> kind_names{{{Kind::real, "real"},
+constexpr std::array<std::pair<Kind, std::string_view>, 17> kind_names{{{Kind::real, "real"},
                                                                         {Kind::integer, "integer"},
                                                                         {Kind::complex, "complex"},
                                                                         {Kind::text, "text"},
+                                                                        {Kind::expression, "expression"},
                                                                         {Kind::node_group, "node_group"},
                                                                         {Kind::cell_group, "cell_group"},
                                                                         {Kind::node, "node"},
@@ -23,7 +24,8 @@ constexpr std::array<std::pair<Kind, std::string_view>, 15> kind_names{{{Kind::r
                                                                         {Kind::input_unit, "input_unit"},
                                                                         {Kind::output_unit, "output_unit"},
                                                                         {Kind::concept_kind, "concept"},
-                                                                        {Kind::factor, "factor"}}};
+                                                                        {Kind::factor, "factor"},
+                                                                        {Kind::anything, "anything"}}};
 
 constexpr std::array<std::pair<RulePage::Kind, std::string_view>, 7> rule_names{
     {{RulePage::Kind::exactly_one, "exactly_one"},
@@ -50,24 +52,34 @@ std::optional<Enum> named_in(const std::array<std::pair<Enum, std::string_view>,
 
 }  // namespace
 
-std::string_view name_of(Kind kind) { return name_in(kind_names, kind); }
+std::string_view name_of(Kind kind) {
+  return name_in(kind_names, kind);
+}
 
 std::optional<Kind> kind_named(std::string_view word) {
   const auto kind = named_in(kind_names, word);
   return kind == Kind::concept_kind ? std::nullopt : kind;
 }
 
-bool holds_text(Kind kind) { return kind >= Kind::text && kind <= Kind::parameter; }
+bool holds_text(Kind kind) {
+  return kind >= Kind::text && kind <= Kind::parameter;
+}
 
-std::string_view name_of(RulePage::Kind kind) { return name_in(rule_names, kind); }
+std::string_view name_of(RulePage::Kind kind) {
+  return name_in(rule_names, kind);
+}
 
-std::optional<RulePage::Kind> rule_named(std::string_view word) { return named_in(rule_names, word); }
+std::optional<RulePage::Kind> rule_named(std::string_view word) {
+  return named_in(rule_names, word);
+}
 
 Catalogue::Catalogue(std::span<const CatalogueBlob> blobs) {
   for (const CatalogueBlob& blob : blobs) blobs_.emplace(blob.name, blob.bytes);
 }
 
-bool Catalogue::has(std::string_view command) const { return !command.empty() && blobs_.contains(command); }
+bool Catalogue::has(std::string_view command) const {
+  return !command.empty() && blobs_.contains(command);
+}
 
 std::vector<std::string> Catalogue::names() const {
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
-// The catalogue: what each command is called, takes and gives. It is data, one YAML page a command, compiled at build time
-// into one compact blob a page; a page is decoded when its command is first used. Checks, defaults and `comma explain`
-// all read the structures below, so they cannot disagree.
+// The catalogue: what each command is called, takes and gives. It is data, one YAML page a command, compiled at build
+// time into one compact blob a page; a page is decoded when its command is first used. Checks, defaults and `comma
+// explain` all read the structures below, so they cannot disagree.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ enum class Kind {
   integer,
   complex,
   text,
+  expression,   ///< an expression of the language; it may use the variables around the call, see expression_keywords.hpp
   node_group,
   cell_group,
   node,
@@ -33,7 +34,8 @@ enum class Kind {
   input_unit,   ///< number of a file that the command reads
   output_unit,  ///< number of a file that the command writes
   concept_kind,
-  factor
+  factor,
+  anything  ///< any value of the language, as it was written
 };
 
 /// The word of the YAML pages for a kind ("node_group"); "concept" for a concept.
@@ -74,6 +76,8 @@ struct LevelPage {
   std::vector<KeywordPage> keywords;
   std::vector<RulePage> rules;
   std::vector<BlockPage> blocks;
+  /// What any other name is (the parameters that FORMULE takes), or null: there is no other.
+  std::shared_ptr<const KeywordPage> further;
 };
 
 /// A count or a bound that may be missing.
@@ -104,8 +108,8 @@ struct KeywordPage {
   bool holds_many() const { return max_count != 1; }
 };
 
-/// Keywords that exist only under a condition: an expression over the keywords of its level and of the levels around it,
-/// where a keyword that is absent is None.
+/// Keywords that exist only under a condition: an expression over the keywords of its level and of the levels around
+/// it, where a keyword that is absent is None.
 struct BlockPage {
   std::string when;
   std::shared_ptr<const Expression> condition;

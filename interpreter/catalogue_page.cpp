@@ -1,37 +1,39 @@
 #include "interpreter/catalogue_page.hpp"
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "interpreter/message_pack.hpp"
 
 namespace comma::interpreter {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string text_at(const Json& json, const char* key, std::string otherwise = {}) {
-  const auto found = json.find(key);
-  return found == json.end() ? std::move(otherwise) : found->get<std::string>();
+std::string text_at(const Packed& packed, const char* key, std::string otherwise = {}) {
+  const Packed* found = packed.find(key);
+  return found == nullptr ? std::move(otherwise) : std::string(found->text());
 }
 
-bool flag_at(const Json& json, const char* key, bool otherwise) {
-  const auto found = json.find(key);
-  return found == json.end() ? otherwise : found->get<bool>();
+bool flag_at(const Packed& packed, const char* key, bool otherwise) {
+  const Packed* found = packed.find(key);
+  return found == nullptr ? otherwise : found->flag();
 }
 
-std::vector<std::string> texts(const Json& json) {
-  if (json.is_string()) return {json.get<std::string>()};
-  return json.get<std::vector<std::string>>();
+std::vector<std::string> texts(const Packed& packed) {
+  if (packed.is_text()) return {std::string(packed.text())};
+  std::vector<std::string> result;
+  for (const Packed& item : packed.list()) result.emplace_back(item.text());
+  return result;
 }
 
-Value value_from(const Json& json) {
-  if (json.is_boolean()) return Value(json.get<bool>());
-  if (json.is_number_integer()) return Value(json.get<std::int64_t>());
-  if (json.is_number()) return Value(json.get<double>());
-  if (json.is_string()) return Value(json.get<std::string>());
-  if (!json.is_array()) throw std::runtime_error("catalogue: a default or a word is a number, a text or a list of them");
+Value value_from(const Packed& packed) {
+  if (packed.is_flag()) return Value(packed.flag());
+  if (packed.is_integer()) return Value(packed.integer());
+  if (packed.is_real()) return Value(packed.number());
+  if (packed.is_text()) return Value(std::string(packed.text()));
+  if (!packed.is_list())
+    throw std::runtime_error("catalogue: a default or a word is a number, a text or a list of them");
   std::vector<Value> items;
-  for (const Json& item : json) items.push_back(value_from(item));
+  for (const Packed& item : packed.list()) items.push_back(value_from(item));
   return Value::tuple(std::move(items));
 }
 
@@ -39,20 +41,20 @@ std::shared_ptr<const Expression> condition_from(const std::string& when) {
   return std::make_shared<const Expression>(when, "<condition of a block>");
 }
 
-std::vector<TypePage> types_from(const Json& json) {
+std::vector<TypePage> types_from(const Packed& packed) {
   std::vector<TypePage> types;
-  for (const std::string& word : texts(json)) {
+  for (const std::string& word : texts(packed)) {
     const auto kind = kind_named(word);
     types.push_back(kind ? TypePage{*kind, ""} : TypePage{Kind::concept_kind, word});
   }
   return types;
 }
 
-WordPage word_from(Value value, const Json& about) {
+WordPage word_from(Value value, const Packed& about) {
   WordPage word;
   word.value = std::move(value);
-  if (about.is_string()) word.doc = about.get<std::string>();
-  if (!about.is_object()) return word;
+  if (about.is_text()) word.doc = about.text();
+  if (!about.is_map()) return word;
   word.doc = text_at(about, "doc");
   word.supported = flag_at(about, "supported", true);
   word.no_effect = text_at(about, "no_effect");
@@ -60,89 +62,95 @@ WordPage word_from(Value value, const Json& about) {
 }
 
 /// A list of bare words, or a mapping from each word to its line of documentation or its properties.
-std::vector<WordPage> words_from(const Json& json, bool integers) {
+std::vector<WordPage> words_from(const Packed& packed, bool integers) {
   std::vector<WordPage> words;
-  if (json.is_array()) {
-    for (const Json& word : json) words.push_back(word_from(value_from(word), Json()));
+  if (packed.is_list()) {
+    for (const Packed& word : packed.list()) words.push_back(word_from(value_from(word), Packed()));
     return words;
   }
-  for (const auto& [word, about] : json.items()) {
-    Value value = integers ? Value(static_cast<std::int64_t>(std::stoll(word))) : Value(word);
+  words.reserve(packed.map().size());
+  for (const auto& [word, about] : packed.map()) {
+    Value value = integers ? Value(static_cast<std::int64_t>(std::stoll(std::string(word)))) : Value(std::string(word));
     words.push_back(word_from(std::move(value), about));
   }
   return words;
 }
 
-Bounds bounds_from(const Json& json) {
+Bounds bounds_from(const Packed& packed) {
   const auto number = [&](const char* key) -> std::optional<double> {
-    const auto found = json.find(key);
-    if (found == json.end()) return std::nullopt;
-    return found->get<double>();
+    const Packed* found = packed.find(key);
+    if (found == nullptr) return std::nullopt;
+    return found->number();
   };
   return {number("above"), number("at_least"), number("below"), number("at_most")};
 }
 
-int count_from(const Json& json) { return json.is_string() ? unlimited : json.get<int>(); }
+int count_from(const Packed& packed) {
+  return packed.is_text() ? unlimited : static_cast<int>(packed.integer());
+}
 
-LevelPage level_from(const Json& json);
+LevelPage level_from(const Packed& packed);
 
-KeywordPage keyword_from(const std::string& name, const Json& json) {
+KeywordPage keyword_from(std::string_view name, const Packed& packed) {
   KeywordPage keyword;
   keyword.name = name;
-  if (const auto found = json.find("aliases"); found != json.end()) keyword.aliases = texts(*found);
-  keyword.doc = text_at(json, "doc");
-  keyword.unit = text_at(json, "unit");
-  keyword.types = types_from(json.at("type"));
-  if (const auto found = json.find("max"); found != json.end()) keyword.max_count = count_from(*found);
-  if (const auto found = json.find("min"); found != json.end()) keyword.min_count = count_from(*found);
-  if (const auto found = json.find("words"); found != json.end()) keyword.words = words_from(*found, keyword.types.front().kind == Kind::integer);
-  keyword.bounds = bounds_from(json);
-  keyword.required = flag_at(json, "required", false);
-  keyword.supported = flag_at(json, "supported", true);
-  keyword.no_effect = text_at(json, "no_effect");
-  const auto standard = json.find("default");
+  if (const Packed* found = packed.find("aliases")) keyword.aliases = texts(*found);
+  keyword.doc = text_at(packed, "doc");
+  keyword.unit = text_at(packed, "unit");
+  keyword.types = types_from(*packed.find("type"));
+  if (const Packed* found = packed.find("max")) keyword.max_count = count_from(*found);
+  if (const Packed* found = packed.find("min")) keyword.min_count = count_from(*found);
+  if (const Packed* found = packed.find("words"))
+    keyword.words = words_from(*found, keyword.types.front().kind == Kind::integer);
+  keyword.bounds = bounds_from(packed);
+  keyword.required = flag_at(packed, "required", false);
+  keyword.supported = flag_at(packed, "supported", true);
+  keyword.no_effect = text_at(packed, "no_effect");
+  const Packed* standard = packed.find("default");
   if (keyword.is_factor()) {
-    keyword.present_by_default = standard != json.end();
-    keyword.inside = level_from(json);
-  } else if (standard != json.end()) {
+    keyword.present_by_default = standard != nullptr;
+    keyword.inside = level_from(packed);
+  } else if (standard != nullptr) {
     keyword.default_value = value_from(*standard);
   }
   return keyword;
 }
 
-RulePage rule_from(const Json& json) {
-  const auto& [word, keywords] = *json.items().begin();
+RulePage rule_from(const Packed& packed) {
+  const auto& [word, keywords] = packed.map().at(0);
   const auto kind = rule_named(word);
-  if (!kind) throw std::runtime_error("catalogue: no rule is called " + word);
+  if (!kind) throw std::runtime_error("catalogue: no rule is called " + std::string(word));
   return {*kind, texts(keywords)};
 }
 
-BlockPage block_from(const Json& json) {
+BlockPage block_from(const Packed& packed) {
   BlockPage block;
-  block.when = json.at("when").get<std::string>();
+  block.when = text_at(packed, "when");
   block.condition = condition_from(block.when);
-  block.inside = level_from(json);
+  block.inside = level_from(packed);
   return block;
 }
 
-LevelPage level_from(const Json& json) {
+LevelPage level_from(const Packed& packed) {
   LevelPage level;
-  if (const auto found = json.find("keywords"); found != json.end())
-    for (const auto& [name, keyword] : found->items()) level.keywords.push_back(keyword_from(name, keyword));
-  if (const auto found = json.find("rules"); found != json.end())
-    for (const Json& rule : *found) level.rules.push_back(rule_from(rule));
-  if (const auto found = json.find("blocks"); found != json.end())
-    for (const Json& block : *found) level.blocks.push_back(block_from(block));
+  if (const Packed* found = packed.find("keywords"))
+    for (const auto& [name, keyword] : found->map()) level.keywords.push_back(keyword_from(name, keyword));
+  if (const Packed* found = packed.find("rules"))
+    for (const Packed& rule : found->list()) level.rules.push_back(rule_from(rule));
+  if (const Packed* found = packed.find("blocks"))
+    for (const Packed& block : found->list()) level.blocks.push_back(block_from(block));
+  if (const Packed* found = packed.find("further"))
+    level.further = std::make_shared<const KeywordPage>(keyword_from("", *found));
   return level;
 }
 
-std::vector<ProductPage> products_from(const Json& json) {
-  if (json.is_null()) return {};
-  if (json.is_string()) return {ProductPage{"", nullptr, json.get<std::string>()}};
+std::vector<ProductPage> products_from(const Packed& packed) {
+  if (packed.is_null()) return {};
+  if (packed.is_text()) return {ProductPage{"", nullptr, std::string(packed.text())}};
   std::vector<ProductPage> products;
-  for (const Json& item : json) {
+  for (const Packed& item : packed.list()) {
     const std::string when = text_at(item, "when");
-    products.push_back({when, when.empty() ? nullptr : condition_from(when), item.at("type").get<std::string>()});
+    products.push_back({when, when.empty() ? nullptr : condition_from(when), text_at(item, "type")});
   }
   return products;
 }
@@ -154,42 +162,39 @@ Role role_from(const std::string& word) {
   return Role::value;
 }
 
-void read_reuse(const Json& json, CommandPage& page) {
-  const auto found = json.find("reuse");
-  if (found == json.end()) return;
+void read_reuse(const Packed& packed, CommandPage& page) {
+  const Packed* found = packed.find("reuse");
+  if (found == nullptr) return;
   page.reuse = text_at(*found, "policy") == "compulsory" ? Reuse::compulsory : Reuse::allowed;
-  page.reuse_same_as = texts(found->at("same_as"));
+  page.reuse_same_as = texts(*found->find("same_as"));
 }
-
-Json json_from(std::span<const std::uint8_t> bytes) { return Json::from_msgpack(bytes.begin(), bytes.end()); }
 
 }  // namespace
 
-CommandPage page_from_json(const Json& json) {
+CommandPage decode_page(std::span<const std::uint8_t> bytes) {
+  const Packed packed = Packed::read(bytes);
   CommandPage page;
-  page.name = json.at("command").get<std::string>();
-  page.doc = text_at(json, "doc");
-  page.category = text_at(json, "category");
-  page.example = text_at(json, "example");
-  page.note = text_at(json, "note");
-  if (const auto found = json.find("produces"); found != json.end()) page.products = products_from(*found);
-  page.cost = text_at(json, "cost", "cheap") == "solve" ? Cost::solve : Cost::cheap;
-  page.role = role_from(text_at(json, "role"));
-  page.standalone = flag_at(json, "standalone", false);
-  page.supported = flag_at(json, "supported", true);
-  read_reuse(json, page);
-  page.inside = level_from(json);
+  page.name = text_at(packed, "command");
+  page.doc = text_at(packed, "doc");
+  page.category = text_at(packed, "category");
+  page.example = text_at(packed, "example");
+  page.note = text_at(packed, "note");
+  if (const Packed* found = packed.find("produces")) page.products = products_from(*found);
+  page.cost = text_at(packed, "cost", "cheap") == "solve" ? Cost::solve : Cost::cheap;
+  page.role = role_from(text_at(packed, "role"));
+  page.standalone = flag_at(packed, "standalone", false);
+  page.supported = flag_at(packed, "supported", true);
+  read_reuse(packed, page);
+  page.inside = level_from(packed);
   return page;
 }
 
-CommandPage decode_page(std::span<const std::uint8_t> bytes) { return page_from_json(json_from(bytes)); }
-
 std::vector<ConceptTypePage> decode_types(std::span<const std::uint8_t> bytes) {
   std::vector<ConceptTypePage> types;
-  const Json json = json_from(bytes);
-  for (const auto& [name, about] : json.items()) {
-    ConceptTypePage type{name, text_at(about, "doc"), {}};
-    if (const auto found = about.find("is_a"); found != about.end()) type.is_a = texts(*found);
+  const Packed packed = Packed::read(bytes);
+  for (const auto& [name, about] : packed.map()) {
+    ConceptTypePage type{std::string(name), text_at(about, "doc"), {}};
+    if (const Packed* found = about.find("is_a")) type.is_a = texts(*found);
     types.push_back(std::move(type));
   }
   return types;

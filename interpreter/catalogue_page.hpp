@@ -1,9 +1,8 @@
-// Reads one compiled page of the catalogue: MessagePack bytes -> JSON -> the structures of catalogue.hpp.
-// The YAML page and the JSON have the same shape; interpreter/tools/catalogue_yaml.hpp describes and validates it.
+// Reads one compiled page of the catalogue: MessagePack bytes -> the structures of catalogue.hpp.
+// The bytes have the shape of the YAML page; interpreter/tools/catalogue_yaml.hpp describes and validates it.
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <vector>
 
@@ -11,11 +10,9 @@
 
 namespace comma::interpreter {
 
-/// Throws std::runtime_error on bytes that the build did not write.
+/// The bytes come from a page that the build has validated. Throws std::exception on bytes that are damaged,
+/// DiagnosticError on a condition that does not parse.
 CommandPage decode_page(std::span<const std::uint8_t> bytes);
 std::vector<ConceptTypePage> decode_types(std::span<const std::uint8_t> bytes);
-
-/// `json` has been validated; throws nlohmann::json::exception or DiagnosticError (a condition that does not parse) if not.
-CommandPage page_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace comma::interpreter

@@ -10,6 +10,7 @@
 
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
+#include "interpreter/dict.hpp"
 
 namespace comma::interpreter {
 namespace {
@@ -34,8 +35,12 @@ Truth holds(const Expression& condition, const Scope& scope) {
     const bool keyword = std::ranges::find(condition.variables(), name) != condition.variables().end();
     return keyword ? std::optional(Value()) : std::nullopt;
   };
-  if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
-  return condition.holds(lookup) ? Truth::yes : Truth::no;
+  try {
+    if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
+    return condition.holds(lookup) ? Truth::yes : Truth::no;
+  } catch (const DiagnosticError&) {
+    return Truth::unknown;  // it compares a value of a wrong type, which is reported where it stands
+  }
 }
 
 /// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whatever their conditions.
@@ -59,13 +64,25 @@ struct Occurrence {
   Span span;
 };
 
+/// A dict with text keys stands for _F(...) too.
+std::optional<Occurrence> occurrence_of_dict(const Dict& dict, const Span& span) {
+  Occurrence occurrence{{}, span};
+  for (const Dict::Entry& entry : dict.entries()) {
+    if (!entry.live) continue;
+    if (!entry.key.is_text()) return std::nullopt;
+    occurrence.arguments.push_back({entry.key.as_text(), span, std::make_shared<const Value>(entry.value), span});
+  }
+  return occurrence;
+}
+
 std::optional<Occurrence> occurrence_of(const Value& value, const Span& otherwise) {
+  if (value.is_dict()) return occurrence_of_dict(value.as_dict(), otherwise);
   if (!value.is_factor()) return std::nullopt;
   const Factor& factor = value.as_factor();
   return Occurrence{factor.arguments, factor.span ? factor.span : otherwise};
 }
 
-/// A single _F(...), or a tuple or list of them; unknown ones are left out.
+/// A single _F(...) or dict, or a tuple or list of them; unknown ones are left out.
 std::optional<std::vector<Occurrence>> occurrences_of(const Value& value, const Span& span) {
   std::vector<Value> items{value};
   if (value.is_sequence()) items.assign(value.items().begin(), value.items().end());
@@ -90,10 +107,11 @@ class LevelCheck {
 
   Keywords run(const std::vector<Argument>& arguments) {
     resolve(arguments);
+    guess_misspelt();
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
     activate(level_, true);
     for (const Pending& pending : pending_)
-      if (!pending.used) report_stray(pending);
+      if (!pending.used) take_other(pending);
     return std::move(result_);
   }
 
@@ -101,18 +119,60 @@ class LevelCheck {
 
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
-  static Value seen_by_conditions(const Value& value) { return value.is_factor() ? Value(true) : value; }
+  static Value seen_by_conditions(const Value& value) {
+    return value.is_factor() || value.is_dict() ? Value(true) : value;
+  }
 
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
+    std::set<std::string, std::less<>> factors;
     visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
       for (const std::string& alias : keyword.aliases) canonical.emplace(alias, keyword.name);
+      if (keyword.is_factor()) factors.insert(keyword.name);
     });
     for (const Argument& argument : arguments) {
-      if (argument.value->is_none()) continue;  // KEYWORD=None is Code_Aster's way to leave a keyword out
+      // KEYWORD=None and FACTOR=() are Code_Aster's ways to leave a keyword out.
+      const Value& value = *argument.value;
+      if (value.is_none()) continue;
       const auto alias = canonical.find(argument.name);
-      add_pending({alias == canonical.end() ? argument.name : alias->second, &argument, false});
+      const std::string& name = alias == canonical.end() ? argument.name : alias->second;
+      if (value.is_sequence() && value.items().empty() && factors.contains(name)) continue;
+      add_pending({name, &argument, false});
     }
+  }
+
+  /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends on
+  /// it is not known.
+  void guess_misspelt() {
+    if (level_.further) return;
+    std::set<std::string, std::less<>> known;
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { known.insert(keyword.name); });
+    const std::vector<std::string> names(known.begin(), known.end());
+    for (const Pending& pending : pending_) {
+      if (known.contains(pending.name)) continue;
+      std::string meant = nearest(pending.name, names);
+      if (meant.empty()) meant = only_missing();
+      if (meant.empty() || is_given(meant) || guessed(meant)) continue;
+      given_.push_back({meant, pending.argument->name_span});
+      scope_.values[meant] = Value::unknown();
+      guesses_[pending.name] = meant;
+    }
+  }
+
+  /// The one keyword that the level asks for and that is not there; empty when there is none, or more.
+  std::string only_missing() const {
+    std::string only;
+    for (const KeywordPage& keyword : level_.keywords) {
+      if (!keyword.required || is_given(keyword.name) || guessed(keyword.name)) continue;
+      if (!only.empty()) return "";
+      only = keyword.name;
+    }
+    return only;
+  }
+
+  bool is_given(const std::string& name) const { return std::ranges::find(pending_, name, &Pending::name) != pending_.end(); }
+  bool guessed(const std::string& name) const {
+    return std::ranges::any_of(guesses_, [&](const auto& guess) { return guess.second == name; });
   }
 
   void add_pending(Pending pending) {
@@ -122,7 +182,8 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
-    const std::string also = pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
+    const std::string also =
+        pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
                                pending.argument->name_span, "keep one of them");
   }
@@ -143,9 +204,21 @@ class LevelCheck {
     if (pending != pending_.end()) {
       pending->used = true;
       take_given(keyword, *pending->argument);
+    } else if (guessed(keyword.name)) {
+      return;
     } else if (certain) {
       take_default(keyword);
+    } else {
+      scope_.values[keyword.name] = Value::unknown();  // its default would stand here if the block exists
     }
+  }
+
+  /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
+  void take_other(const Pending& pending) {
+    if (!level_.further) return report_stray(pending);
+    KeywordPage keyword = *level_.further;
+    keyword.name = pending.name;
+    take_given(keyword, *pending.argument);
   }
 
   void take_given(const KeywordPage& keyword, const Argument& argument) {
@@ -156,7 +229,8 @@ class LevelCheck {
       context_.quiet = true;
     }
     Keyword item{keyword.name, Value(), {}, argument.name_span, argument.value_span, true};
-    const bool right = keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
+    const bool right =
+        keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
     if (right) result_.items.push_back(std::move(item));
     context_.quiet = was_quiet;
   }
@@ -190,23 +264,26 @@ class LevelCheck {
     return true;
   }
 
-  void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count, const Span& span) {
-    const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "_F(...)");
+  void check_occurrence_count(const KeywordPage& keyword, const std::string& label, std::size_t count,
+                              const Span& span) {
+    const std::string wanted = describe_count(keyword.min_count, keyword.max_count, "occurrence");
     const bool too_many = keyword.max_count != unlimited && count > static_cast<std::size_t>(keyword.max_count);
     if (too_many)
-      context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count), span);
+      context_.diagnostics.error("too-many-occurrences", fmt::format("{} takes {}, not {}", label, wanted, count),
+                                 span);
     else if (count < static_cast<std::size_t>(keyword.min_count))
       context_.diagnostics.error("wrong-count", fmt::format("{} takes {}, not {}", label, wanted, count), span);
   }
 
-  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments, const std::string& label,
-                            const Span& span) {
+  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments,
+                            const std::string& label, const Span& span) {
     return LevelCheck(keyword.inside, label, span, &scope_, context_).run(arguments);
   }
 
   void take_default(const KeywordPage& keyword) {
     if (keyword.required) {
-      context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_, keyword.doc);
+      context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_,
+                                 keyword.doc);
       return;
     }
     Keyword item{keyword.name, Value(), {}, Span(), Span(), false};
@@ -241,22 +318,26 @@ class LevelCheck {
     });
     const Span& span = pending.argument->name_span;
     if (!conditions.empty()) {
-      context_.diagnostics.error("unknown-keyword",
-                                 fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
+      context_.diagnostics.error(
+          "unknown-keyword",
+          fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
       return;
     }
-    const std::string near = nearest(pending.name, known);
+    const auto guess = guesses_.find(pending.name);
+    const std::string near = guess == guesses_.end() ? nearest(pending.name, known) : guess->second;
     std::string hint;
     if (!home.empty())
       hint = fmt::format("it belongs inside {}=_F(...)", home);
     else if (!near.empty())
       hint = fmt::format("did you mean {}?", near);
-    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span, hint);
+    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span,
+                               hint);
   }
 
   static bool has_keyword(const LevelPage& level, const std::string& name) {
     bool found = false;
-    visit_keywords(level, "", [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
+    visit_keywords(level, "",
+                   [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
     return found;
   }
 
@@ -268,6 +349,7 @@ class LevelCheck {
   std::vector<Pending> pending_;
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
+  std::map<std::string, std::string, std::less<>> guesses_;  ///< a misspelt keyword and the one that was meant
   Keywords result_;
 };
 
@@ -283,21 +365,23 @@ bool holds_unknown(const Keywords& keywords) {
   return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
 }
 
-/// Whether the concept stands at "A" or in an occurrence at "A/B".
-bool holds_at(const Keywords& keywords, std::string_view path, const Concept* handle) {
+/// The concepts at "A" or in the occurrences at "A/B"; unknown values count as `handle` itself.
+void collect_at(const Keywords& keywords, std::string_view path, const ConceptPtr& handle,
+                std::vector<ConceptPtr>& found) {
   const std::size_t slash = path.find('/');
-  if (slash == std::string_view::npos) {
-    const auto& items = keywords.items;
-    const auto found = std::ranges::find(items, path, &Keyword::name);
-    if (found == items.end()) return false;
-    if (found->value.is_unknown()) return true;
-    if (found->value.is_concept()) return found->value.as_concept().get() == handle;
-    if (!found->value.is_sequence()) return false;
-    return std::ranges::any_of(found->value.items(),
-                               [&](const Value& item) { return item.is_concept() && item.as_concept().get() == handle; });
+  if (slash != std::string_view::npos) {
+    for (const Keywords& factor : keywords.factors(path.substr(0, slash)))
+      collect_at(factor, path.substr(slash + 1), handle, found);
+    return;
   }
-  const auto& factors = keywords.factors(path.substr(0, slash));
-  return std::ranges::any_of(factors, [&](const Keywords& factor) { return holds_at(factor, path.substr(slash + 1), handle); });
+  const auto item = std::ranges::find(keywords.items, path, &Keyword::name);
+  if (item == keywords.items.end()) return;
+  std::vector<Value> values{item->value};
+  if (item->value.is_sequence()) values.assign(item->value.items().begin(), item->value.items().end());
+  for (const Value& value : values) {
+    if (value.is_unknown()) found.push_back(handle);
+    if (value.is_concept()) found.push_back(value.as_concept());
+  }
 }
 
 /// The checks of reuse=.
@@ -315,22 +399,26 @@ class ReuseCheck {
     }
     const Value& value = *reuse_->value;
     if (value.is_unknown()) return;
-    if (page_.reuse == Reuse::none) return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
-    if (!value.is_concept()) return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
+    if (page_.reuse == Reuse::none)
+      return error(page_.name + " makes a new concept: it has no reuse=", reuse_->name_span);
+    if (!value.is_concept())
+      return error(fmt::format("reuse= wants a concept, not {}", value.repr()), reuse_->value_span);
     check_concept(value.as_concept(), checked);
   }
 
  private:
   void check_concept(const ConceptPtr& handle, CheckedCall& checked) {
-    const bool fits = std::ranges::any_of(
-        page_.products, [&](const ProductPage& product) { return context_.catalogue.is_a(handle->type, product.type); });
+    const bool fits = std::ranges::any_of(page_.products, [&](const ProductPage& product) {
+      return context_.catalogue.is_a(handle->type, product.type);
+    });
     if (!fits)
       return error(fmt::format("{} cannot change {} in place: it is {} ({})", page_.name, handle->name,
                                with_article(context_.catalogue.describe_type(handle->type)), handle->type),
                    reuse_->value_span);
-    const bool same = std::ranges::any_of(page_.reuse_same_as,
-                                          [&](const std::string& path) { return holds_at(checked.call, path, handle.get()); });
-    if (!same)
+    std::vector<ConceptPtr> named;
+    for (const std::string& path : page_.reuse_same_as) collect_at(checked.call, path, handle, named);
+    const bool same = std::ranges::find(named, handle) != named.end();
+    if (!same && !named.empty())
       error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
             reuse_->value_span);
     checked.call.result = handle;
@@ -371,7 +459,8 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
 
   const auto reuse = std::ranges::find(written.arguments, "reuse", &Argument::name);
   std::vector<Argument> arguments;
-  std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse"; });
+  std::ranges::copy_if(written.arguments, std::back_inserter(arguments),
+                       [](const Argument& a) { return a.name != "reuse"; });
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
   CheckedCall checked;

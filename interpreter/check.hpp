@@ -1,5 +1,6 @@
-// Turns a call as it was written into a call that a command can trust. Every problem of the call is reported, each once,
-// at the keyword or the value that has it; see check_value.hpp for single values and check_rules.hpp for relations.
+// Turns a call as it was written into a call that a command can trust. Every problem of the call is reported, each
+// once, at the keyword or the value that has it; see check_value.hpp for single values and check_rules.hpp for
+// relations.
 #pragma once
 
 #include <string>
@@ -18,9 +19,9 @@ struct CheckedCall {
   bool complete = true;      ///< it may run: no value is unknown and comma supports everything in it
 };
 
-/// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count, out-of-bounds,
-/// unknown-word, too-many-occurrences, missing-one-of, exclusive-keywords, requires-keyword, bad-reuse, unsupported.
-/// `unsupported` is the severity of the last one: an alarm while checking, an error before running.
+/// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count,
+/// out-of-bounds, unknown-word, too-many-occurrences, missing-one-of, exclusive-keywords, requires-keyword, bad-reuse,
+/// unsupported. `unsupported` is the severity of the last one: an alarm while checking, an error before running.
 CheckedCall check_call(const CommandCall& written, const CommandPage& page, const Catalogue& catalogue,
                        Diagnostics& diagnostics, Severity unsupported);
 

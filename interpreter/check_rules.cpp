@@ -7,7 +7,7 @@
 namespace comma::interpreter {
 namespace {
 
-using Kind = RulePage::Kind;
+using RuleKind = RulePage::Kind;
 
 std::string joined(const std::vector<std::string>& names, std::size_t first = 0) {
   return fmt::format("{}", fmt::join(names.begin() + static_cast<std::ptrdiff_t>(first), names.end(), ", "));
@@ -25,24 +25,40 @@ class RuleCheck {
 
   void run() {
     switch (rule_.kind) {
-      case Kind::exactly_one: at_least_one(), at_most_one(); return;
-      case Kind::at_least_one: at_least_one(); return;
-      case Kind::at_most_one: at_most_one(); return;
-      case Kind::all_or_none: all_or_none(); return;
-      case Kind::requires_all: requires_all(); return;
-      case Kind::requires_one: requires_one(); return;
-      case Kind::excludes: excludes(); return;
+      case RuleKind::exactly_one:
+        at_least_one(), at_most_one();
+        return;
+      case RuleKind::at_least_one:
+        at_least_one();
+        return;
+      case RuleKind::at_most_one:
+        at_most_one();
+        return;
+      case RuleKind::all_or_none:
+        all_or_none();
+        return;
+      case RuleKind::requires_all:
+        requires_all();
+        return;
+      case RuleKind::requires_one:
+        requires_one();
+        return;
+      case RuleKind::excludes:
+        excludes();
+        return;
     }
   }
 
  private:
   const GivenKeyword* given(const std::string& name) const {
-    const auto found = std::ranges::find_if(present_, [&](const GivenKeyword* keyword) { return keyword->name == name; });
+    const auto found =
+        std::ranges::find_if(present_, [&](const GivenKeyword* keyword) { return keyword->name == name; });
     return found == present_.end() ? nullptr : *found;
   }
 
   void at_least_one() {
-    if (present_.empty()) diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
+    if (!present_.empty()) return;
+    diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
   }
 
   void at_most_one() {
@@ -50,8 +66,9 @@ class RuleCheck {
   }
 
   void report_exclusive(const GivenKeyword& second, const GivenKeyword& first) {
-    diagnostics_.error("exclusive-keywords", fmt::format("{} takes {} or {}, not both", label_, first.name, second.name),
-                       second.name_span, "keep one of them");
+    diagnostics_.error("exclusive-keywords",
+                       fmt::format("{} takes {} or {}, not both", label_, first.name, second.name), second.name_span,
+                       "keep one of them");
   }
 
   void all_or_none() {
@@ -101,13 +118,20 @@ void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyw
 std::string describe_rule(const RulePage& rule) {
   const std::string all = joined(rule.keywords);
   switch (rule.kind) {
-    case Kind::exactly_one: return "exactly one of " + all;
-    case Kind::at_least_one: return "at least one of " + all;
-    case Kind::at_most_one: return "at most one of " + all;
-    case Kind::all_or_none: return "all or none of " + all;
-    case Kind::requires_all: return fmt::format("{} requires {}", rule.keywords.front(), joined(rule.keywords, 1));
-    case Kind::requires_one: return fmt::format("{} requires one of {}", rule.keywords.front(), joined(rule.keywords, 1));
-    case Kind::excludes: return fmt::format("{} excludes {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::exactly_one:
+      return "exactly one of " + all;
+    case RuleKind::at_least_one:
+      return "at least one of " + all;
+    case RuleKind::at_most_one:
+      return "at most one of " + all;
+    case RuleKind::all_or_none:
+      return "all or none of " + all;
+    case RuleKind::requires_all:
+      return fmt::format("{} requires {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::requires_one:
+      return fmt::format("{} requires one of {}", rule.keywords.front(), joined(rule.keywords, 1));
+    case RuleKind::excludes:
+      return fmt::format("{} excludes {}", rule.keywords.front(), joined(rule.keywords, 1));
   }
   return "";
 }

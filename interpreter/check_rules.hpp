@@ -16,8 +16,8 @@ struct GivenKeyword {
   Span name_span;
 };
 
-/// Codes: missing-one-of, exclusive-keywords, requires-keyword. `label` names the level ("DEFI_CONTACT/ZONE"); `span` is
-/// where something is missing.
+/// Codes: missing-one-of, exclusive-keywords, requires-keyword. `label` names the level ("DEFI_CONTACT/ZONE"); `span`
+/// is where something is missing.
 void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyword>& given, const std::string& label,
                  const Span& span, Diagnostics& diagnostics);
 

@@ -10,21 +10,39 @@ namespace {
 
 std::string describe_kind(Kind kind) {
   switch (kind) {
-    case Kind::real: return "a real number";
-    case Kind::integer: return "an integer";
-    case Kind::complex: return "a complex number";
-    case Kind::text: return "a text";
-    case Kind::node_group: return "the name of a node group";
-    case Kind::cell_group: return "the name of a cell group";
-    case Kind::node: return "the name of a node";
-    case Kind::cell: return "the name of a cell";
-    case Kind::component: return "the name of a component";
-    case Kind::field: return "the name of a field";
-    case Kind::parameter: return "the name of a parameter";
+    case Kind::real:
+      return "a real number";
+    case Kind::integer:
+      return "an integer";
+    case Kind::complex:
+      return "a complex number";
+    case Kind::text:
+      return "a text";
+    case Kind::expression:
+      return "an expression, as a text";
+    case Kind::node_group:
+      return "the name of a node group";
+    case Kind::cell_group:
+      return "the name of a cell group";
+    case Kind::node:
+      return "the name of a node";
+    case Kind::cell:
+      return "the name of a cell";
+    case Kind::component:
+      return "the name of a component";
+    case Kind::field:
+      return "the name of a field";
+    case Kind::parameter:
+      return "the name of a parameter";
     case Kind::input_unit:
-    case Kind::output_unit: return "a file unit (an integer)";
-    case Kind::concept_kind: return "a concept";
-    case Kind::factor: return "_F(...)";
+    case Kind::output_unit:
+      return "a file unit (an integer)";
+    case Kind::concept_kind:
+      return "a concept";
+    case Kind::anything:
+      return "a value";
+    case Kind::factor:
+      return "_F(...)";
   }
   return "";
 }
@@ -44,7 +62,7 @@ std::string describe_value(const Value& value, const Catalogue& catalogue) {
   }
   if (value.is_factor()) return "_F(...)";
   std::string shown = value.repr();
-  if (shown.size() > longest_shown) shown = shown.substr(0, longest_shown) + "...";
+  if (shown.size() > longest_shown) shown.replace(longest_shown, std::string::npos, "...");
   if (value.is_text()) return "the text " + shown;
   if (value.is_number()) return shown;
   return fmt::format("{} ({})", shown, value.type_name());
@@ -67,18 +85,22 @@ std::complex<double> complex_from_triple(const Value& value) {
 
 std::optional<Value> convert(const Value& value, const TypePage& type, const Catalogue& catalogue) {
   switch (type.kind) {
-    case Kind::real: return value.is_number() ? std::optional(Value(value.as_real())) : std::nullopt;
+    case Kind::real:
+      return value.is_number() ? std::optional(Value(value.as_real())) : std::nullopt;
     case Kind::integer:
     case Kind::input_unit:
-    case Kind::output_unit: return value.is_integer() ? std::optional(value) : std::nullopt;
+    case Kind::output_unit:
+      return value.is_integer() ? std::optional(value) : std::nullopt;
     case Kind::complex:
       if (is_complex_triple(value)) return Value(complex_from_triple(value));
       return value.is_number() || value.is_complex() ? std::optional(Value(value.as_complex())) : std::nullopt;
     case Kind::concept_kind:
       return value.is_concept() && catalogue.is_a(value.as_concept()->type, type.concept_type) ? std::optional(value)
-                                                                                              : std::nullopt;
-    case Kind::factor: return std::nullopt;
-    default: return value.is_text() ? std::optional(value) : std::nullopt;
+                                                                                               : std::nullopt;
+    case Kind::factor:
+      return std::nullopt;
+    default:
+      return value.is_text() ? std::optional(value) : std::nullopt;
   }
 }
 
@@ -106,7 +128,7 @@ class ValueCheck {
       : page_(page), label_(label), span_(span), context_(context) {}
 
   std::optional<Value> run(const Value& value) {
-    if (value.is_unknown()) return value;
+    if (value.is_unknown() || admits(page_, Kind::anything)) return value;
     const bool several = value.is_sequence() && !(admits(page_, Kind::complex) && is_complex_triple(value));
     std::vector<Value> items;
     if (several)
@@ -169,7 +191,8 @@ class ValueCheck {
       if (type.kind != Kind::concept_kind || type.concept_type == "any") continue;
       for (const std::string& command : context_.catalogue.names())
         for (const ProductPage& product : context_.catalogue.page(command).products)
-          if (context_.catalogue.is_a(product.type, type.concept_type) && std::ranges::find(makers, command) == makers.end())
+          if (context_.catalogue.is_a(product.type, type.concept_type) &&
+              std::ranges::find(makers, command) == makers.end())
             makers.push_back(command);
     }
     if (makers.empty()) return "";
@@ -181,14 +204,15 @@ class ValueCheck {
     const bool enough = count >= static_cast<std::size_t>(page_.min_count);
     const bool fits = page_.max_count == unlimited || count <= static_cast<std::size_t>(page_.max_count);
     if (enough && fits) return true;
-    error("wrong-count", fmt::format("{} wants {}, not {}", label_,
-                                     describe_count(page_.min_count, page_.max_count, "value"), count));
+    error("wrong-count",
+          fmt::format("{} wants {}, not {}", label_, describe_count(page_.min_count, page_.max_count, "value"), count));
     return false;
   }
 
   bool check_word(const Value& item) {
     if (page_.words.empty() || item.is_unknown() || item.is_concept()) return true;
-    const auto word = std::ranges::find_if(page_.words, [&](const WordPage& known) { return same_word(item, known.value); });
+    const auto word =
+        std::ranges::find_if(page_.words, [&](const WordPage& known) { return same_word(item, known.value); });
     if (word == page_.words.end()) {
       report_word(item);
       return false;
@@ -236,8 +260,8 @@ void CheckContext::report_unsupported(std::string message, const Span& span) {
   if (!quiet) diagnostics.add({unsupported, "unsupported", std::move(message), "", span});
 }
 
-std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label, const Span& span,
-                                 CheckContext& context) {
+std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label,
+                                 const Span& span, CheckContext& context) {
   return ValueCheck(page, label, span, context).run(value);
 }
 

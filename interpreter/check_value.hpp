@@ -21,11 +21,11 @@ struct CheckContext {
   void report_unsupported(std::string message, const Span& span);
 };
 
-/// The value as the command will see it (an int given for a real is a real; a keyword that admits several values holds a
-/// tuple), or nothing after a report. `label` names the keyword in messages: "DEFI_CONTACT/ZONE/COULOMB".
-/// Unknown values pass every check.
-std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label, const Span& span,
-                                 CheckContext& context);
+/// The value as the command will see it (an int given for a real is a real; a keyword that admits several values holds
+/// a tuple), or nothing after a report. `label` names the keyword in messages: "DEFI_CONTACT/ZONE/COULOMB". Unknown
+/// values pass every check.
+std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label,
+                                 const Span& span, CheckContext& context);
 
 /// "a real number, or a function (fonction_sdaster)": what a keyword admits, in words.
 std::string describe_types(const KeywordPage& page, const Catalogue& catalogue);

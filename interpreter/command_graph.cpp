@@ -57,40 +57,52 @@ void remember_sources(const ConceptPtr& product, const std::vector<ConceptPtr>& 
       product->reads_through.push_back(source);
 }
 
-int file_resource(int unit) { return -1 - unit; }
+int file_resource(int unit) {
+  return -1 - unit;
+}
 
 }  // namespace
 
 std::string_view name_of(Hazard hazard) {
   switch (hazard) {
-    case Hazard::read_after_write: return "raw";
-    case Hazard::write_after_read: return "war";
-    case Hazard::write_after_write: return "waw";
+    case Hazard::read_after_write:
+      return "raw";
+    case Hazard::write_after_read:
+      return "war";
+    case Hazard::write_after_write:
+      return "waw";
   }
   return "";
 }
 
 std::string_view name_of(Need need) {
   switch (need) {
-    case Need::nothing: return "nothing";
-    case Need::output: return "output";
-    case Need::verdict: return "verdict";
+    case Need::nothing:
+      return "nothing";
+    case Need::output:
+      return "output";
+    case Need::verdict:
+      return "verdict";
   }
   return "";
 }
 
-std::string_view name_of(State state) {
+std::string_view name_of(NodeState state) {
   switch (state) {
-    case State::waiting: return "waiting";
-    case State::done: return "done";
-    case State::failed: return "failed";
-    case State::skipped: return "skipped";
+    case NodeState::waiting:
+      return "waiting";
+    case NodeState::done:
+      return "done";
+    case NodeState::failed:
+      return "failed";
+    case NodeState::skipped:
+      return "skipped";
   }
   return "";
 }
 
-Node& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, bool complete) {
-  Node node;
+CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, bool complete) {
+  CommandNode node;
   node.id = static_cast<int>(nodes_.size());
   node.cost = page.cost;
   node.role = page.role;
@@ -112,17 +124,18 @@ Node& CommandGraph::add(Call call, ConceptPtr product, const CommandPage& page, 
   return nodes_.emplace_back(std::move(node));
 }
 
-void CommandGraph::read(Node& node, int resource, const std::string& name) {
+void CommandGraph::read(CommandNode& node, int resource, const std::string& name) {
   History& history = histories_[resource];
   if (history.writer >= 0) node.waits_for.push_back({history.writer, Hazard::read_after_write, name});
   if (history.readers.empty() || history.readers.back() != node.id) history.readers.push_back(node.id);
 }
 
-void CommandGraph::write(Node& node, int resource, const std::string& name) {
+void CommandGraph::write(CommandNode& node, int resource, const std::string& name) {
   History& history = histories_[resource];
   for (const int reader : history.readers)
     if (reader != node.id) node.waits_for.push_back({reader, Hazard::write_after_read, name});
-  if (history.writer >= 0 && history.writer != node.id) node.waits_for.push_back({history.writer, Hazard::write_after_write, name});
+  if (history.writer >= 0 && history.writer != node.id)
+    node.waits_for.push_back({history.writer, Hazard::write_after_write, name});
   history.writer = node.id;
   history.readers.clear();
 }
@@ -147,7 +160,8 @@ std::vector<int> CommandGraph::required_by(int id) const {
   wanted[static_cast<std::size_t>(id)] = true;
   for (int i = id; i >= 0; --i) {
     if (!wanted[static_cast<std::size_t>(i)]) continue;
-    for (const Edge& edge : nodes_[static_cast<std::size_t>(i)].waits_for) wanted[static_cast<std::size_t>(edge.from)] = true;
+    for (const Edge& edge : nodes_[static_cast<std::size_t>(i)].waits_for)
+      wanted[static_cast<std::size_t>(edge.from)] = true;
   }
   std::vector<int> ids;
   for (int i = 0; i <= id; ++i)

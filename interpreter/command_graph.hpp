@@ -1,5 +1,6 @@
-// The command graph: one node a call, ordered by what the calls read and write, like instructions in a processor. A later
-// reader waits for an earlier writer; a writer in place (reuse=) waits for the earlier readers and the earlier writer.
+// The command graph: one node a call, ordered by what the calls read and write, like instructions in a processor. A
+// later reader waits for an earlier writer; a writer in place (reuse=) waits for the earlier readers and the earlier
+// writer.
 #pragma once
 
 #include <map>
@@ -23,36 +24,36 @@ struct Edge {
   std::string resource;
 };
 
-enum class State { waiting, done, failed, skipped };
+enum class NodeState { waiting, done, failed, skipped };
 
 /// What wants a node's work; a node that many want counts for the strongest.
 enum class Need { nothing, output, verdict };
 
 /// "nothing", "output", "verdict".
 std::string_view name_of(Need need);
-std::string_view name_of(State state);
+std::string_view name_of(NodeState state);
 
-struct Node {
-  int id = 0;                 ///< position in the file's order of execution
+struct CommandNode {
+  int id = 0;  ///< position in the file's order of execution
   Call call;
-  ConceptPtr product;         ///< made, or changed in place; null if the command gives nothing
+  ConceptPtr product;  ///< made, or changed in place; null if the command gives nothing
   Cost cost = Cost::cheap;
   Role role = Role::value;
-  bool complete = true;       ///< false: a value is unknown or unsupported, so it never runs
+  bool complete = true;  ///< false: a value is unknown or unsupported, so it never runs
   std::vector<Edge> waits_for;
-  State state = State::waiting;
-  bool forgiven = false;      ///< it failed inside try: what it left may still be read
+  NodeState state = NodeState::waiting;
+  bool forgiven = false;  ///< it failed inside try: what it left may still be read
   double seconds = 0;
 };
 
 class CommandGraph {
  public:
-  /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The product's
-  /// reads_through is filled here.
-  Node& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
+  /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The
+  /// product's reads_through is filled here.
+  CommandNode& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
 
-  std::vector<Node>& nodes() { return nodes_; }
-  const std::vector<Node>& nodes() const { return nodes_; }
+  std::vector<CommandNode>& nodes() { return nodes_; }
+  const std::vector<CommandNode>& nodes() const { return nodes_; }
 
   /// For each node, what needs it. Setup commands count as needed by a verdict: they always run.
   std::vector<Need> needs() const;
@@ -70,10 +71,10 @@ class CommandGraph {
     std::vector<int> readers;  ///< since that writer
   };
 
-  void read(Node& node, int resource, const std::string& name);
-  void write(Node& node, int resource, const std::string& name);
+  void read(CommandNode& node, int resource, const std::string& name);
+  void write(CommandNode& node, int resource, const std::string& name);
 
-  std::vector<Node> nodes_;
+  std::vector<CommandNode> nodes_;
   std::map<int, History> histories_;
 };
 

@@ -1,17 +1,38 @@
 #include "interpreter/concept.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 
 namespace comma::interpreter {
 
+namespace {
+
+Value call_real(const RealFunction& function, const std::vector<Value>& arguments) {
+  const auto& names = function.parameters();
+  const std::size_t wanted = std::max<std::size_t>(names.size(), 1);
+  const bool numbers = std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
+  if (arguments.size() != wanted || !numbers) {
+    throw DiagnosticError("type-error", fmt::format("this function is called with {} number{}", wanted, wanted == 1 ? "" : "s"), {},
+                          names.empty() ? "" : fmt::format("write F({})", fmt::join(names, ", ")));
+  }
+  std::vector<double> at;
+  for (const Value& value : arguments) at.push_back(value.is_bool() ? static_cast<double>(value.as_bool()) : value.as_real());
+  return Value(function.evaluate(at));
+}
+
+}  // namespace
+
 Value ConceptData::subscript(const Value&) const {
   throw DiagnosticError("not-supported", "this concept cannot be read by [...]");
 }
 
-Value ConceptData::call(const std::vector<Value>&) const {
+Value ConceptData::call(const std::vector<Value>& arguments) const {
+  if (const RealFunction* function = real_function()) return call_real(*function, arguments);
   throw DiagnosticError("not-supported", "this concept cannot be called like a function");
 }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,10 +15,20 @@ namespace comma::interpreter {
 
 class Value;
 
+/// A function of reals that a concept holds: what formulas and loads call, without making values.
+struct RealFunction {
+  virtual ~RealFunction() = default;
+  /// Names of the arguments, in order; a function that asks for none takes any one argument.
+  virtual const std::vector<std::string>& parameters() const = 0;
+  /// One argument a parameter. Throws where the function is not defined.
+  virtual double evaluate(std::span<const double> arguments) const = 0;
+};
+
 /// The filled inside of a concept. Commands derive from it. The three functions are what the language can do with a
-/// concept; by default each throws DiagnosticError `not-supported`.
+/// concept; by default a real function is called with numbers, and each of the others throws DiagnosticError `not-supported`.
 struct ConceptData {
   virtual ~ConceptData() = default;
+  virtual const RealFunction* real_function() const { return nullptr; }
   virtual Value subscript(const Value& key) const;                        ///< T["DX", 1]
   virtual Value call(const std::vector<Value>& arguments) const;          ///< F(2.0)
   virtual Value method(std::string_view name, const std::vector<Value>& arguments,

@@ -22,8 +22,10 @@ std::size_t count_characters(std::string_view text) {
 std::string blanks_under(std::string_view text) {
   std::string blanks;
   for (char c : text) {
-    if (c == '\t') blanks += '\t';
-    else if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) blanks += ' ';
+    if (c == '\t')
+      blanks += '\t';
+    else if ((static_cast<unsigned char>(c) & 0xC0) != 0x80)
+      blanks += ' ';
   }
   return blanks;
 }
@@ -32,8 +34,10 @@ std::string render_excerpt(const Span& span) {
   const Position place = span.file->position(span.begin);
   const std::string_view line = span.file->line(place.line);
   const auto line_begin = static_cast<std::size_t>(line.data() - span.file->text().data());
-  const std::size_t column = std::min<std::size_t>(span.begin - std::min<std::size_t>(line_begin, span.begin), line.size());
-  const std::size_t marked_end = std::clamp<std::size_t>(span.end - std::min<std::size_t>(line_begin, span.end), column, line.size());
+  const std::size_t column =
+      std::min<std::size_t>(span.begin - std::min<std::size_t>(line_begin, span.begin), line.size());
+  const std::size_t marked_end =
+      std::clamp<std::size_t>(span.end - std::min<std::size_t>(line_begin, span.end), column, line.size());
 
   std::size_t from = 0;
   std::size_t until = line.size();
@@ -45,7 +49,8 @@ std::string render_excerpt(const Span& span) {
   const std::string before = from > 0 ? "... " : "";
   const std::string after = until < line.size() ? " ..." : "";
   const std::string number = std::to_string(place.line);
-  const std::size_t width = count_characters(line.substr(column, std::min(marked_end, until) - std::min(column, until)));
+  const std::size_t width =
+      count_characters(line.substr(column, std::min(marked_end, until) - std::min(column, until)));
 
   std::string text = fmt::format("  {} | {}{}{}\n", number, before, line.substr(from, until - from), after);
   text += fmt::format("  {} | {}{}^{}", std::string(number.size(), ' '), std::string(before.size(), ' '),
@@ -72,7 +77,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string lower(std::string_view word) {
   std::string text(word);
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -83,9 +89,12 @@ constexpr std::size_t longest_known_word = 64;
 
 std::string_view name_of(Severity severity) {
   switch (severity) {
-    case Severity::error: return "error";
-    case Severity::alarm: return "alarm";
-    case Severity::info: return "info";
+    case Severity::error:
+      return "error";
+    case Severity::alarm:
+      return "alarm";
+    case Severity::info:
+      return "info";
   }
   return "error";
 }

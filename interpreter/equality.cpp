@@ -15,7 +15,9 @@ constexpr int deepest_compared = 500;
 
 bool equal_at(const Value& a, const Value& b, int depth);
 
-bool is_numeric(const Value& value) { return value.is_bool() || value.is_number() || value.is_complex(); }
+bool is_numeric(const Value& value) {
+  return value.is_bool() || value.is_number() || value.is_complex();
+}
 
 std::optional<std::int64_t> small_integer(const Value& value) {
   if (value.is_integer()) return value.as_integer();
@@ -78,8 +80,9 @@ bool equal_at(const Value& a, const Value& b, int depth) {
   if (a.storage().index() != b.storage().index()) return false;
   if (a.is_none()) return true;
   if (a.is_text()) return a.as_text() == b.as_text();
+  if (a.is_sequence() && a.items().data() == b.items().data() && a.items().size() == b.items().size()) return true;
   if (a.is_sequence()) return equal_items(a.items(), b.items(), depth);
-  if (a.is_dict()) return equal_dicts(a.as_dict(), b.as_dict(), depth);
+  if (a.is_dict()) return &a.as_dict() == &b.as_dict() || equal_dicts(a.as_dict(), b.as_dict(), depth);
   if (a.is_set()) return equal_dicts(a.as_set(), b.as_set(), depth);
   if (a.is_concept()) return a.as_concept() == b.as_concept();
   if (a.is_factor()) return &a.as_factor() == &b.as_factor();
@@ -93,7 +96,9 @@ std::size_t hash_real(double value) {
   return std::hash<double>{}(value);
 }
 
-std::size_t combine(std::size_t seed, std::size_t hash) { return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL); }
+std::size_t combine(std::size_t seed, std::size_t hash) {
+  return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL);
+}
 
 std::size_t hash_at(const Value& value, int depth) {
   if (depth > deepest_compared) raise(ErrorKind::recursion, "maximum recursion depth exceeded in hash()");
@@ -125,8 +130,12 @@ std::size_t hash_at(const Value& value, int depth) {
 
 }  // namespace
 
-bool equal(const Value& a, const Value& b) { return equal_at(a, b, 0); }
+bool equal(const Value& a, const Value& b) {
+  return equal_at(a, b, 0);
+}
 
-std::size_t hash_of(const Value& value) { return hash_at(value, 0); }
+std::size_t hash_of(const Value& value) {
+  return hash_at(value, 0);
+}
 
 }  // namespace comma::interpreter

@@ -58,7 +58,9 @@ std::vector<Value> one_text(std::string message) {
 
 }  // namespace
 
-const ErrorClass& class_of(ErrorKind kind) { return classes[static_cast<std::size_t>(kind)]; }
+const ErrorClass& class_of(ErrorKind kind) {
+  return classes[static_cast<std::size_t>(kind)];
+}
 
 std::optional<ErrorKind> error_kind_named(std::string_view name) {
   if (name == "EnvironmentError" || name == "IOError") return ErrorKind::os;
@@ -100,16 +102,24 @@ std::string ExceptionObject::text() const {
 }
 
 Diagnostic ExceptionObject::diagnostic() const {
-  if (failure) return *failure;
+  if (failure) {
+    Diagnostic finding = *failure;
+    if (!finding.span) finding.span = span;
+    return finding;
+  }
   const ErrorClass& row = class_of(kind);
   std::string message = text();
   if (kind == ErrorKind::key) message = "the key " + message + " does not exist";
-  if (kind == ErrorKind::assertion) message = message.empty() ? "the assertion is false" : "the assertion is false: " + message;
-  if (row.code == "exception" || message.empty()) message = fmt::format("{}{}{}", row.name, message.empty() ? "" : ": ", message);
+  if (kind == ErrorKind::assertion)
+    message = message.empty() ? "the assertion is false" : "the assertion is false: " + message;
+  if (row.code == "exception" || message.empty())
+    message = fmt::format("{}{}{}", row.name, message.empty() ? "" : ": ", message);
   return {Severity::error, std::string(row.code), std::move(message), hint, span};
 }
 
-std::string ExceptionClassObject::repr() const { return fmt::format("<class '{}'>", class_of(kind).name); }
+std::string ExceptionClassObject::repr() const {
+  return fmt::format("<class '{}'>", class_of(kind).name);
+}
 
 std::shared_ptr<ExceptionObject> make_exception(ErrorKind kind, std::string message, std::string hint) {
   auto object = std::make_shared<ExceptionObject>();

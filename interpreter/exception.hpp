@@ -1,5 +1,5 @@
-// Python's exceptions as values and as what travels through the evaluator. The classes are a closed table: a command file
-// cannot define its own.
+// Python's exceptions as values and as what travels through the evaluator. The classes are a closed table: a command
+// file cannot define its own.
 #pragma once
 
 #include <exception>
@@ -15,13 +15,41 @@
 namespace comma::interpreter {
 
 enum class ErrorKind {
-  base_exception, system_exit, keyboard_interrupt, exception,
-  arithmetic, zero_division, overflow, floating_point,
-  assertion, attribute, end_of_file, import, module_not_found,
-  lookup, index, key, memory, name, unbound_local,
-  os, file_not_found, runtime, not_implemented, recursion,
-  stop_iteration, syntax, type, value, unicode,
-  aster, convergence, contact, solver, time_limit, integration,
+  base_exception,
+  system_exit,
+  keyboard_interrupt,
+  exception,
+  arithmetic,
+  zero_division,
+  overflow,
+  floating_point,
+  assertion,
+  attribute,
+  end_of_file,
+  import,
+  module_not_found,
+  lookup,
+  index,
+  key,
+  memory,
+  name,
+  unbound_local,
+  os,
+  file_not_found,
+  runtime,
+  not_implemented,
+  recursion,
+  stop_iteration,
+  syntax,
+  type,
+  value,
+  unicode,
+  aster,
+  convergence,
+  contact,
+  solver,
+  time_limit,
+  integration,
 };
 
 /// A row of the table of exception classes.
@@ -35,8 +63,8 @@ struct ErrorClass {
 const ErrorClass& class_of(ErrorKind kind);
 std::optional<ErrorKind> error_kind_named(std::string_view name);
 bool is_subclass(ErrorKind kind, ErrorKind ancestor);
-/// The class that a command's failure belongs to, by the code of its diagnostic: "no-convergence" is a ConvergenceError,
-/// "contact-..." a ContactError, "singular-matrix" a SolverError, all others an AsterError.
+/// The class that a command's failure belongs to, by the code of its diagnostic: "no-convergence" is a
+/// ConvergenceError, "contact-..." a ContactError, "singular-matrix" a SolverError, all others an AsterError.
 ErrorKind kind_of_failure(std::string_view code);
 
 /// An exception, raised or not.

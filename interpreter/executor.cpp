@@ -10,70 +10,82 @@
 namespace comma::interpreter {
 namespace {
 
-bool is_preparation(const Node& node) {
+bool is_preparation(const CommandNode& node) {
   return node.cost == Cost::cheap && (node.role == Role::value || node.role == Role::setup);
 }
 
 /// Whether what `source` made can be read.
-bool is_readable(const Node& source) {
-  if (source.state == State::done) return true;
-  return source.state == State::failed && source.forgiven && source.product && source.product->data;
+bool is_readable(const CommandNode& source) {
+  if (source.state == NodeState::done) return true;
+  return source.state == NodeState::failed && source.forgiven && source.product && source.product->data;
 }
 
-int line_of(const Node& node) { return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0; }
+int line_of(const CommandNode& node) {
+  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
+}
 
-DiagnosticError not_computed(const Node& source) {
-  return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)), source.call.span};
+DiagnosticError not_computed(const CommandNode& source) {
+  return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)),
+          source.call.span};
 }
 
 }  // namespace
 
-void Executor::run_cheap(Need least) {
+void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) {
   const auto needs = graph_.needs();
-  for (Node& node : graph_.nodes()) {
-    const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
-    if (node.state != State::waiting || !wanted || !node.complete || !is_preparation(node)) continue;
-    const bool in_turn = std::ranges::none_of(node.waits_for, [&](const Edge& edge) {
-      return graph_.nodes()[static_cast<std::size_t>(edge.from)].state == State::waiting;
-    });
-    if (in_turn && missing_source(node) == nullptr) run_reporting(node);
+  for (CommandNode& node : graph_.nodes()) {
+    if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
+    if (check && !check(node)) {
+      node.state = NodeState::failed;
+      continue;
+    }
+    const bool runs = node.complete && is_preparation(node) && (nothing_more || is_in_turn(node)) && missing_source(node) == nullptr;
+    if (runs) run_reporting(node);
   }
+}
+
+bool Executor::is_in_turn(const CommandNode& node) const {
+  return std::ranges::none_of(node.waits_for, [&](const Edge& edge) {
+    return graph_.nodes()[static_cast<std::size_t>(edge.from)].state == NodeState::waiting;
+  });
 }
 
 void Executor::run_all(Need least) {
   const auto needs = graph_.needs();
-  for (Node& node : graph_.nodes()) {
-    if (node.state != State::waiting) continue;
+  for (CommandNode& node : graph_.nodes()) {
+    if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
     if (wanted && node.complete && missing_source(node) == nullptr)
       run_reporting(node);
     else
-      node.state = State::skipped;
+      node.state = NodeState::skipped;
   }
 }
 
 void Executor::force(int id) {
   for (const int required : graph_.required_by(id)) {
-    Node& node = graph_.nodes()[static_cast<std::size_t>(required)];
-    if (node.state != State::waiting) continue;
-    if (const Node* source = missing_source(node)) throw not_computed(*source);
+    CommandNode& node = graph_.nodes()[static_cast<std::size_t>(required)];
+    if (node.state != NodeState::waiting) continue;
+    if (const CommandNode* source = missing_source(node)) throw not_computed(*source);
     if (!node.complete) throw not_computed(node);
     run(node);
   }
-  const Node& last = graph_.nodes()[static_cast<std::size_t>(id)];
+  const CommandNode& last = graph_.nodes()[static_cast<std::size_t>(id)];
   if (!is_readable(last)) throw not_computed(last);
 }
 
 bool Executor::is_cheap(int id) const {
   return std::ranges::all_of(graph_.required_by(id), [&](int required) {
-    const Node& node = graph_.nodes()[static_cast<std::size_t>(required)];
-    return node.state != State::waiting || (node.complete && is_preparation(node));
+    const CommandNode& node = graph_.nodes()[static_cast<std::size_t>(required)];
+    return node.state != NodeState::waiting || (node.complete && is_preparation(node));
   });
 }
 
-void Executor::forgive(int id) { graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true; }
+void Executor::forgive(int id) {
+  graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true;
+}
 
-void Executor::run_reporting(Node& node) {
+void Executor::run_reporting(CommandNode& node) {
   try {
     run(node);
   } catch (const DiagnosticError& error) {
@@ -81,7 +93,7 @@ void Executor::run_reporting(Node& node) {
   }
 }
 
-void Executor::run(Node& node) {
+void Executor::run(CommandNode& node) {
   const auto start = std::chrono::steady_clock::now();
   const auto stop_clock = [&] {
     node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -89,16 +101,16 @@ void Executor::run(Node& node) {
   try {
     auto data = invoke(node);
     if (node.product && data) node.product->data = std::move(data);
-    node.state = State::done;
+    node.state = NodeState::done;
     stop_clock();
   } catch (...) {
-    node.state = State::failed;
+    node.state = NodeState::failed;
     stop_clock();
     throw;
   }
 }
 
-std::shared_ptr<ConceptData> Executor::invoke(const Node& node) const {
+std::shared_ptr<ConceptData> Executor::invoke(const CommandNode& node) const {
   const Call& call = node.call;
   const auto command = commands_.find(call.command);
   if (command == commands_.end())
@@ -120,9 +132,9 @@ std::shared_ptr<ConceptData> Executor::invoke(const Node& node) const {
   }
 }
 
-const Node* Executor::missing_source(const Node& node) const {
+const CommandNode* Executor::missing_source(const CommandNode& node) const {
   for (const Edge& edge : node.waits_for) {
-    const Node& source = graph_.nodes()[static_cast<std::size_t>(edge.from)];
+    const CommandNode& source = graph_.nodes()[static_cast<std::size_t>(edge.from)];
     if (edge.hazard == Hazard::read_after_write && !is_readable(source)) return &source;
   }
   return nullptr;

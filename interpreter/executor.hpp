@@ -18,14 +18,20 @@ namespace comma::interpreter {
 using CommandFunction = std::function<std::shared_ptr<ConceptData>(const Call&)>;
 using CommandTable = std::map<std::string, CommandFunction, std::less<>>;
 
+/// Whether a call may go on, as far as that depends on what the calls before it made: whether the groups it names exist.
+/// Reports what is wrong.
+using CallCheck = std::function<bool(const CommandNode&)>;
+
 class Executor {
  public:
   Executor(CommandGraph& graph, const CommandTable& commands, Diagnostics& diagnostics)
       : graph_(graph), commands_(commands), diagnostics_(diagnostics) {}
 
   /// Runs what is cheap, makes no output, gives no verdict, and waits for nothing that is not: meshes, groups, models,
-  /// loads. Their errors are those that a check can find before anything is solved.
-  void run_cheap(Need least);
+  /// loads. Their errors are those that a check can find before anything is solved. Every call, also one that will not
+  /// run now, goes through `check` (unless it is empty) when its turn in the file has come; one that is wrong counts as
+  /// failed. `nothing_more`: what is not cheap will never run, so nothing waits for it.
+  void run_cheap(Need least, bool nothing_more, const CallCheck& check);
 
   /// Runs all nodes that are needed at least so much. A failing node is reported and stops those that build on it; the
   /// others still run.
@@ -42,12 +48,14 @@ class Executor {
 
  private:
   /// Marks the node done, or failed and throws.
-  void run(Node& node);
-  void run_reporting(Node& node);
+  void run(CommandNode& node);
+  void run_reporting(CommandNode& node);
   /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
-  std::shared_ptr<ConceptData> invoke(const Node& node) const;
+  std::shared_ptr<ConceptData> invoke(const CommandNode& node) const;
+  /// Whether nothing that it waits for is still to run.
+  bool is_in_turn(const CommandNode& node) const;
   /// The first node that this one builds on and that is not there, or null.
-  const Node* missing_source(const Node& node) const;
+  const CommandNode* missing_source(const CommandNode& node) const;
 
   CommandGraph& graph_;
   const CommandTable& commands_;

@@ -97,7 +97,7 @@ class Writer {
   }
 
   static std::string count(const KeywordPage& page) {
-    return describe_count(page.min_count, page.max_count, page.is_factor() ? "_F(...)" : "value");
+    return describe_count(page.min_count, page.max_count, page.is_factor() ? "occurrence" : "value");
   }
 
   void words(const KeywordPage& page) {
@@ -119,6 +119,7 @@ class Writer {
       line("{}{}{:<20} {}{}{}", indent, keyword.required ? "* " : "  ", keyword.name, keyword.doc,
            keyword.default_value ? " Default " + keyword.default_value->repr() + "." : "",
            keyword.supported ? "" : " [not supported yet]");
+    if (level_page.further) line("{}  any other name       {}", indent, level_page.further->doc);
     for (const RulePage& rule : level_page.rules) line("{}rule: {}", indent, describe_rule(rule));
     for (const BlockPage& block : level_page.blocks) {
       line("{}when {}", indent, block.when);
@@ -162,7 +163,8 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
   throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {}, hint_for(name, known));
 }
 
-/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once for each.
+/// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once
+/// for each.
 void explain_keyword(Writer& writer, const std::string& above, const LevelPage& level, std::string_view rest) {
   const std::size_t slash = rest.find('/');
   const std::string_view name = rest.substr(0, slash);
@@ -170,7 +172,10 @@ void explain_keyword(Writer& writer, const std::string& above, const LevelPage& 
   if (places.empty()) throw_unknown_keyword(above, level, name);
   const std::string path = fmt::format("{}/{}", above, places.front().keyword->name);
   if (slash == std::string_view::npos) {
-    for (const Place& place : places) writer.keyword(path, place);
+    for (const Place& place : places) {
+      if (&place != &places.front()) writer.line("");
+      writer.keyword(path, place);
+    }
     return;
   }
   const std::string_view below = rest.substr(slash + 1);

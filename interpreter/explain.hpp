@@ -1,4 +1,5 @@
-// The reference manual at the command line: `comma explain`, `comma explain COMMAND`, `comma explain COMMAND/KEYWORD/SUB`.
+// The reference manual at the command line: `comma explain`, `comma explain COMMAND`, `comma explain
+// COMMAND/KEYWORD/SUB`.
 #pragma once
 
 #include <string>

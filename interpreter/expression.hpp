@@ -14,6 +14,8 @@
 
 namespace comma::interpreter {
 
+struct Node;
+
 /// The value of a variable, or nothing when there is none of that name.
 using VariableLookup = std::function<std::optional<Value>(std::string_view)>;
 
@@ -26,8 +28,8 @@ class Expression {
   /// `origin` names the text in messages. Throws DiagnosticError (code "syntax") when it is no expression.
   explicit Expression(std::string text, std::string origin = "<expression>");
 
-  /// The value with the variables given by `lookup`; names it does not know are looked for among the builtins and `math`.
-  /// Throws DiagnosticError ("unknown-name", "type-error", "zero-division" ...) with a span in the text.
+  /// The value with the variables given by `lookup`; names it does not know are looked for among the builtins and
+  /// `math`. Throws DiagnosticError ("unknown-name", "type-error", "zero-division" ...) with a span in the text.
   Value evaluate(const VariableLookup& lookup) const;
 
   /// Python's truth of the value.
@@ -36,12 +38,18 @@ class Expression {
   /// The free names in order of first use, builtins and `math` functions left out: what the expression depends on.
   const std::vector<std::string>& variables() const { return variables_; }
 
+  /// All its free names, builtins and `math` functions too, once each.
+  const std::vector<std::string>& names() const { return names_; }
+
   const std::string& text() const { return text_; }
+  const Node& root() const;
+  const std::shared_ptr<const SourceFile>& file() const;
 
  private:
   struct Tree;
   std::string text_;
   std::shared_ptr<const Tree> tree_;
+  std::vector<std::string> names_;
   std::vector<std::string> variables_;
 };
 

@@ -2,6 +2,8 @@
 // checks it, adds it to the command graph and returns a handle. The evaluator itself knows no command.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,18 @@ struct CommandCall {
   Span name_span;
   Span span;
   std::vector<Argument> arguments;
+  /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be empty.
+  std::function<std::optional<Value>(std::string_view)> scope = {};
+};
+
+/// A claim that the file makes about its own values (CA.TestCase().assertEqual(a, b) and its like), judged.
+struct Assertion {
+  std::string method;   ///< "assertAlmostEqual"
+  std::string message;  ///< the user's own, or empty
+  Span span;
+  bool holds = false;
+  Value computed, reference;  ///< None where the method has none
+  double tolerance = 0.0;     ///< of assertAlmostEqual
 };
 
 /// What the evaluator needs from the outside.
@@ -33,6 +47,9 @@ class CommandHost {
 
   /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
   virtual void force(const ConceptPtr& handle) = 0;
+
+  /// Takes note of a claim, whether it holds or not. A host without verdicts has no use for it.
+  virtual void judge(const Assertion& /*assertion*/) {}
 };
 
 }  // namespace comma::interpreter

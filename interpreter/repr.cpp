@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "interpreter/big_integer.hpp"
 #include "interpreter/dict.hpp"
@@ -13,37 +15,45 @@ namespace comma::interpreter {
 
 namespace {
 
-/// A list that holds itself, or one nested deeper than anyone writes, shows "..." from here on.
-constexpr int deepest_shown = 200;
+/// What is nested deeper than anyone writes shows "..." from here on.
+constexpr std::size_t deepest_shown = 200;
+
+/// 4300 digits are as many bits as this: turning more into text would take quadratic time.
+constexpr double bits_of_most_digits = 4300.0 / 0.30102999566398120;
+
+/// The containers that are being written: one that holds itself shows "..." there, as in Python.
+using Path = std::vector<const void*>;
 
 /// Python switches to the exponent form below 1e-4 and from 1e16 on.
 constexpr int smallest_plain_exponent = -4;
 constexpr int largest_plain_exponent = 16;
 
-void write(const Value& value, std::string& out, int depth);
+void write(const Value& value, std::string& out, Path& path);
+const void* identity_of(const Value& value);
+void write_container(const Value& value, const void* identity, std::string& out, Path& path);
 
-void write_items(std::span<const Value> items, std::string& out, int depth) {
+void write_items(std::span<const Value> items, std::string& out, Path& path) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (i > 0) out += ", ";
-    write(items[i], out, depth + 1);
+    write(items[i], out, path);
   }
 }
 
-void write_dict(const Dict& dict, std::string& out, int depth) {
+void write_dict(const Dict& dict, std::string& out, Path& path) {
   out += '{';
   bool first = true;
   for (const Dict::Entry& entry : dict.entries()) {
     if (!entry.live) continue;
     if (!first) out += ", ";
     first = false;
-    write(entry.key, out, depth + 1);
+    write(entry.key, out, path);
     out += ": ";
-    write(entry.value, out, depth + 1);
+    write(entry.value, out, path);
   }
   out += '}';
 }
 
-void write_set(const Value& value, std::string& out, int depth) {
+void write_set(const Value& value, std::string& out, Path& path) {
   const bool frozen = value.type_name() == "frozenset";
   const Dict& keys = value.as_set();
   if (keys.size() == 0) {
@@ -51,24 +61,22 @@ void write_set(const Value& value, std::string& out, int depth) {
     return;
   }
   out += frozen ? "frozenset({" : "{";
-  write_items(keys.keys(), out, depth);
+  write_items(keys.keys(), out, path);
   out += frozen ? "})" : "}";
 }
 
-void write_factor(const Factor& factor, std::string& out, int depth) {
+void write_factor(const Factor& factor, std::string& out, Path& path) {
   out += "_F(";
   for (std::size_t i = 0; i < factor.arguments.size(); ++i) {
     if (i > 0) out += ", ";
     out += factor.arguments[i].name + "=";
-    write(*factor.arguments[i].value, out, depth + 1);
+    write(*factor.arguments[i].value, out, path);
   }
   out += ')';
 }
 
-void write(const Value& value, std::string& out, int depth) {
-  if (depth > deepest_shown) {
-    out += "...";
-  } else if (value.is_none()) {
+void write(const Value& value, std::string& out, Path& path) {
+  if (value.is_none()) {
     out += "None";
   } else if (value.is_unknown()) {
     out += "<unknown>";
@@ -77,32 +85,50 @@ void write(const Value& value, std::string& out, int depth) {
   } else if (value.is_integer()) {
     out += std::to_string(value.as_integer());
   } else if (value.is_big_integer()) {
-    out += value.as_big_integer().to_string();
+    out += decimal_digits(value.as_big_integer());
   } else if (value.is_real()) {
     out += repr_of(value.as_real());
   } else if (value.is_complex()) {
     out += repr_of(value.as_complex());
   } else if (value.is_text()) {
     out += repr_of(std::string_view(value.as_text()));
-  } else if (value.is_tuple()) {
-    out += '(';
-    write_items(value.items(), out, depth);
-    out += value.items().size() == 1 ? ",)" : ")";
-  } else if (value.is_list()) {
-    out += '[';
-    write_items(value.items(), out, depth);
-    out += ']';
-  } else if (value.is_dict()) {
-    write_dict(value.as_dict(), out, depth);
-  } else if (value.is_set()) {
-    write_set(value, out, depth);
-  } else if (value.is_factor()) {
-    write_factor(value.as_factor(), out, depth);
+  } else if (const void* identity = identity_of(value)) {
+    write_container(value, identity, out, path);
   } else if (value.is_concept()) {
     out += value.as_concept()->name;
   } else {
     out += value.as_object<Object>()->repr();
   }
+}
+
+const void* identity_of(const Value& value) {
+  if (value.is_list()) return &value.as_list();
+  if (value.is_tuple()) return std::get<std::shared_ptr<Tuple>>(value.storage()).get();
+  if (value.is_dict()) return &value.as_dict();
+  if (value.is_set()) return &value.as_set();
+  return value.is_factor() ? &value.as_factor() : nullptr;
+}
+
+void write_container(const Value& value, const void* identity, std::string& out, Path& path) {
+  const char* brackets = value.is_list() ? "[]" : value.is_tuple() ? "()" : "{}";
+  if (path.size() > deepest_shown || std::find(path.begin(), path.end(), identity) != path.end()) {
+    out += brackets[0] + std::string("...") + brackets[1];
+    return;
+  }
+  path.push_back(identity);
+  if (value.is_sequence()) {
+    out += brackets[0];
+    write_items(value.items(), out, path);
+    if (value.is_tuple() && value.items().size() == 1) out += ',';
+    out += brackets[1];
+  } else if (value.is_dict()) {
+    write_dict(value.as_dict(), out, path);
+  } else if (value.is_set()) {
+    write_set(value, out, path);
+  } else {
+    write_factor(value.as_factor(), out, path);
+  }
+  path.pop_back();
 }
 
 std::string complex_part(double value) {
@@ -112,6 +138,14 @@ std::string complex_part(double value) {
 }
 
 }  // namespace
+
+std::string decimal_digits(const BigInteger& value) {
+  if (static_cast<double>(value.bit_length()) > bits_of_most_digits) {
+    raise(ErrorKind::value, "Exceeds the limit (4300 digits) for integer string conversion",
+          "show it as float, or with hex(...)");
+  }
+  return value.to_string();
+}
 
 std::string repr_of(double value) {
   if (std::isnan(value)) return "nan";
@@ -170,7 +204,8 @@ std::string repr_of(std::string_view text) {
 
 std::string repr_of(const Value& value) {
   std::string out;
-  write(value, out, 0);
+  Path path;
+  write(value, out, path);
   return out;
 }
 

@@ -2,14 +2,21 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/expression_keywords.hpp"
+
 namespace comma::interpreter {
 
-Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics, SessionOptions options)
+Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
+                 SessionOptions options)
     : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
 
-bool Session::is_command(std::string_view name) const { return catalogue_.has(name); }
+bool Session::is_command(std::string_view name) const {
+  return catalogue_.has(name);
+}
 
-std::vector<std::string> Session::command_names() const { return catalogue_.names(); }
+std::vector<std::string> Session::command_names() const {
+  return catalogue_.names();
+}
 
 Value Session::call(const CommandCall& written, bool eager) {
   if (!catalogue_.has(written.name)) {
@@ -20,8 +27,14 @@ Value Session::call(const CommandCall& written, bool eager) {
   }
   const CommandPage& page = catalogue_.page(written.name);
   const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
-  CheckedCall checked = check_call(written, page, catalogue_, diagnostics_, unsupported);
-  if (!checked.sound) return Value::unknown();
+  CommandCall bound = written;
+  const bool readable = bind_expressions(bound, page, diagnostics_);
+  CheckedCall checked = check_call(bound, page, catalogue_, diagnostics_, unsupported);
+  if (!readable || !checked.sound) return Value::unknown();
+  if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
+    if (checked.complete) action->second(checked.call);
+    return Value();
+  }
 
   ConceptPtr product = checked.call.result;
   if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);
@@ -43,9 +56,13 @@ void Session::force(const ConceptPtr& handle) {
   if (writer >= 0 && may_run(writer)) executor_.force(writer);
 }
 
+void Session::judge(const Assertion& assertion) {
+  if (assertion_sink_) assertion_sink_(assertion);
+}
+
 void Session::finish() {
   const Need least = options_.only_tests ? Need::output : Need::nothing;
-  executor_.run_cheap(least);
+  executor_.run_cheap(least, options_.check_only, call_check_);
   if (options_.check_only || diagnostics_.has_errors()) return;
   executor_.run_all(least);
 }

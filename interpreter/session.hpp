@@ -1,7 +1,9 @@
-// One run of one command file: the evaluator hands its calls here; they are checked, ordered, and executed when the whole
-// file is known to be right - or earlier, when the file itself asks for a computed value.
+// One run of one command file: the evaluator hands its calls here; they are checked, ordered, and executed when the
+// whole file is known to be right - or earlier, when the file itself asks for a computed value.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,22 +20,37 @@ struct SessionOptions {
   bool only_tests = false;  ///< leave out what no verdict and no output needs
 };
 
-/// Codes of its own: unknown-command, not-computed, command-failed, out-of-memory, internal-error (see check.hpp for the rest).
+/// What becomes of the file's own assertions.
+using AssertionSink = std::function<void(const Assertion&)>;
+
+/// Codes of its own: unknown-command, not-computed, command-failed, out-of-memory, internal-error (see check.hpp for
+/// the rest).
 class Session : public CommandHost {
  public:
   /// All three must outlive the session.
-  Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics, SessionOptions options = {});
+  Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
+          SessionOptions options = {});
 
   bool is_command(std::string_view name) const override;
   std::vector<std::string> command_names() const override;
   Value call(const CommandCall& call, bool eager) override;
 
-  /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's data
-  /// stays null, and the evaluator goes on with an unknown value.
+  /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's
+  /// data stays null, and the evaluator goes on with an unknown value.
   void force(const ConceptPtr& handle) override;
+  void judge(const Assertion& assertion) override;
 
-  /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found before
-  /// anything is solved; then, if all is right so far, the rest.
+  void set_assertion_sink(AssertionSink sink) { assertion_sink_ = std::move(sink); }
+  /// A command that acts while the file is being read, and stands for nothing in the graph (INCLUDE). It may throw
+  /// DiagnosticError.
+  void act_at_once(std::string command, std::function<void(const Call&)> action) {
+    immediate_[std::move(command)] = std::move(action);
+  }
+  /// Looks at each call before anything is solved; see Executor::run_cheap.
+  void set_call_check(CallCheck check) { call_check_ = std::move(check); }
+
+  /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
+  /// before anything is solved; then, if all is right so far, the rest.
   void finish();
 
   const CommandGraph& graph() const { return graph_; }
@@ -47,6 +64,9 @@ class Session : public CommandHost {
   SessionOptions options_;
   CommandGraph graph_;
   Executor executor_;
+  std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
+  AssertionSink assertion_sink_;
+  CallCheck call_check_;
   int next_concept_ = 0;
 };
 

@@ -6,16 +6,21 @@
 #include <utility>
 
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/utf8.hpp"
 
 namespace comma::interpreter {
 
 namespace {
 
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
 
 }  // namespace
 
 SourceFile::SourceFile(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+  // Command files from before UTF-8 are Latin-1; what follows may count on UTF-8.
+  if (!is_valid_utf8(text_)) text_ = utf8_from_latin1(text_);
   line_starts_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     const bool lone_return = text_[i] == '\r' && (i + 1 == text_.size() || text_[i + 1] != '\n');

@@ -71,10 +71,11 @@ struct Set {
 class Value {
  public:
   struct Unknown {};
-  using Storage = std::variant<std::monostate, Unknown, bool, std::int64_t, double, std::complex<double>,
-                               std::shared_ptr<const std::string>, std::shared_ptr<const BigInteger>,
-                               std::shared_ptr<Tuple>, std::shared_ptr<List>, std::shared_ptr<Dict>,
-                               std::shared_ptr<Set>, ConceptPtr, std::shared_ptr<const Factor>, std::shared_ptr<Object>>;
+  using Storage =
+      std::variant<std::monostate, Unknown, bool, std::int64_t, double, std::complex<double>,
+                   std::shared_ptr<const std::string>, std::shared_ptr<const BigInteger>, std::shared_ptr<Tuple>,
+                   std::shared_ptr<List>, std::shared_ptr<Dict>, std::shared_ptr<Set>, ConceptPtr,
+                   std::shared_ptr<const Factor>, std::shared_ptr<Object>>;
 
   Value();  ///< None
   Value(bool value);
@@ -104,10 +105,10 @@ class Value {
   bool is_unknown() const;
   bool is_none() const;
   bool is_bool() const;
-  bool is_integer() const;   ///< an int that fits 64 bits; a bool is not one
+  bool is_integer() const;      ///< an int that fits 64 bits; a bool is not one
   bool is_big_integer() const;  ///< an int beyond 64 bits
-  bool is_real() const;      ///< a float
-  bool is_number() const;    ///< int or float, not bool
+  bool is_real() const;         ///< a float
+  bool is_number() const;       ///< int or float, not bool
   bool is_complex() const;
   bool is_text() const;
   bool is_tuple() const;
@@ -122,7 +123,7 @@ class Value {
   /// Each throws std::logic_error on a value of another type.
   bool as_bool() const;
   std::int64_t as_integer() const;
-  double as_real() const;  ///< also of an int
+  double as_real() const;                   ///< also of an int
   std::complex<double> as_complex() const;  ///< also of an int or a float
   const std::string& as_text() const;
   std::span<const Value> items() const;  ///< of a tuple or a list
@@ -130,7 +131,7 @@ class Value {
   const ConceptPtr& as_concept() const;
   const BigInteger& as_big_integer() const;
   Dict& as_dict() const;
-  Dict& as_set() const;            ///< the keys of a set
+  Dict& as_set() const;  ///< the keys of a set
   std::vector<Value>& as_list() const;
   /// The object as T, or null when it is of another kind.
   template <class T>

@@ -24,7 +24,7 @@ int conclude(const CheckOptions& options, const interpreter::Diagnostics& diagno
 }  // namespace
 
 int check(const CheckOptions& options) try {
-  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = false});
+  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = false}, options.limits);
   pass.run();
   return conclude(options, pass.diagnostics());
 } catch (const interpreter::DiagnosticError& error) {

@@ -24,12 +24,12 @@ int write_svg(const std::string& dot) {
 
 bool has_graphviz() { return std::system("command -v dot >/dev/null 2>&1") == 0; }
 
-int write(const interpreter::CommandGraph& graph, const std::string& format) {
+int write(const interpreter::CommandGraph& graph, const std::string& format, interpreter::Need least) {
   if (format == "json") {
-    fmt::print("{}\n", interpreter::to_json(graph).dump(1));
+    fmt::print("{}\n", interpreter::to_json(graph, least).dump(1));
     return all_verdicts_hold;
   }
-  const std::string dot = interpreter::to_dot(graph);
+  const std::string dot = interpreter::to_dot(graph, least);
   if (format == "dot") {
     fmt::print("{}", dot);
     return all_verdicts_hold;
@@ -44,11 +44,11 @@ int write(const interpreter::CommandGraph& graph, const std::string& format) {
 }  // namespace
 
 int graph(const GraphOptions& options) try {
-  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = false});
+  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = options.only_tests}, options.limits);
   pass.run();
   print_diagnostics(pass.diagnostics(), false);
   if (pass.diagnostics().has_errors()) return the_file_is_wrong;
-  return write(pass.graph(), options.format);
+  return write(pass.graph(), options.format, options.only_tests ? interpreter::Need::output : interpreter::Need::nothing);
 } catch (const interpreter::DiagnosticError& error) {
   fmt::print(stderr, "{}\n", interpreter::render(error.diagnostic()));
   return the_file_is_wrong;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "commands/context.hpp"
+#include "interpreter/meter.hpp"
 
 namespace comma::commands {
 
@@ -18,6 +19,7 @@ enum ExitStatus : int {
 
 struct RunOptions {
   std::string file;
+  interpreter::Limits limits = {};
   std::string json;  ///< where the report goes; empty: nowhere
   bool only_tests = false;
   Verbosity verbosity = Verbosity::normal;
@@ -25,12 +27,15 @@ struct RunOptions {
 
 struct CheckOptions {
   std::string file;
+  interpreter::Limits limits = {};
   std::string json;
 };
 
 struct GraphOptions {
   std::string file;
+  interpreter::Limits limits = {};
   std::string format = "dot";  ///< "dot", "json" or "svg"
+  bool only_tests = false;     ///< leave out what no verdict and no output needs
 };
 
 int run(const RunOptions& options);

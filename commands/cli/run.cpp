@@ -13,10 +13,10 @@ namespace {
 
 std::vector<CommandRecord> records_of(const interpreter::CommandGraph& graph) {
   std::vector<CommandRecord> records;
-  for (const interpreter::Node& node : graph.nodes()) {
+  for (const interpreter::CommandNode& node : graph.nodes()) {
     const auto& span = node.call.span;
     records.push_back({node.call.command, span ? span.file->position(span.begin).line : 0, node.product ? node.product->name : "",
-                       node.seconds, node.state == interpreter::State::skipped || node.state == interpreter::State::waiting});
+                       node.seconds, node.state == interpreter::NodeState::skipped || node.state == interpreter::NodeState::waiting});
   }
   return records;
 }
@@ -49,7 +49,7 @@ int status_of_run(const StudyRun& pass) {
 
 int run(const RunOptions& options) try {
   const auto started = std::chrono::steady_clock::now();
-  StudyRun pass(open_study(options.file), options.verbosity, {.check_only = false, .only_tests = options.only_tests});
+  StudyRun pass(open_study(options.file), options.verbosity, {.check_only = false, .only_tests = options.only_tests}, options.limits);
   pass.run();
   const int status = status_of_run(pass);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;

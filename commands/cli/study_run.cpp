@@ -8,6 +8,7 @@
 
 #include "commands/catalogue.hpp"
 #include "commands/cli/options.hpp"
+#include "commands/name_check.hpp"
 #include "commands/registry.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/parser.hpp"
@@ -17,6 +18,7 @@ namespace comma::commands {
 namespace fs = std::filesystem;
 using interpreter::Diagnostic;
 using interpreter::Severity;
+using interpreter::Span;
 
 namespace {
 
@@ -47,20 +49,56 @@ Study open_study(const fs::path& file) {
   return Study{{file}, {}};
 }
 
-StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options)
+StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits)
     : study_(std::move(study)),
+      limits_(limits),
       context_{Files(study_.command_files.front(), study_.files, fs::current_path()), Console(verbosity), diagnostics_},
       commands_(make_command_table(context_)),
       catalogue_(catalogue_blobs()),
-      session_(catalogue_, commands_, diagnostics_, options) {}
+      session_(catalogue_, commands_, diagnostics_, options) {
+  session_.set_assertion_sink([this](const interpreter::Assertion& assertion) { context_.report(verdict_of(assertion)); });
+  session_.set_call_check([this](const interpreter::CommandNode& node) {
+    return check_names(node, session_.graph(), catalogue_, diagnostics_);
+  });
+  session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
+  session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
+  evaluator_ = std::make_unique<interpreter::Evaluator>(
+      session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); }, limits_);
+}
 
 void StudyRun::run() {
-  interpreter::Evaluator evaluator(session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); });
   for (const fs::path& file : study_.command_files) {
+    ++files_begun_;
     const auto tree = interpreter::parse(interpreter::SourceFile::read(file.string()), diagnostics_);
-    evaluator.run(tree);
+    evaluator_->run(tree);
   }
   session_.finish();
+}
+
+void StudyRun::include(const interpreter::Call& call) {
+  // Deep enough for every sensible nesting; a file that includes itself must end.
+  constexpr int deepest = 20;
+  if (include_depth_ >= deepest) {
+    throw interpreter::DiagnosticError("include-depth", fmt::format("files include one another more than {} times deep", deepest),
+                                       call.span, "look for a file that includes itself");
+  }
+  const bool by_unit = call.given("UNITE");
+  const Span where = call.span_of(by_unit ? "UNITE" : "DONNEE");
+  const fs::path path = by_unit ? context_.files.included(static_cast<int>(call.integer("UNITE")), where)
+                                : context_.files.included(call.text("DONNEE"), where);
+  trees_.push_back(interpreter::parse(interpreter::SourceFile::read(path.string()), diagnostics_));
+  struct Depth {
+    int& depth;
+    explicit Depth(int& count) : depth(count) { ++depth; }
+    ~Depth() { --depth; }
+  } const depth(include_depth_);
+  evaluator_->include(trees_.back());
+}
+
+void StudyRun::go_on(const interpreter::Call& call) const {
+  if (files_begun_ > 1) return;
+  throw interpreter::DiagnosticError("nothing-before", "POURSUITE goes on from a file before this one, and there is none", call.span,
+                                     "name the files in their order in an .export; a data base of Code_Aster cannot be read");
 }
 
 void print_diagnostics(const interpreter::Diagnostics& diagnostics, bool alarms) {

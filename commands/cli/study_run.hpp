@@ -3,11 +3,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <list>
 #include <string>
 
 #include "commands/cli/export_file.hpp"
 #include "commands/cli/report.hpp"
 #include "commands/context.hpp"
+#include "interpreter/ast.hpp"
+#include "interpreter/evaluator.hpp"
+#include "interpreter/meter.hpp"
 #include "interpreter/session.hpp"
 
 namespace comma::commands {
@@ -18,7 +22,7 @@ Study open_study(const std::filesystem::path& file);
 /// What a pass needs and what it leaves: the graph, the verdicts, the diagnostics.
 class StudyRun {
  public:
-  StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options);
+  StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits = {});
 
   /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in diagnostics().
   void run();
@@ -28,12 +32,22 @@ class StudyRun {
   const Context& context() const { return context_; }
 
  private:
+  /// INCLUDE: runs another file at its place.
+  void include(const interpreter::Call& call);
+  /// POURSUITE: has nothing to do, but something must be there to go on from.
+  void go_on(const interpreter::Call& call) const;
+
   Study study_;
+  interpreter::Limits limits_;
   interpreter::Diagnostics diagnostics_;
   Context context_;
   interpreter::CommandTable commands_;
   interpreter::Catalogue catalogue_;
   interpreter::Session session_;
+  std::unique_ptr<interpreter::Evaluator> evaluator_;
+  std::list<interpreter::Ast> trees_;  ///< of the included files: functions defined there refer to them
+  std::size_t files_begun_ = 0;
+  int include_depth_ = 0;
 };
 
 /// Prints the diagnostics, errors last so that they stay in sight. `alarms` false: errors only.

@@ -5,6 +5,7 @@
 #include "commands/concepts.hpp"
 #include "commands/fortran_format.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/value.hpp"
 
 using namespace comma::commands;
 using comma::interpreter::DiagnosticError;

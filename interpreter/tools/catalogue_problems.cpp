@@ -48,7 +48,8 @@ class Inspector {
     if (!names.contains(path.substr(0, path.find('/')))) note(page_.name, "reuse names the unknown keyword " + path);
   }
 
-  /// A command or a factor: the level where names, rules and conditions see each other. `visible` holds the names around it.
+  /// A command or a factor: the level where names, rules and conditions see each other. `visible` holds the names
+  /// around it.
   void factor_level(const LevelPage& level, const std::string& where, NameSet& visible) {
     NameSet here;
     collect_names(level, here);
@@ -58,9 +59,11 @@ class Inspector {
 
   void block_level(const LevelPage& level, const std::string& where, const NameSet& here, const NameSet& visible) {
     for (const KeywordPage& keyword : level.keywords) inspect(keyword, where + "/" + keyword.name, here, visible);
+    if (level.further) inspect(*level.further, where + "/(any other name)", here, visible);
     for (const RulePage& rule : level.rules)
       for (const std::string& name : rule.keywords)
-        if (!here.contains(name)) note(where, fmt::format("the rule '{}' names the unknown keyword {}", describe_rule(rule), name));
+        if (!here.contains(name))
+          note(where, fmt::format("the rule '{}' names the unknown keyword {}", describe_rule(rule), name));
     for (const BlockPage& block : level.blocks) {
       condition(*block.condition, where, visible);
       block_level(block.inside, where, here, visible);
@@ -84,9 +87,7 @@ class Inspector {
     if (keyword.required && standard) note(where, "is required and has a default");
     if (keyword.max_count != unlimited && keyword.max_count < keyword.min_count) note(where, "max is less than min");
     inspect_default(keyword, where);
-    const bool has_inside = !keyword.inside.keywords.empty() || !keyword.inside.blocks.empty();
     if (!keyword.is_factor()) return;
-    if (!has_inside) note(where, "is a factor without keywords");
     NameSet around = visible;
     factor_level(keyword.inside, where, around);
   }

@@ -31,7 +31,8 @@ std::optional<T> number_from(const std::string& text) {
   return error == std::errc() && last == end && begin != end ? std::optional(value) : std::nullopt;
 }
 
-/// Only true and false are booleans and only digits are numbers: YAML's own rules would read the words NON, Y or 1_2 wrongly.
+/// Only true and false are booleans and only digits are numbers: YAML's own rules would read the words NON, Y or 1_2
+/// wrongly.
 Json scalar_from(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   const bool quoted = node.Tag() == "!";
@@ -39,7 +40,8 @@ Json scalar_from(const YAML::Node& node) {
   if (text == "true") return true;
   if (text == "false") return false;
   if (const auto integer = number_from<std::int64_t>(text)) return *integer;
-  if (const auto real = number_from<double>(text); real && text.find_first_of("0123456789") != std::string::npos) return *real;
+  if (const auto real = number_from<double>(text); real && text.find_first_of("0123456789") != std::string::npos)
+    return *real;
   return text;
 }
 
@@ -65,9 +67,8 @@ class Converter {
     for (const auto& entry : node) {
       const std::string key = entry.first.as<std::string>();
       if (key == "<<") {
-        for (const auto& [name, value] : convert(entry.second).items())
-          if (!map.contains(name)) map[name] = value;
-      } else if (map.contains(key) && !merged(node)) {
+        spread(convert(entry.second), map);
+      } else if (map.contains(key) && !has_merge(node)) {
         fail(path_, entry.first, key + " is written twice");
       } else {
         map[key] = convert(entry.second);
@@ -76,7 +77,17 @@ class Converter {
     return map;
   }
 
-  static bool merged(const YAML::Node& node) { return static_cast<bool>(node["<<"]); }
+  /// `<<: *one` or `<<: [*one, *two]`
+  static void spread(const Json& merged, Json& map) {
+    if (merged.is_array()) {
+      for (const Json& part : merged) spread(part, map);
+      return;
+    }
+    for (const auto& [name, value] : merged.items())
+      if (!map.contains(name)) map[name] = value;
+  }
+
+  static bool has_merge(const YAML::Node& node) { return static_cast<bool>(node["<<"]); }
 
   std::string path_;
 };
@@ -97,13 +108,14 @@ class PageBuilder {
   Json page(Json json) const {
     json.erase("shapes");  // a place for YAML anchors
     allow(json, "the page",
-          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "supported", "reuse",
-           "keywords", "unsupported", "rules", "blocks", "use"});
+          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "supported",
+           "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
     demand(json, "the page", {"command", "doc", "category"});
     choose(json, "cost", {"cheap", "solve"});
     choose(json, "role", {"value", "verdict", "output", "setup"});
-    choose(json, "category",
-           {"mesh", "model", "material", "loads", "contact", "solve", "post-process", "verify", "functions", "session"});
+    choose(
+        json, "category",
+        {"mesh", "model", "material", "loads", "contact", "solve", "post-process", "verify", "functions", "session"});
     if (json.contains("reuse")) check_reuse(json["reuse"]);
     return level(std::move(json), json.value("command", ""));
   }
@@ -141,6 +153,7 @@ class PageBuilder {
     if (json.contains("use")) json = with_shared(std::move(json), where);
     if (json.contains("keywords")) json["keywords"] = keywords(json["keywords"], where);
     if (json.contains("unsupported")) add_unsupported(json, where);
+    if (json.contains("further")) json["further"] = keyword(json["further"], where + "/(any other name)");
     if (json.contains("rules"))
       for (const Json& rule : json["rules"]) check_rule(rule, where);
     if (json.contains("blocks"))
@@ -162,22 +175,27 @@ class PageBuilder {
       Json part = Converter(path).convert(load(found->second, path));
       part.erase("shapes");
       if (part.contains("use")) part = with_shared(std::move(part), path);
-      json = merge(std::move(part), json);
+      json = merge(part, std::move(json));
     }
     return json;
   }
 
-  /// The shared part first, then the page's own, which wins.
-  static Json merge(Json part, const Json& own) {
-    for (const auto& [key, value] : own.items()) {
-      if ((key == "keywords" || key == "unsupported") && part.contains(key))
-        for (const auto& [name, keyword] : value.items()) part[key][name] = keyword;
-      else if ((key == "rules" || key == "blocks") && part.contains(key))
-        part[key].insert(part[key].end(), value.begin(), value.end());
-      else
-        part[key] = value;
+  /// The page's own keywords, rules and blocks first, then those of the shared part; the page's own keys win.
+  static Json merge(const Json& part, Json own) {
+    for (const auto& [key, value] : part.items()) {
+      if (!own.contains(key))
+        own[key] = value;
+      else if (key == "keywords" || key == "unsupported")
+        append_missing(own[key], value);
+      else if (key == "rules" || key == "blocks")
+        own[key].insert(own[key].end(), value.begin(), value.end());
     }
-    return part;
+    return own;
+  }
+
+  static void append_missing(Json& own, const Json& part) {
+    for (const auto& [name, keyword] : part.items())
+      if (!own.contains(name)) own[name] = keyword;
   }
 
   /// `unsupported:` has the shape of `keywords:`; comma knows these keywords and does not act on them yet.
@@ -210,10 +228,14 @@ class PageBuilder {
     if (!json.is_object()) refuse(where, "a mapping with type and doc is expected");
     json = level(std::move(json), where);
     if (json.contains("unsupported_words")) add_unsupported_words(json);
-    allow(json, where, {"type",  "doc",      "unit",     "aliases",   "min",      "max",     "words",    "above", "at_least",
-                        "below", "at_most", "required", "supported", "no_effect", "default", "keywords", "rules", "blocks"});
+    allow(json, where,
+          {"type", "doc", "unit", "aliases", "min", "max", "words", "above", "at_least", "below", "at_most", "required",
+           "supported", "no_effect", "default", "keywords", "rules", "blocks"});
     demand(json, where, {"type", "doc"});
-    if (json.contains("max") && json["max"].is_string() && json["max"] != "many") refuse(where, "max is a number or 'many'");
+    if (json["type"] == "factor" && !json.contains("keywords") && !json.contains("blocks"))
+      refuse(where, "a factor lists its keywords ('keywords: {}' when it has none)");
+    if (json.contains("max") && json["max"].is_string() && json["max"] != "many")
+      refuse(where, "max is a number or 'many'");
     if (json.contains("words")) check_words(json["words"], where);
     return json;
   }
@@ -241,7 +263,7 @@ class PageBuilder {
   void check_rule(const Json& rule, const std::string& where) const {
     if (!rule.is_object() || rule.size() != 1 || !rule.begin()->is_array())
       refuse(where, "a rule is one key with the list of its keywords");
-    if (!rule_named(rule.items().begin().key())) refuse(where, fmt::format("no rule is called '{}'", rule.items().begin().key()));
+    if (!rule_named(rule.begin().key())) refuse(where, fmt::format("no rule is called '{}'", rule.begin().key()));
   }
 
   std::string path_;
@@ -290,7 +312,8 @@ void CompiledCatalogue::add_page(const std::string& yaml, const std::string& pat
 
 CompiledCatalogue CompiledCatalogue::from_folder(const std::string& folder) {
   SharedParts shared;
-  for (const auto& path : yaml_files(std::filesystem::path(folder) / "shared")) shared[path.stem().string()] = text_of(path);
+  for (const auto& path : yaml_files(std::filesystem::path(folder) / "shared"))
+    shared[path.stem().string()] = text_of(path);
   CompiledCatalogue catalogue;
   for (const auto& path : yaml_files(folder)) {
     if (path.stem() == "concept_types")

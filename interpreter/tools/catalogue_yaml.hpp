@@ -1,5 +1,5 @@
 // The catalogue as people write it: YAML pages -> the JSON that the program embeds. Used by the build and by tests; the
-// program itself never reads YAML. docs/catalogue.md describes the format.
+// program itself never reads YAML. commands/catalogue/README.md describes the format.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 /// Parts that several pages share: name (`use: solveur`) -> YAML text.
 using SharedParts = std::map<std::string, std::string>;
 
-/// One page as JSON. `path` names it in messages. Throws std::runtime_error "path:line: what is wrong" on YAML that does
-/// not parse and on keys that the format does not have.
+/// One page as JSON. `path` names it in messages. Throws std::runtime_error "path:line: what is wrong" on YAML that
+/// does not parse and on keys that the format does not have.
 Json page_from_yaml(const std::string& yaml, const std::string& path, const SharedParts& shared = {});
 
 /// The list of concept types: name -> {doc, is_a}.

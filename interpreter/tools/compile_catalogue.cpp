@@ -42,7 +42,9 @@ void write_source(const std::string& path, const std::vector<CatalogueBlob>& blo
   out.print("\nconst interpreter::CatalogueBlob pages[] = {{\n");
   for (std::size_t i = 0; i < blobs.size(); ++i) out.print("    {{\"{}\", page_{}}},\n", blobs[i].name, i);
   out.print("}};\n\n}}  // namespace\n\n");
-  out.print("std::span<const interpreter::CatalogueBlob> catalogue_blobs() {{ return pages; }}\n\n}}  // namespace comma::commands\n");
+  out.print(
+      "std::span<const interpreter::CatalogueBlob> catalogue_blobs() {{ return pages; }}\n\n}}  // namespace "
+      "comma::commands\n");
 }
 
 }  // namespace

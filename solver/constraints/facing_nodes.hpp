@@ -41,8 +41,9 @@ struct FacingTerm {
 };
 
 /// For each pair: the terms at its first node plus those at its second equal `value` (or the function, at the first
-/// node). `first_normals` and `second_normals` are looked into only where a term asks for them; Error `no-normal` names
-/// a node without.
+/// node). Each side has its own normals, which point away from each other where two skins face: u1.n1 + u2.n2 = 0 lets
+/// neither open nor close. `first_normals` and `second_normals` are looked into only where a term asks for them; Error
+/// `no-normal` names a node without.
 std::vector<LinearRelation> facing_relations(const Mesh& mesh, std::span<const NodePair> pairs,
                                              std::span<const FacingTerm> first, std::span<const FacingTerm> second,
                                              const std::map<int, Eigen::Vector3d>& first_normals,

@@ -32,7 +32,7 @@ struct ContactZone {
   std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
   std::vector<int> excluded_slave_nodes;   ///< SANS_GROUP_NO
   double projection_tolerance = 0.5;       ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
-  double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the master are not paired; < 0: no limit
+  double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
 };
 
 struct ContactDefinition {

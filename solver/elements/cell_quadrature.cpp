@@ -17,17 +17,25 @@ Eigen::Vector3d CellPoint::normal(int dimension) const {
   return {tangents(1, 0), -tangents(0, 0), 0.0};
 }
 
-CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample) {
+NodeColumns node_places(const Mesh& mesh, int cell) {
   const auto nodes = mesh.cell(cell);
-  CellPoint point;
+  NodeColumns places(3, static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const auto row = static_cast<Eigen::Index>(a);
-    const Eigen::Map<const Eigen::Vector3d> node(mesh.nodes[nodes[a]].data());
-    point.at += sample.values[row] * node;
-    for (Eigen::Index j = 0; j < sample.derivatives.cols(); ++j)
-      point.tangents.col(j) += sample.derivatives(row, j) * node;
+    places.col(static_cast<Eigen::Index>(a)) = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[a]].data());
   }
+  return places;
+}
+
+CellPoint locate(const NodeColumns& places, const CellSample& sample) {
+  CellPoint point;
+  point.at = places.lazyProduct(sample.values);
+  const auto directions = sample.derivatives.cols();
+  point.tangents.leftCols(directions) = places.lazyProduct(sample.derivatives);
   return point;
+}
+
+CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample) {
+  return locate(node_places(mesh, cell), sample);
 }
 
 const std::vector<CellSample>& CellSamples::of(CellType type, CellRole role) {

@@ -34,6 +34,11 @@ struct CellPoint {
   Eigen::Vector3d normal(int dimension) const;
 };
 
+/// Something for each node of a cell, one a column; without allocation.
+using NodeColumns = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, max_nodes>;
+
+NodeColumns node_places(const Mesh& mesh, int cell);
+CellPoint locate(const NodeColumns& places, const CellSample& sample);
 CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample);
 
 /// The samples of each cell type, made when first asked for.

@@ -111,13 +111,14 @@ class CellIntegrator {
   template <class F>
   void integrate(int cell, CellRole role, F&& density) {
     const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
-    const auto nodes = mesh_.cell(cell);
+    const NodeColumns places = node_places(mesh_, cell);
+    NodeColumns nodal = NodeColumns::Zero(3, places.cols());
     for (const CellSample& sample : samples_.of(mesh_.cell_types[cell], role)) {
-      const CellPoint point = locate(mesh_, cell, sample);
+      const CellPoint point = locate(places, sample);
       const Eigen::Vector3d force = (axisymmetric ? point.at[0] : 1.0) * sample.weight * density(point);
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        add_to_node(nodes[a], sample.values[static_cast<Eigen::Index>(a)] * force);
+      nodal += force.lazyProduct(sample.values.transpose());
     }
+    for (Eigen::Index a = 0; a < nodal.cols(); ++a) add_to_node(mesh_.cell(cell)[a], nodal.col(a));
   }
 
   void add_inertia(std::span<const int> cells, const AccelerationField& field, double factor) {

@@ -29,16 +29,17 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
   const Mesh& mesh = *input.model.mesh;
   const CellType type = mesh.cell_types[cell];
   const bool axisymmetric = is_axisymmetric(input.model.formulations[cell]);
-  const auto nodes = mesh.cell(cell);
   const int components = dimension(type);
+  const NodeColumns places = node_places(mesh, cell);
+  NodeColumns nodal = NodeColumns::Zero(3, places.cols());
   for (const CellSample& sample : samples.of(type, CellRole::body)) {
-    const CellPoint point = locate(mesh, cell, sample);
+    const CellPoint point = locate(places, sample);
     const double mass = per_volume * sample.weight * point.measure(components) * (axisymmetric ? point.at[0] : 1.0);
-    const Eigen::Vector3d force = mass * field.at(point.at);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const int first = input.dofs.dof(nodes[a], Component::dx);
-      for (int c = 0; c < components; ++c) forces[first + c] += sample.values[static_cast<Eigen::Index>(a)] * force[c];
-    }
+    nodal += (mass * field.at(point.at)).lazyProduct(sample.values.transpose());
+  }
+  for (Eigen::Index a = 0; a < nodal.cols(); ++a) {
+    const int first = input.dofs.dof(mesh.cell(cell)[a], Component::dx);
+    for (int c = 0; c < components; ++c) forces[first + c] += nodal(c, a);
   }
 }
 

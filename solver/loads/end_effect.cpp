@@ -35,11 +35,15 @@ EdgesAt edges_at_nodes(const Mesh& mesh, std::span<const int> rim) {
 }
 
 /// Twice the vector area that an edge sweeps from `origin`, in the sense of its own nodes.
-Eigen::Vector3d swept(const Mesh& mesh, int cell, const Eigen::Vector3d& origin, CellSamples& samples) {
+Eigen::Vector3d swept(const Mesh& mesh, int cell, const Eigen::Vector3d& origin) {
+  const auto nodes = mesh.cell(cell);
+  std::vector<int> path = {nodes[0]};
+  path.insert(path.end(), nodes.begin() + 2, nodes.end());
+  path.push_back(nodes[1]);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::skin)) {
-    const CellPoint point = locate(mesh, cell, sample);
-    sum += sample.weight * (point.at - origin).cross(point.tangents.col(0));
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Eigen::Vector3d from = Eigen::Vector3d(mesh.nodes[path[k - 1]].data()) - origin;
+    sum += from.cross(Eigen::Vector3d(mesh.nodes[path[k]].data()) - origin);
   }
   return sum;
 }
@@ -49,7 +53,6 @@ Eigen::Vector3d swept(const Mesh& mesh, int cell, const Eigen::Vector3d& origin,
 double enclosed_area(const Mesh& mesh, std::span<const int> rim) {
   const EdgesAt edges = edges_at_nodes(mesh, rim);
   std::set<int> left(rim.begin(), rim.end());
-  CellSamples samples;
   double area = 0.0;
   while (!left.empty()) {
     int cell = *left.begin();
@@ -58,7 +61,7 @@ double enclosed_area(const Mesh& mesh, std::span<const int> rim) {
     Eigen::Vector3d twice = Eigen::Vector3d::Zero();
     while (left.erase(cell) > 0) {
       const bool forward = mesh.cell(cell)[0] == from;
-      twice += (forward ? 1.0 : -1.0) * swept(mesh, cell, origin, samples);
+      twice += (forward ? 1.0 : -1.0) * swept(mesh, cell, origin);
       from = mesh.cell(cell)[forward ? 1 : 0];
       const auto& here = edges.at(from);
       cell = here[0] == cell ? here[1] : here[0];

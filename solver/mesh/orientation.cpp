@@ -92,6 +92,13 @@ CellFacet support_of(const Mesh& mesh, int cell, const FacetMap& facets) {
   return found->second.front();
 }
 
+/// Whether the normal of a skin cell points into the cell behind it.
+bool points_inwards(const Mesh& mesh, int cell, const CellFacet& behind) {
+  const int corners = corner_count(mesh.cell_types[cell]);
+  const bool as_listed = same_sense(mesh.cell(cell), nodes_of_facet(mesh, behind), corners);
+  return as_listed != runs_in_reference_sense(mesh, behind.cell);
+}
+
 }  // namespace
 
 int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
@@ -99,10 +106,8 @@ int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> supp
   const FacetMap facets = map_facets(mesh, support.empty() ? std::span<const int>(all) : support);
   int turned = 0;
   for (const int cell : skin) {
-    const CellFacet behind = support_of(mesh, cell, facets);
+    if (!points_inwards(mesh, cell, support_of(mesh, cell, facets))) continue;
     const CellType type = mesh.cell_types[cell];
-    const bool as_listed = same_sense(mesh.cell(cell), nodes_of_facet(mesh, behind), corner_count(type));
-    if (as_listed == runs_in_reference_sense(mesh, behind.cell)) continue;
     const auto nodes =
         std::span(mesh.connectivity)
             .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]), static_cast<std::size_t>(node_count(type)));
@@ -110,6 +115,17 @@ int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> supp
     ++turned;
   }
   return turned;
+}
+
+std::vector<int> inward_skin(const Mesh& mesh, std::span<const int> skin) {
+  const FacetMap facets = map_facets(mesh, default_support(mesh, skin));
+  std::vector<int> inward;
+  for (const int cell : skin) {
+    const auto found = facets.find(facet_key(mesh, cell));
+    if (found == facets.end() || found->second.size() != 1) continue;
+    if (points_inwards(mesh, cell, found->second.front())) inward.push_back(cell);
+  }
+  return inward;
 }
 
 }  // namespace comma::solver

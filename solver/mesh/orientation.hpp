@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "solver/mesh/mesh.hpp"
 
@@ -12,5 +13,9 @@ namespace comma::solver {
 /// `skin-without-support` naming a cell that bounds nothing, `skin-inside-body` one that lies between two cells of the
 /// support.
 int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support = {});
+
+/// Those of the skin cells whose normals point into the body behind them. Cells that bound no body, or lie between two, have
+/// no outer side and are left out.
+std::vector<int> inward_skin(const Mesh& mesh, std::span<const int> skin);
 
 }  // namespace comma::solver

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "../elements/sample_meshes.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/error.hpp"
 
 using namespace comma::solver;

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-#include "../mesh/reference_cells.hpp"
+#include "solver/tests/mesh/reference_cells.hpp"
 #include "solver/error.hpp"
 #include "temporary_file.hpp"
 

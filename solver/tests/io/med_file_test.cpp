@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "../mesh/reference_cells.hpp"
+#include "solver/tests/mesh/reference_cells.hpp"
 #include "solver/error.hpp"
 #include "solver/io/med_library.hpp"
 #include "solver/io/med_localization.hpp"

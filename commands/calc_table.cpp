@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "commands/commands.hpp"
+#include "commands/table_filter.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using interpreter::Value;
+
+std::vector<int> columns_of(const Table& table, const Keywords& action) {
+  std::vector<int> columns;
+  for (const std::string& name : action.texts("NOM_PARA")) columns.push_back(column_of(table, name, action));
+  return columns;
+}
+
+Table with_columns(const Table& table, const std::vector<int>& columns) {
+  Table part;
+  part.title = table.title;
+  part.rows.resize(table.rows.size());
+  for (const int column : columns) {
+    part.columns.push_back(table.columns[static_cast<std::size_t>(column)]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][static_cast<std::size_t>(column)]);
+  }
+  return part;
+}
+
+Table without_columns(const Table& table, const std::vector<int>& columns) {
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(table.columns.size()); ++i) {
+    if (std::find(columns.begin(), columns.end(), i) == columns.end()) kept.push_back(i);
+  }
+  return with_columns(table, kept);
+}
+
+void rename(Table& table, const Keywords& action) {
+  const auto names = action.texts("NOM_PARA");
+  const int column = column_of(table, names.front(), action);
+  if (table.column(names.back()) >= 0) {
+    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + names.back(), action.span_of("NOM_PARA"));
+  }
+  table.columns[static_cast<std::size_t>(column)] = names.back();
+}
+
+/// Numbers before texts, empty cells last, whatever the order of each kind.
+int rank(const Cell& cell) { return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0; }
+
+double number_of(const Cell& cell) {
+  const auto* integer = std::get_if<std::int64_t>(&cell);
+  return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(cell);
+}
+
+bool less(const Cell& a, const Cell& b) {
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
+  if (rank(a) == 2) return false;
+  if (rank(a) == 1) return std::get<std::string>(a) < std::get<std::string>(b);
+  return number_of(a) < number_of(b);
+}
+
+void sort_rows(Table& table, const Keywords& action) {
+  const auto columns = columns_of(table, action);
+  const bool upwards = action.text("ORDRE") == "CROISSANT";
+  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
+    for (const int column : columns) {
+      const Cell &left = a[static_cast<std::size_t>(column)], &right = b[static_cast<std::size_t>(column)];
+      if (less(left, right)) return upwards;
+      if (less(right, left)) return !upwards;
+    }
+    return false;
+  });
+}
+
+Value value_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return Value(*text);
+  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return Value(*integer);
+  return Value(std::get<double>(cell));
+}
+
+Cell cell_of(const Value& value, const Keywords& action) {
+  if (value.is_integer()) return value.as_integer();
+  if (value.is_bool()) return static_cast<std::int64_t>(value.as_bool());
+  if (value.is_number()) return value.as_real();
+  if (value.is_text()) return value.as_text();
+  throw DiagnosticError("wrong-type", "CALC_TABLE: the formula gives " + value.repr() + ", which no cell holds", action.span_of("FORMULE"));
+}
+
+// A row in which a variable of the formula is empty gets an empty cell.
+void compute(Table& table, const Keywords& action) {
+  const auto& function = action.data<FunctionConcept>("FORMULE");
+  std::vector<int> sources;
+  for (const std::string& name : function.parameters()) sources.push_back(column_of(table, name, action, "FORMULE"));
+  const int target = table.add_column(action.text("NOM_PARA"));
+  for (auto& row : table.rows) {
+    std::vector<Value> arguments;
+    for (const int source : sources) {
+      const Cell& cell = row[static_cast<std::size_t>(source)];
+      if (!std::holds_alternative<std::monostate>(cell)) arguments.push_back(value_of(cell));
+    }
+    Cell& result = row[static_cast<std::size_t>(target)];
+    result = Cell();
+    if (arguments.size() == sources.size()) result = cell_of(function.call(arguments), action);
+  }
+}
+
+double reduction(const std::string& type, const std::vector<double>& numbers) {
+  if (type == "MAXI") return *std::max_element(numbers.begin(), numbers.end());
+  if (type == "MINI") return *std::min_element(numbers.begin(), numbers.end());
+  const double sum = std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  return type == "SOMM" ? sum : sum / static_cast<double>(numbers.size());
+}
+
+Table reduce(const Table& table, const Keywords& action) {
+  Table reduced;
+  reduced.title = table.title;
+  reduced.columns = {"TYPE_CALCUL"};
+  const auto columns = columns_of(table, action);
+  for (const std::string& name : action.texts("NOM_PARA")) reduced.columns.push_back(name);
+  for (const std::string& type : action.texts("TYPE_CALCUL")) {
+    auto& row = reduced.rows.emplace_back();
+    row.emplace_back(type);
+    for (const int column : columns) {
+      const auto numbers = numbers_in(table, column, action);
+      Cell& cell = row.emplace_back();
+      if (!numbers.empty()) cell = reduction(type, numbers);
+    }
+  }
+  return reduced;
+}
+
+// Reals that went through different computations still name one place or one instant.
+constexpr double key_precision = 1e-9;
+
+bool same_key(const Cell& a, const Cell& b) {
+  if (rank(a) != rank(b)) return false;
+  if (rank(a) != 0) return a == b;
+  const double x = number_of(a), y = number_of(b);
+  return std::abs(x - y) <= key_precision * std::max(std::abs(x), std::abs(y));
+}
+
+/// COMB: the rows of two tables put together where the key columns agree.
+class Join {
+ public:
+  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left) {
+    std::vector<std::string> keys = action.texts("NOM_PARA");
+    if (keys.empty()) {
+      std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys), [&](const auto& name) { return right.column(name) >= 0; });
+    }
+    if (keys.empty()) throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common", action.span_of("TABLE"));
+    for (const std::string& name : keys) keys_.emplace_back(column_of(left, name, action), column_of(right, name, action));
+    for (const std::string& name : right.columns) {
+      const bool key = std::find(keys.begin(), keys.end(), name) != keys.end();
+      if (!key && left.column(name) >= 0) {
+        throw DiagnosticError("unsupported", fmt::format("CALC_TABLE: both tables have a column {}, which is not compared", name),
+                              action.span_of("TABLE"), "rename it in one of them, or add it to NOM_PARA");
+      }
+    }
+    for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
+  }
+
+  Table run(bool restricted) {
+    std::vector<bool> used(right_.rows.size(), false);
+    std::vector<std::vector<Cell>> rows;
+    for (auto& row : result_.rows) {
+      bool matched = false;
+      for (std::size_t i = 0; i < right_.rows.size() && !matched; ++i) {
+        matched = !used[i] && agree(row, right_.rows[i]);
+        if (!matched) continue;
+        fill(row, i);
+        used[i] = true;
+      }
+      if (matched || !restricted) rows.push_back(std::move(row));
+    }
+    for (std::size_t i = 0; i < right_.rows.size() && !restricted; ++i) {
+      if (!used[i]) fill(rows.emplace_back(result_.columns.size()), i);
+    }
+    result_.rows = std::move(rows);
+    return std::move(result_);
+  }
+
+ private:
+  bool agree(const std::vector<Cell>& left, const std::vector<Cell>& right) const {
+    return std::all_of(keys_.begin(), keys_.end(), [&](const auto& key) {
+      return same_key(left[static_cast<std::size_t>(key.first)], right[static_cast<std::size_t>(key.second)]);
+    });
+  }
+
+  void fill(std::vector<Cell>& row, std::size_t source) const {
+    for (std::size_t i = 0; i < targets_.size(); ++i) row[static_cast<std::size_t>(targets_[i])] = right_.rows[source][i];
+  }
+
+  const Table& right_;
+  Table result_;
+  std::vector<std::pair<int, int>> keys_;
+  std::vector<int> targets_;
+};
+
+Table acted(Table table, const Keywords& action) {
+  const std::string& operation = action.text("OPERATION");
+  if (operation == "FILTRE") return filtered(table, action);
+  if (operation == "EXTR") return with_columns(table, columns_of(table, action));
+  if (operation == "SUPPRIME") return without_columns(table, columns_of(table, action));
+  if (operation == "CALCUL") return reduce(table, action);
+  if (operation == "COMB") return Join(table, action.data<TableConcept>("TABLE").table, action).run(action.text("RESTREINT") == "OUI");
+  if (operation == "RENOMME") rename(table, action);
+  if (operation == "TRI") sort_rows(table, action);
+  if (operation == "OPER") compute(table, action);
+  return table;
+}
+
+}  // namespace
+
+Product calc_table(const Call& call, Context&) {
+  auto product = std::make_shared<TableConcept>();
+  product->table = call.data<TableConcept>("TABLE").table;
+  for (const Keywords& action : call.factors("ACTION")) product->table = acted(std::move(product->table), action);
+  if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,20 @@
+// What the commands that make tabulated functions share: the words for interpolation and for what lies beyond the ends.
+#pragma once
+
+#include <string>
+
+#include "interpreter/call.hpp"
+#include "solver/functions/function.hpp"
+
+namespace comma::commands {
+
+solver::Extension extension_named(const std::string& word);  ///< CONSTANT, LINEAIRE, EXCLU
+solver::Scale scale_named(const std::string& word);          ///< LIN, LOG
+
+/// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function.
+void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function);
+
+/// Throws DiagnosticError `wrong-order` at `keyword` when the abscissas do not rise.
+void check_rising(const interpreter::Keywords& keywords, const std::string& keyword, const std::vector<double>& values);
+
+}  // namespace comma::commands

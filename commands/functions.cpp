@@ -1,0 +1,153 @@
+#include "commands/functions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
+
+namespace comma::commands {
+
+using interpreter::ConceptPtr;
+using interpreter::Diagnostic;
+using interpreter::DiagnosticError;
+using interpreter::Span;
+using interpreter::Value;
+
+namespace {
+
+std::shared_ptr<const FunctionConcept> function_behind(const ConceptPtr& handle) {
+  interpreter::data_of<FunctionConcept>(handle);  // says what is wrong when it is none
+  return std::dynamic_pointer_cast<const FunctionConcept>(handle->data);
+}
+
+/// For each parameter of the function, its place among `known`.
+std::vector<std::size_t> places_of(const FunctionConcept& function, const std::string& name,
+                                   const std::vector<std::string>& known, const Span& span) {
+  std::vector<std::size_t> places;
+  for (const std::string& parameter : function.parameters()) {
+    const auto found = std::find(known.begin(), known.end(), parameter);
+    if (found == known.end()) {
+      throw DiagnosticError("unknown-parameter", fmt::format("{} depends on {}, which has no value here", name, parameter), span,
+                            fmt::format("here a function may depend on {}", fmt::join(known, ", ")));
+    }
+    places.push_back(static_cast<std::size_t>(found - known.begin()));
+  }
+  return places;
+}
+
+const std::vector<std::string>& place_and_time() {
+  static const std::vector<std::string> names = {"X", "Y", "Z", "INST"};
+  return names;
+}
+
+/// The weight of the upper of the two values around `at`, on the scale of the parameter.
+double weight(solver::Scale scale, double lower, double upper, double at) {
+  if (scale == solver::Scale::linear) return (at - lower) / (upper - lower);
+  if (!(lower > 0.0 && at > 0.0)) {
+    throw solver::Error("out-of-function", fmt::format("a function is interpolated on a logarithmic scale at {}, which is not positive", at));
+  }
+  return std::log(at / lower) / std::log(upper / lower);
+}
+
+}  // namespace
+
+Value FunctionConcept::call(const std::vector<Value>& arguments) const {
+  try {
+    return ConceptData::call(arguments);
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), error.what(), {}, error.hint());
+  }
+}
+
+TabulatedConcept::TabulatedConcept(solver::TabulatedFunction function)
+    : function_(std::move(function)), parameters_{function_.parameter} {}
+
+FormulaConcept::FormulaConcept(interpreter::Formula formula, Span span) : formula_(std::move(formula)), span_(std::move(span)) {}
+
+void FormulaConcept::fail(const DiagnosticError& error, const std::string& arguments) const {
+  Diagnostic found = error.diagnostic();
+  found.message = fmt::format("the formula {} at {}: {}", formula_.text(), arguments, found.message);
+  found.span = span_;
+  throw DiagnosticError(std::move(found));
+}
+
+double FormulaConcept::evaluate(std::span<const double> at) const {
+  try {
+    return formula_.evaluate(at);
+  } catch (const DiagnosticError& error) {
+    std::vector<std::string> shown;
+    for (std::size_t i = 0; i < at.size(); ++i) shown.push_back(fmt::format("{}={:g}", formula_.parameters()[i], at[i]));
+    fail(error, fmt::format("{}", fmt::join(shown, ", ")));
+  }
+}
+
+Value FormulaConcept::call(const std::vector<Value>& arguments) const {
+  const bool numbers = std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
+  if (numbers || arguments.size() != parameters().size()) return FunctionConcept::call(arguments);
+  try {
+    return formula_.evaluate_values(arguments);
+  } catch (const DiagnosticError& error) {
+    fail(error, fmt::format("{}", fmt::join(parameters(), ", ")));
+  }
+}
+
+SurfaceConcept::SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows)
+    : edges_(std::move(edges)), rows_(std::move(rows)), parameters_{edges_.parameter, rows_.front()->parameter} {}
+
+double SurfaceConcept::evaluate(std::span<const double> at) const {
+  const auto& values = edges_.x;
+  const bool left = at[0] < values.front(), right = at[0] > values.back();
+  if (left || right) {
+    const solver::Extension extension = left ? edges_.left : edges_.right;
+    if (extension == solver::Extension::excluded || values.size() < 2) {
+      if (extension == solver::Extension::constant) return (*rows_.front())(at[1]);
+      throw solver::Error("out-of-function",
+                          fmt::format("{} = {} lies outside the function, which is defined from {} to {}", edges_.parameter, at[0],
+                                      values.front(), values.back()),
+                          fmt::format("extend the function on the {}", left ? "left" : "right"));
+    }
+    if (extension == solver::Extension::constant) return (*(left ? rows_.front() : rows_.back()))(at[1]);
+  }
+  const auto above = std::upper_bound(values.begin() + 1, values.end() - (values.size() > 1 ? 1 : 0), at[0]);
+  if (values.size() == 1) return (*rows_.front())(at[1]);
+  const auto upper = static_cast<std::size_t>(above - values.begin());
+  const double share = weight(edges_.x_scale, values[upper - 1], values[upper], at[0]);
+  if (share == 0.0) return (*rows_[upper - 1])(at[1]);
+  if (share == 1.0) return (*rows_[upper])(at[1]);
+  const double low = (*rows_[upper - 1])(at[1]), high = (*rows_[upper])(at[1]);
+  return low + share * (high - low);
+}
+
+solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {
+  auto function = function_behind(handle);
+  places_of(*function, handle->name, {"INST"}, span);
+  return [function = std::move(function)](double time) { return function->evaluate({&time, 1}); };
+}
+
+solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) {
+  auto function = function_behind(handle);
+  const auto places = places_of(*function, handle->name, place_and_time(), span);
+  std::array<std::size_t, 4> order{};
+  std::copy(places.begin(), places.end(), order.begin());
+  const std::size_t count = places.size();
+  return [function = std::move(function), order, count](const solver::Point& at, double time) {
+    const std::array<double, 4> known = {at[0], at[1], at[2], time};
+    std::array<double, 4> arguments{};
+    for (std::size_t i = 0; i < count; ++i) arguments[i] = known[order[i]];
+    return function->evaluate({arguments.data(), count});
+  };
+}
+
+double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names, std::span<const double> values,
+                      const Span& span) {
+  std::vector<double> arguments;
+  for (const std::size_t place : places_of(function, "the function", names, span)) arguments.push_back(values[place]);
+  return function.evaluate(arguments);
+}
+
+}  // namespace comma::commands

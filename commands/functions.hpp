@@ -1,0 +1,90 @@
+// Functions as concepts: tables, constants, formulas, functions of two parameters, all behind one interface; and how the
+// solver sees them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "interpreter/call.hpp"
+#include "interpreter/concept.hpp"
+#include "interpreter/formula.hpp"
+#include "solver/functions/function.hpp"
+
+namespace comma::commands {
+
+/// A real function of named parameters: what every keyword of type fonction_any takes. `evaluate` throws solver::Error or
+/// DiagnosticError where the function is not defined.
+struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
+  const RealFunction* real_function() const override { return this; }
+  /// With numbers; an error of the solver becomes one of the language.
+  interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
+  /// The table behind it, or null when it has none.
+  virtual const solver::TabulatedFunction* table() const { return nullptr; }
+};
+
+/// DEFI_FONCTION, and the commands that tabulate.
+class TabulatedConcept : public FunctionConcept {
+ public:
+  explicit TabulatedConcept(solver::TabulatedFunction function);
+  const std::vector<std::string>& parameters() const override { return parameters_; }
+  double evaluate(std::span<const double> at) const override { return function_(at[0]); }
+  const solver::TabulatedFunction* table() const override { return &function_; }
+
+ private:
+  solver::TabulatedFunction function_;
+  std::vector<std::string> parameters_;
+};
+
+/// DEFI_CONSTANTE: whatever the parameter.
+class ConstantConcept : public FunctionConcept {
+ public:
+  explicit ConstantConcept(double value) : value_(value) {}
+  const std::vector<std::string>& parameters() const override { return parameters_; }
+  double evaluate(std::span<const double>) const override { return value_; }
+
+ private:
+  double value_;
+  std::vector<std::string> parameters_;
+};
+
+/// FORMULE. Its errors say where it was written, and for which arguments it failed.
+class FormulaConcept : public FunctionConcept {
+ public:
+  FormulaConcept(interpreter::Formula formula, interpreter::Span span);
+  const std::vector<std::string>& parameters() const override { return formula_.parameters(); }
+  double evaluate(std::span<const double> at) const override;
+  /// Also with lists, texts ... when the expression is made for them.
+  interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
+
+ private:
+  [[noreturn]] void fail(const interpreter::DiagnosticError& error, const std::string& arguments) const;
+
+  interpreter::Formula formula_;
+  interpreter::Span span_;
+};
+
+/// DEFI_NAPPE: one table for each value of a first parameter, and between two of them the interpolation of their values
+/// (U4.31.03). `edges` holds the values, rising, and how the function goes on beyond them; its ordinates are not used.
+class SurfaceConcept : public FunctionConcept {
+ public:
+  SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows);
+  const std::vector<std::string>& parameters() const override { return parameters_; }
+  double evaluate(std::span<const double> at) const override;
+
+ private:
+  solver::TabulatedFunction edges_;
+  std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows_;
+  std::vector<std::string> parameters_;
+};
+
+/// The function of time behind a concept. Throws DiagnosticError `unknown-parameter` at `span` when it depends on anything
+/// but INST, naming it. The function keeps the concept's data alive.
+solver::TimeFunction time_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
+/// The same for place and time: X, Y, Z and INST.
+solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
+/// The values of parameters by name. Throws DiagnosticError `unknown-parameter` when one is missing.
+double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names, std::span<const double> values,
+                      const interpreter::Span& span);
+
+}  // namespace comma::commands

@@ -1,0 +1,295 @@
+#include "commands/name_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "commands/concepts.hpp"
+#include "commands/known_names.hpp"
+
+namespace comma::commands {
+
+using namespace interpreter;
+
+namespace {
+
+/// The levels that may stand at one place of a call: a factor's keywords can depend on conditions.
+using Levels = std::vector<const LevelPage*>;
+
+/// The concepts around a keyword: those of its factor, then those of the call.
+using Reach = std::vector<const Concept*>;
+
+void collect_pages(const LevelPage& level, std::string_view name, std::vector<const KeywordPage*>& found) {
+  for (const KeywordPage& keyword : level.keywords) {
+    if (keyword.name == name) found.push_back(&keyword);
+  }
+  for (const BlockPage& block : level.blocks) collect_pages(block.inside, name, found);
+}
+
+std::vector<const KeywordPage*> pages_of(const Levels& levels, std::string_view name) {
+  std::vector<const KeywordPage*> found;
+  for (const LevelPage* level : levels) collect_pages(*level, name, found);
+  return found;
+}
+
+void collect_concepts(const Value& value, Reach& reach) {
+  if (value.is_concept()) reach.push_back(value.as_concept().get());
+  if (!value.is_sequence()) return;
+  for (const Value& item : value.items()) collect_concepts(item, reach);
+}
+
+/// Everything that reading these concepts reads.
+std::set<const Concept*> closure_of(const Reach& reach) {
+  std::set<const Concept*> closure;
+  std::vector<const Concept*> open(reach.begin(), reach.end());
+  while (!open.empty()) {
+    const Concept* handle = open.back();
+    open.pop_back();
+    if (!closure.insert(handle).second) continue;
+    for (const ConceptPtr& behind : handle->reads_through) open.push_back(behind.get());
+  }
+  return closure;
+}
+
+std::vector<std::string> keys_of(const std::map<std::string, std::vector<int>, std::less<>>& groups) {
+  std::vector<std::string> names;
+  for (const auto& [name, members] : groups) names.push_back(name);
+  return names;
+}
+
+std::string hint_for(const std::string& name, const std::vector<std::string>& known, std::string_view what) {
+  constexpr std::size_t most_listed = 12;
+  const std::string near = nearest(name, known);
+  if (!near.empty()) return fmt::format("did you mean {}?", near);
+  if (known.empty()) return fmt::format("there is no {} at all", what);
+  if (known.size() > most_listed) return "";
+  return fmt::format("there is {}", fmt::join(known, ", "));
+}
+
+/// The texts of a value, one or several.
+std::vector<std::string> texts_of(const Value& value) {
+  std::vector<std::string> texts;
+  if (value.is_text()) texts.push_back(value.as_text());
+  if (value.is_sequence()) {
+    for (const Value& item : value.items()) {
+      if (item.is_text()) texts.push_back(item.as_text());
+    }
+  }
+  return texts;
+}
+
+class NameCheck {
+ public:
+  NameCheck(const CommandNode& node, const CommandGraph& graph, const Catalogue& catalogue, Diagnostics& diagnostics)
+      : node_(node), graph_(graph), catalogue_(catalogue), diagnostics_(diagnostics) {}
+
+  bool run() {
+    collect_own_names(node_.call);
+    check_level(node_.call, {&catalogue_.page(node_.call.command).inside}, {}, node_.call.command, {});
+    return right_;
+  }
+
+ private:
+  /// One keyword with what its names are looked up in.
+  struct Site {
+    const Keyword& keyword;
+    std::string label;
+    const Reach& reach;
+    const std::vector<std::string>& fields;  ///< NOM_CHAM beside it
+  };
+
+  /// A call may use the groups that it makes (DEFI_GROUP, CREA_MAILLAGE): what it gives names to is known to it.
+  void collect_own_names(const Keywords& keywords) {
+    for (const Keyword& keyword : keywords.items) {
+      if (keyword.name.starts_with("NOM")) {
+        for (std::string& name : texts_of(keyword.value)) own_names_.insert(std::move(name));
+      }
+      for (const Keywords& factor : keyword.factors) collect_own_names(factor);
+    }
+  }
+
+  void check_level(const Keywords& keywords, const Levels& levels, const Reach& outer, const std::string& label,
+                   const std::vector<std::string>& outer_fields) {
+    Reach reach = outer;
+    for (const Keyword& keyword : keywords.items) collect_concepts(keyword.value, reach);
+    const std::vector<std::string> fields = keywords.given("NOM_CHAM") ? texts_of(keywords.at("NOM_CHAM").value) : outer_fields;
+    for (const Keyword& keyword : keywords.items) {
+      if (!keyword.given) continue;
+      const auto pages = pages_of(levels, keyword.name);
+      const std::string name = label + "/" + keyword.name;
+      if (keyword.factors.empty()) {
+        check_value({keyword, name, reach, fields}, pages);
+        continue;
+      }
+      Levels inner;
+      for (const KeywordPage* page : pages) {
+        if (page->is_factor()) inner.push_back(&page->inside);
+      }
+      for (const Keywords& factor : keyword.factors) check_level(factor, inner, reach, name, fields);
+    }
+  }
+
+  void check_value(const Site& site, const std::vector<const KeywordPage*>& pages) {
+    std::set<Kind> kinds;
+    for (const KeywordPage* page : pages) {
+      if (!page->words.empty()) return;  // the syntax has judged it
+      for (const TypePage& type : page->types) kinds.insert(type.kind);
+    }
+    if (kinds.size() != 1) return;
+    switch (*kinds.begin()) {
+      case Kind::node_group: return check_groups(site, "node", &solver::Mesh::node_groups, "cell", &solver::Mesh::cell_groups);
+      case Kind::cell_group: return check_groups(site, "cell", &solver::Mesh::cell_groups, "node", &solver::Mesh::node_groups);
+      case Kind::node: return check_members(site, "node", &solver::Mesh::find_node);
+      case Kind::cell: return check_members(site, "cell", &solver::Mesh::find_cell);
+      case Kind::component: return check_components(site);
+      case Kind::field: return check_fields(site);
+      case Kind::parameter: return check_parameters(site);
+      default: return;
+    }
+  }
+
+  using Groups = std::map<std::string, std::vector<int>, std::less<>>;
+
+  void check_groups(const Site& site, std::string_view kind, Groups solver::Mesh::*groups, std::string_view other_kind,
+                    Groups solver::Mesh::*others) {
+    const auto meshes = meshes_of(site.reach);
+    if (meshes.empty()) return;
+    std::vector<std::string> known, known_others;
+    for (const solver::Mesh* mesh : meshes) {
+      std::ranges::move(keys_of(mesh->*groups), std::back_inserter(known));
+      std::ranges::move(keys_of(mesh->*others), std::back_inserter(known_others));
+    }
+    const auto exists = [&](const std::string& name) { return own_names_.contains(name) || std::ranges::find(known, name) != known.end(); };
+    const auto hint = [&](const std::string& name) {
+      const bool other = std::ranges::find(known_others, name) != known_others.end();
+      return other ? fmt::format("{} is a {} group of this mesh", name, other_kind) : hint_for(name, known, fmt::format("{} group", kind));
+    };
+    check_each(site, "unknown-group", fmt::format("the mesh has no {} group", kind), exists, hint);
+  }
+
+  void check_members(const Site& site, std::string_view kind, int (solver::Mesh::*find)(std::string_view) const) {
+    const auto meshes = meshes_of(site.reach);
+    if (meshes.empty()) return;
+    const auto exists = [&](const std::string& name) {
+      return std::ranges::any_of(meshes, [&](const solver::Mesh* mesh) { return (mesh->*find)(name) >= 0; });
+    };
+    check_each(site, fmt::format("unknown-{}", kind), fmt::format("the mesh has no {}", kind), exists, [](const std::string&) { return std::string(); });
+  }
+
+  void check_components(const Site& site) {
+    if (site.fields.empty()) return;
+    const auto models = models_of(site.reach);
+    std::vector<std::string> known;
+    for (const solver::Model* model : models) {
+      for (const std::string& field : site.fields) {
+        auto components = components_of_field(field, *model);
+        if (!components) return;
+        std::ranges::move(*components, std::back_inserter(known));
+      }
+    }
+    if (known.empty()) return;
+    std::ranges::sort(known);
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    const auto exists = [&](const std::string& name) { return has_component(known, name); };
+    const auto hint = [&](const std::string& name) { return hint_for(name, known, "component"); };
+    check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);
+  }
+
+  /// Only where it is certain whose fields are meant: those of a mechanical result.
+  void check_fields(const Site& site) {
+    if (!reads_a(site.reach, {"evol_noli", "evol_elas"})) return;
+    const auto hint = [](const std::string& name) { return hint_for(name, field_names(), "field"); };
+    check_each(site, "unknown-field", "there is no field", is_field_name, hint);
+  }
+
+  void check_parameters(const Site& site) {
+    const bool of_result = site.keyword.name == "PARA" || site.keyword.name == "NOM_PARA_RESU";
+    if (!of_result || !reads_a(site.reach, {"evol_noli"})) return;
+    const auto& known = result_parameters();
+    // Results have more parameters than those of the list: only a word that is nearly one of them is a mistake.
+    const auto exists = [&](const std::string& name) {
+      return std::ranges::find(known, name) != known.end() || nearest(name, known).empty();
+    };
+    const auto hint = [&](const std::string& name) { return hint_for(name, known, "parameter"); };
+    check_each(site, "unknown-parameter", "a result has no parameter", exists, hint);
+  }
+
+  /// Reports the first name of the value that does not exist, and how many more there are.
+  void check_each(const Site& site, std::string_view code, const std::string& finding, const std::function<bool(const std::string&)>& exists,
+                  const std::function<std::string(const std::string&)>& hint) {
+    std::vector<std::string> missing;
+    for (std::string& name : texts_of(site.keyword.value)) {
+      if (!exists(name) && std::ranges::find(missing, name) == missing.end()) missing.push_back(std::move(name));
+    }
+    if (missing.empty()) return;
+    right_ = false;
+    if (is_reported(site.keyword.value_span)) return;
+    diagnostics_.error(std::string(code), fmt::format("{}: {} {}", site.label, finding, fmt::join(missing, ", ")),
+                       site.keyword.value_span, hint(missing.front()));
+  }
+
+  /// A value in a loop is one mistake however often it is met.
+  bool is_reported(const Span& span) const {
+    return std::ranges::any_of(diagnostics_.items(), [&](const Diagnostic& item) {
+      return item.severity == Severity::error && item.span && span && item.span.file == span.file && item.span.begin == span.begin &&
+             item.span.end == span.end;
+    });
+  }
+
+  bool reads_a(const Reach& reach, std::initializer_list<std::string_view> types) const {
+    return std::ranges::any_of(reach, [&](const Concept* handle) { return std::ranges::find(types, handle->type) != types.end(); });
+  }
+
+  /// The meshes behind the concepts; none when one of them is not known for certain at this point of the file.
+  std::vector<const solver::Mesh*> meshes_of(const Reach& reach) const {
+    std::vector<const solver::Mesh*> meshes;
+    for (const Concept* handle : closure_of(reach)) {
+      if (handle->type != "maillage_sdaster") continue;
+      const auto* data = dynamic_cast<const MeshConcept*>(handle->data.get());
+      if (data == nullptr || !data->mesh || !is_up_to_date(*handle)) return {};
+      meshes.push_back(data->mesh.get());
+    }
+    return meshes;
+  }
+
+  std::vector<const solver::Model*> models_of(const Reach& reach) const {
+    std::vector<const solver::Model*> models;
+    for (const Concept* handle : closure_of(reach)) {
+      if (handle->type != "modele_sdaster") continue;
+      const auto* data = dynamic_cast<const ModelConcept*>(handle->data.get());
+      if (data == nullptr || !data->model || !is_up_to_date(*handle)) return {};
+      models.push_back(data->model.get());
+    }
+    return models;
+  }
+
+  /// Whether every call before this one that changes the concept has been run.
+  bool is_up_to_date(const Concept& handle) const {
+    for (const CommandNode& other : graph_.nodes()) {
+      if (other.id >= node_.id) break;
+      const bool changes_names = other.product.get() == &handle && other.call.command != "MODI_MAILLAGE";
+      if (changes_names && other.state != NodeState::done) return false;
+    }
+    return true;
+  }
+
+  const CommandNode& node_;
+  const CommandGraph& graph_;
+  const Catalogue& catalogue_;
+  Diagnostics& diagnostics_;
+  std::set<std::string, std::less<>> own_names_;
+  bool right_ = true;
+};
+
+}  // namespace
+
+bool check_names(const CommandNode& node, const CommandGraph& graph, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  return NameCheck(node, graph, catalogue, diagnostics).run();
+}
+
+}  // namespace comma::commands

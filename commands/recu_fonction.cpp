@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "commands/commands.hpp"
+#include "commands/function_building.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/selection.hpp"
+#include "commands/table_filter.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+
+int only_one(const Call& call, const std::vector<int>& found, const char* keyword, const char* what) {
+  if (found.size() == 1) return found.front();
+  throw DiagnosticError("wrong-count", fmt::format("RECU_FONCTION: {} names {} {}s; a function is taken at one", keyword, found.size(), what),
+                        call.span_of(keyword), "name a group of one");
+}
+
+int node_of(const Call& call, const solver::Mesh& mesh) {
+  if (call.given("GROUP_NO")) return only_one(call, selected_nodes(call, mesh, {"", "GROUP_NO", "", "", ""}), "GROUP_NO", "node");
+  throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span, "give GROUP_NO");
+}
+
+int point_of(const Call& call, const solver::ElementField& field, int cell, const solver::Mesh& mesh) {
+  if (field.support == solver::Support::cell) return 0;
+  if (call.given("POINT")) {
+    const auto point = call.integer("POINT");
+    if (point <= field.points(cell)) return static_cast<int>(point) - 1;
+    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), field.points(cell)), call.span_of("POINT"));
+  }
+  const int node = node_of(call, mesh);
+  const auto nodes = mesh.cell(cell);
+  const auto found = std::find(nodes.begin(), nodes.end(), node);
+  if (found != nodes.end() && field.support == solver::Support::element_node) return static_cast<int>(found - nodes.begin());
+  throw DiagnosticError("unknown-node", fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)), call.span,
+                        "name a node of the cell and a field at its nodes (..._ELNO), or a POINT");
+}
+
+double field_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
+  const std::string& component = call.text("NOM_CMP");
+  if (const auto* nodal = std::get_if<solver::NodalField>(&field)) {
+    return nodal->at(node_of(call, mesh), component_of(call, nodal->components, component));
+  }
+  const auto& element = std::get<solver::ElementField>(field);
+  const int column = component_of(call, element.components, component);
+  if (!call.given("GROUP_MA")) {
+    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read on a cell", call.span, "give GROUP_MA and POINT");
+  }
+  const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", ""}), "GROUP_MA", "cell");
+  if (element.points(cell) == 0) return std::nan("");
+  return element.at(cell, point_of(call, element, cell, mesh), column);
+}
+
+double step_value(const Call& call, const solver::ResultStep& step, const solver::Mesh& mesh) {
+  if (!call.given("NOM_PARA_RESU")) {
+    const double value = field_value(call, field_of(call, step), mesh);
+    if (!std::isnan(value)) return value;
+    throw DiagnosticError("unknown-component", "RECU_FONCTION: the field does not carry " + call.text("NOM_CMP") + " there", call.span_of("NOM_CMP"));
+  }
+  const auto found = step.parameters.find(call.text("NOM_PARA_RESU"));
+  if (found != step.parameters.end()) return found->second;
+  throw DiagnosticError("unknown-parameter", "the result has no parameter " + call.text("NOM_PARA_RESU"), call.span_of("NOM_PARA_RESU"));
+}
+
+void read_result(const Call& call, solver::TabulatedFunction& function) {
+  const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
+  const solver::Mesh& mesh = *result.model->mesh;
+  function.parameter = "INST";
+  for (const solver::ResultStep* step : selected_steps(call, result)) {
+    function.x.push_back(step->instant);
+    function.y.push_back(step_value(call, *step, mesh));
+  }
+}
+
+// The rows that have a number in both columns.
+void read_table(const Call& call, solver::TabulatedFunction& function) {
+  Table table = call.data<TableConcept>("TABLE").table;
+  for (const Keywords& filter : call.factors("FILTRE")) table = filtered(table, filter);
+  const int x = column_of(table, call.text("PARA_X"), call, "PARA_X");
+  const int y = column_of(table, call.text("PARA_Y"), call, "PARA_Y");
+  std::erase_if(table.rows, [&](const std::vector<Cell>& row) {
+    return std::holds_alternative<std::monostate>(row[static_cast<std::size_t>(x)]) ||
+           std::holds_alternative<std::monostate>(row[static_cast<std::size_t>(y)]);
+  });
+  function.parameter = call.text("PARA_X");
+  function.x = numbers_in(table, x, call);
+  function.y = numbers_in(table, y, call);
+}
+
+// A function asks for rising abscissas, a table may have its rows in any order.
+void sort_points(const Call& call, solver::TabulatedFunction& function) {
+  std::vector<std::size_t> order(function.x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
+  std::vector<double> x, y;
+  for (const std::size_t i : order) {
+    x.push_back(function.x[i]);
+    y.push_back(function.y[i]);
+  }
+  function.x = std::move(x);
+  function.y = std::move(y);
+  check_rising(call, call.given("TABLE") ? "TABLE" : "RESULTAT", function.x);
+}
+
+}  // namespace
+
+Product recu_fonction(const Call& call, Context&) {
+  solver::TabulatedFunction function;
+  if (call.given("TABLE")) {
+    read_table(call, function);
+  } else {
+    read_result(call, function);
+  }
+  if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
+  sort_points(call, function);
+  if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
+  if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");
+  read_shape(call, function);
+  return std::make_shared<TabulatedConcept>(std::move(function));
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,155 @@
+// Imports and attributes: which modules there are, and what lies in a value behind a dot.
+#include <fmt/format.h>
+
+#include "interpreter/array.hpp"
+#include "interpreter/builtins.hpp"
+#include "interpreter/evaluator.hpp"
+#include "interpreter/failure_messages.hpp"
+#include "interpreter/operations.hpp"
+
+namespace comma::interpreter {
+
+namespace {
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string near = nearest(word, known);
+  return near.empty() ? "" : fmt::format("did you mean {}?", near);
+}
+
+Value module_value(const std::shared_ptr<ModuleObject>& module) {
+  return Value(std::shared_ptr<Object>(module));
+}
+
+std::optional<Value> exception_attribute(const ExceptionObject& error, std::string_view name) {
+  if (name == "args") return Value::tuple(error.arguments);
+  if (name == "id_message" && error.failure) return Value(std::string(message_id_of(error.failure->code)));
+  if (name == "message" || name == "msg") return Value(error.text());
+  if (name == "code" && error.kind == ErrorKind::system_exit)
+    return error.arguments.empty() ? Value() : error.arguments[0];
+  return std::nullopt;
+}
+
+std::optional<Value> number_attribute(const Value& value, std::string_view name) {
+  if (name == "real")
+    return value.is_complex() ? Value(value.as_complex().real()) : unary_operation(Operator::plus, value);
+  if (name == "imag")
+    return value.is_complex() ? Value(value.as_complex().imag()) : value.is_real() ? Value(0.0) : Value(0);
+  if (name == "numerator" && integer_of(value)) return unary_operation(Operator::plus, value);
+  if (name == "denominator" && integer_of(value)) return Value(1);
+  return std::nullopt;
+}
+
+std::optional<Value> array_attribute(const ArrayObject& array, std::string_view name) {
+  if (name == "size") return Value(static_cast<std::int64_t>(array.data.size()));
+  if (name == "ndim") return Value(static_cast<std::int64_t>(array.shape.size()));
+  if (name != "shape") return std::nullopt;
+  std::vector<Value> lengths;
+  for (std::size_t length : array.shape) lengths.emplace_back(static_cast<std::int64_t>(length));
+  return Value::tuple(std::move(lengths));
+}
+
+std::optional<Value> data_attribute(const Value& value, std::string_view name) {
+  if (is_numeric(value)) return number_attribute(value, name);
+  if (const auto* error = value.as_object<ExceptionObject>()) return exception_attribute(*error, name);
+  if (const auto* array = value.as_object<ArrayObject>()) return array_attribute(*array, name);
+  if (name == "__name__") {
+    if (const auto* type = value.as_object<TypeObject>()) return Value(type->name);
+    if (const auto* type = value.as_object<ExceptionClassObject>())
+      return Value(std::string(class_of(type->kind).name));
+    if (const auto* function = value.as_object<FunctionObject>()) return Value(function->code->name);
+    if (const auto* function = value.as_object<BuiltinObject>()) return Value(function->name);
+  }
+  if (const auto* range = value.as_object<RangeObject>()) {
+    if (name == "start") return Value(range->start);
+    if (name == "stop") return Value(range->stop);
+    if (name == "step") return Value(range->step);
+  }
+  return std::nullopt;
+}
+
+/// type(e).__name__ works for every value: what type() gives is a TypeObject or an exception class.
+Value type_attribute_owner(const TypeObject& type) {
+  if (type.name == "str") return Value("");
+  if (type.name == "list") return Value::list({});
+  if (type.name == "tuple") return Value::tuple({});
+  if (type.name == "dict") return Value::dict({});
+  if (type.name == "float") return Value(0.0);
+  return Value();
+}
+
+}  // namespace
+
+Value Evaluator::attribute(const Value& object, const std::string& name) {
+  if (object.is_unknown()) return object;
+  if (const auto* module = object.as_object<ModuleObject>()) {
+    if (const auto member = module->members.find(name); member != module->members.end()) return member->second;
+    if (auto inner = find_module(module->name + "." + name)) return module_value(inner);
+    if (module->brings_commands && host_.is_command(name))
+      return Value(std::shared_ptr<Object>(std::make_shared<CommandObject>(name)));
+    std::vector<std::string> names;
+    for (const auto& [member, value] : module->members) names.push_back(member);
+    std::string hint = did_you_mean(name, names);
+    if (hint.empty()) hint = "comma has only a part of this module";
+    raise(ErrorKind::attribute, fmt::format("module '{}' has no attribute '{}'", module->name, name), std::move(hint));
+  }
+  if (object.is_concept()) {
+    if (name == "name" || name == "nom") return Value(object.as_concept()->name);
+    return Value(std::shared_ptr<Object>(std::make_shared<ConceptMethod>(object.as_concept(), name)));
+  }
+  if (auto value = data_attribute(object, name)) return *value;
+  if (const Method method = find_method(object, name)) {
+    return Value(std::shared_ptr<Object>(std::make_shared<BoundMethod>(object, name, method)));
+  }
+  if (const auto* type = object.as_object<TypeObject>()) {
+    if (type->name == "dict" && name == "fromkeys") return attribute(Value::dict({}), name);
+    // str.upper(text): the method with its object as first argument.
+    if (const Method method = find_method(type_attribute_owner(*type), name)) {
+      return Value(std::shared_ptr<Object>(std::make_shared<UnboundMethod>(name, method)));
+    }
+    raise(ErrorKind::attribute, fmt::format("type object '{}' has no attribute '{}'", type->name, name));
+  }
+  raise(ErrorKind::attribute, fmt::format("'{}' object has no attribute '{}'", object.type_name(), name),
+        did_you_mean(name, method_names(object)));
+}
+
+Value Evaluator::import_module(const std::string& path, Span span) {
+  if (auto module = find_module(path)) return module_value(module);
+  std::string hint = did_you_mean(path, module_names());
+  if (hint.empty()) hint = "a command file may import math, numpy (a part), and the modules of code_aster";
+  auto error = make_exception(ErrorKind::module_not_found, fmt::format("No module named '{}'", path), std::move(hint));
+  error->span = std::move(span);
+  throw RaisedError(std::move(error));
+}
+
+void Evaluator::execute_import(const ImportStatement& statement) {
+  for (const auto& item : statement.items) {
+    const Span span = span_of(item.begin, item.end);
+    const Value module = import_module(item.path, span);
+    const std::size_t dot = item.path.find('.');
+    const bool whole = item.renamed || dot == std::string::npos;
+    store(static_cast<const NameNode&>(*item.name), whole ? module : import_module(item.path.substr(0, dot), span));
+  }
+}
+
+void Evaluator::execute_import_from(const ImportStatement& statement) {
+  const Value value = import_module(statement.module, span_of(statement.module_begin, statement.module_end));
+  const auto& module = *value.as_object<ModuleObject>();
+  for (const auto& item : statement.items) {
+    if (!item.name) {
+      // The commands themselves are known without import.
+      for (const auto& [name, member] : module.members) globals_[name] = member;
+      continue;
+    }
+    try {
+      store(static_cast<const NameNode&>(*item.name), attribute(value, item.path));
+    } catch (const RaisedError& error) {
+      auto refused = make_exception(ErrorKind::import,
+                                    fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
+                                    error.object()->hint);
+      refused->span = span_of(item.begin, item.end);
+      throw RaisedError(std::move(refused));
+    }
+  }
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,312 @@
+// Statements: what is done, in which order, and what becomes of errors.
+#include <fmt/format.h>
+
+#include "interpreter/builtins.hpp"
+#include "interpreter/evaluator.hpp"
+#include "interpreter/operations.hpp"
+#include "interpreter/statement_facts.hpp"
+
+namespace comma::interpreter {
+
+namespace {
+
+/// Raises a counter for as long as it lives.
+struct Counted {
+  explicit Counted(int& which) : counter(which) { ++counter; }
+  ~Counted() { --counter; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  int& counter;
+};
+
+}  // namespace
+
+Evaluator::Flow Evaluator::execute(const Block& block) {
+  for (const StatementPtr& statement : block) {
+    const Flow flow = execute_guarded(*statement);
+    if (flow != Flow::next) return flow;
+  }
+  return Flow::next;
+}
+
+/// Outside of functions and of `try`, an error ends its statement only.
+Evaluator::Flow Evaluator::execute_guarded(const Statement& statement) {
+  if (!recovering() || calls_ > 0) return execute(statement);
+  try {
+    return execute(statement);
+  } catch (const RaisedError& error) {
+    if (error.object()->kind == ErrorKind::system_exit) throw;
+    report(*error.object(), statement);
+    forget_bound(statement);
+    return Flow::next;
+  }
+}
+
+Evaluator::Flow Evaluator::execute(const Statement& statement) {
+  try {
+    meter_.step();
+    switch (statement.kind) {
+      case StatementKind::expression:
+        evaluate(*static_cast<const ValueStatement&>(statement).value);
+        return Flow::next;
+      case StatementKind::assign:
+        execute_assign(static_cast<const AssignStatement&>(statement));
+        return Flow::next;
+      case StatementKind::augmented:
+        execute_augmented(static_cast<const AugmentedStatement&>(statement));
+        return Flow::next;
+      case StatementKind::function:
+        execute_function(static_cast<const FunctionStatement&>(statement));
+        return Flow::next;
+      case StatementKind::return_:
+        execute_return(static_cast<const ValueStatement&>(statement));
+        return Flow::return_;
+      case StatementKind::pass:
+        return Flow::next;
+      case StatementKind::break_:
+        return Flow::break_;
+      case StatementKind::continue_:
+        return Flow::continue_;
+      case StatementKind::del:
+        execute_delete(*static_cast<const ValueStatement&>(statement).value);
+        return Flow::next;
+      case StatementKind::assert_:
+        execute_assert(static_cast<const AssertStatement&>(statement));
+        return Flow::next;
+      case StatementKind::raise:
+        execute_raise(static_cast<const RaiseStatement&>(statement));
+      case StatementKind::import:
+        execute_import(static_cast<const ImportStatement&>(statement));
+        return Flow::next;
+      case StatementKind::import_from:
+        execute_import_from(static_cast<const ImportStatement&>(statement));
+        return Flow::next;
+      default:
+        return execute_compound(statement);
+    }
+  } catch (const RaisedError& error) {
+    if (!error.object()->span) error.object()->span = span_of(statement.begin, statement.end);
+    throw;
+  } catch (const LimitReached& limit) {
+    if (limit.diagnostic().span) throw;
+    Diagnostic finding = limit.diagnostic();
+    finding.span = span_of(statement.begin, statement.end);
+    throw LimitReached(std::move(finding));
+  }
+}
+
+Evaluator::Flow Evaluator::execute_compound(const Statement& statement) {
+  check_stack();
+  switch (statement.kind) {
+    case StatementKind::if_:
+      return execute_if(static_cast<const IfStatement&>(statement));
+    case StatementKind::while_:
+      return execute_while(static_cast<const WhileStatement&>(statement));
+    case StatementKind::for_:
+      return execute_for(static_cast<const ForStatement&>(statement));
+    default:
+      return execute_try(static_cast<const TryStatement&>(statement));
+  }
+}
+
+/// What a statement would have bound is unknown from here on.
+void Evaluator::forget_bound(const Statement& statement) {
+  for (const NameNode* name : bound_names(statement)) {
+    if (!name->global || globals_.contains(name->id) || builtin_value(name->id) == nullptr)
+      store(*name, Value::unknown());
+  }
+}
+
+/// Neither branch is taken, since nobody knows which: what either would bind is unknown.
+Evaluator::Flow Evaluator::skip_unknown(const Statement& statement) {
+  forget_bound(statement);
+  const Exits exits = exits_of(statement);
+  if (exits.returns && calls_ > 0) {
+    returned_ = Value::unknown();
+    return Flow::return_;
+  }
+  return exits.leaves_loop ? Flow::break_ : Flow::next;
+}
+
+void Evaluator::execute_assign(const AssignStatement& statement) {
+  if (!statement.value) return;
+  const Value value = evaluate(*statement.value);
+  for (const NodePtr& target : statement.targets) assign(*target, value);
+}
+
+void Evaluator::execute_augmented(const AugmentedStatement& statement) {
+  if (statement.target->kind == NodeKind::name) {
+    const auto& name = static_cast<const NameNode&>(*statement.target);
+    const Value before = evaluate(name);
+    return store(name, augmented_operation(statement.op, before, evaluate(*statement.value), meter_));
+  }
+  if (statement.target->kind == NodeKind::subscript) {
+    const auto& place = static_cast<const SubscriptNode&>(*statement.target);
+    const Value object = evaluate(*place.object);
+    const Value index = evaluate(*place.index);
+    const Value before = subscript(object, index, meter_);
+    return store_subscript(object, index, augmented_operation(statement.op, before, evaluate(*statement.value), meter_),
+                           meter_);
+  }
+  assign(*statement.target, evaluate(*statement.value));
+}
+
+void Evaluator::execute_function(const FunctionStatement& statement) {
+  store(static_cast<const NameNode&>(*statement.name), make_function(statement.code, statement.defaults));
+}
+
+void Evaluator::execute_return(const ValueStatement& statement) {
+  returned_ = statement.value ? evaluate(*statement.value) : Value();
+}
+
+void Evaluator::execute_delete(const Node& target) {
+  if (target.kind == NodeKind::name) return erase(static_cast<const NameNode&>(target));
+  if (target.kind == NodeKind::tuple || target.kind == NodeKind::list) {
+    for (const NodePtr& item : static_cast<const SequenceNode&>(target).items) execute_delete(*item);
+    return;
+  }
+  if (target.kind != NodeKind::subscript) raise(ErrorKind::attribute, "attributes cannot be deleted in a command file");
+  const auto& place = static_cast<const SubscriptNode&>(target);
+  const Value object = evaluate(*place.object);
+  delete_subscript(object, evaluate(*place.index));
+}
+
+Evaluator::Flow Evaluator::execute_if(const IfStatement& statement) {
+  for (const auto& [condition, block] : statement.branches) {
+    const Value value = evaluate(*condition);
+    if (value.is_unknown()) return skip_unknown(statement);
+    if (truth(value)) return execute(block);
+  }
+  return execute(statement.otherwise);
+}
+
+Evaluator::Flow Evaluator::execute_while(const WhileStatement& statement) {
+  const std::uint64_t failures = count_failures();
+  while (true) {
+    meter_.step();
+    const Value condition = evaluate(*statement.condition);
+    if (condition.is_unknown()) return skip_unknown(statement);
+    if (!truth(condition)) return execute(statement.otherwise);
+    const Flow flow = execute(statement.body);
+    if (flow == Flow::return_) return flow;
+    if (flow == Flow::break_) return Flow::next;
+    // Another turn would only tell the same mistake again.
+    if (count_failures() != failures) return skip_unknown(statement);
+  }
+}
+
+Evaluator::Flow Evaluator::execute_for(const ForStatement& statement) {
+  const Value iterable = evaluate(*statement.iterable);
+  const std::uint64_t failures = count_failures();
+  if (iterable.is_unknown()) return skip_unknown(statement);
+  const auto iterator = iterate(iterable);
+  while (auto value = iterator->next()) {
+    meter_.step();
+    assign(*statement.target, *value);
+    const Flow flow = execute(statement.body);
+    if (flow == Flow::return_) return flow;
+    if (flow == Flow::break_) return Flow::next;
+    if (count_failures() != failures) return skip_unknown(statement);
+  }
+  return execute(statement.otherwise);
+}
+
+/// The body with its handlers and `else`, without `finally`.
+Evaluator::Flow Evaluator::execute_body(const TryStatement& statement) {
+  if (statement.handlers.empty()) return execute(statement.body);
+  std::optional<RaisedError> caught;
+  const TryStatement::Handler* handler = nullptr;
+  try {
+    const Counted inside(tries_);
+    const Flow flow = execute(statement.body);
+    if (flow != Flow::next) return flow;
+  } catch (const RaisedError& error) {
+    for (const auto& candidate : statement.handlers) {
+      if (!handles(candidate, *error.object())) continue;
+      handler = &candidate;
+      break;
+    }
+    if (handler == nullptr) throw;
+    caught = error;
+  }
+  if (caught) return execute_handler(*handler, *caught);
+  return execute(statement.otherwise);
+}
+
+Evaluator::Flow Evaluator::execute_try(const TryStatement& statement) {
+  Flow flow = Flow::next;
+  try {
+    flow = execute_body(statement);
+  } catch (const RaisedError&) {
+    const Flow last = execute(statement.finally);
+    if (last == Flow::next) throw;
+    return last;
+  }
+  const Value returned = returned_;
+  const Flow last = execute(statement.finally);
+  if (last != Flow::next) return last;
+  returned_ = returned;
+  return flow;
+}
+
+bool Evaluator::handles(const TryStatement::Handler& handler, const ExceptionObject& error) {
+  if (!handler.type) return true;
+  const Value type = evaluate(*handler.type);
+  if (type.is_unknown()) return true;
+  const std::vector<Value> types =
+      type.is_tuple() ? std::vector<Value>(type.items().begin(), type.items().end()) : std::vector<Value>{type};
+  for (const Value& candidate : types) {
+    const auto* wanted = candidate.as_object<ExceptionClassObject>();
+    if (wanted == nullptr)
+      raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
+    if (is_subclass(error.kind, wanted->kind)) return true;
+  }
+  return false;
+}
+
+Evaluator::Flow Evaluator::execute_handler(const TryStatement::Handler& handler, const RaisedError& error) {
+  struct Restore {
+    Evaluator& self;
+    const NameNode* name;
+    ~Restore() {
+      self.handled_.pop_back();
+      if (name == nullptr) return;
+      if (name->global)
+        self.globals_.erase(name->id);
+      else
+        self.frame_of(*name).slots[static_cast<std::size_t>(name->slot)].reset();
+    }
+  };
+  const auto* name = static_cast<const NameNode*>(handler.name.get());
+  handled_.push_back(error.object());
+  const Restore restore{*this, name};
+  if (name != nullptr) store(*name, Value(std::shared_ptr<Object>(error.object())));
+  return execute(handler.body);
+}
+
+void Evaluator::execute_raise(const RaiseStatement& statement) {
+  if (!statement.error) {
+    if (handled_.empty()) raise(ErrorKind::runtime, "No active exception to reraise");
+    throw RaisedError(handled_.back());
+  }
+  Value error = evaluate(*statement.error);
+  if (statement.cause) evaluate(*statement.cause);
+  if (error.is_unknown()) throw RaisedError(make_exception(ErrorKind::exception, "unknown"));
+  if (error.as_object<ExceptionClassObject>() != nullptr) error = call(error, CallArguments());
+  if (error.as_object<ExceptionObject>() == nullptr)
+    raise(ErrorKind::type, "exceptions must derive from BaseException");
+  auto object = std::dynamic_pointer_cast<ExceptionObject>(std::get<std::shared_ptr<Object>>(error.storage()));
+  object->span = span_of(statement.begin, statement.end);
+  throw RaisedError(std::move(object));
+}
+
+void Evaluator::execute_assert(const AssertStatement& statement) {
+  const Value condition = evaluate(*statement.condition);
+  if (condition.is_unknown() || truth(condition)) return;
+  auto error = make_exception(ErrorKind::assertion, "");
+  error->arguments.clear();
+  if (statement.message) error->arguments.push_back(evaluate(*statement.message));
+  throw RaisedError(std::move(error));
+}
+
+}  // namespace comma::interpreter

@@ -1,0 +1,47 @@
+#include <catch2/catch.hpp>
+
+#include "interpreter/tests/recording_host.hpp"
+
+using namespace comma::interpreter;
+using testing::Run;
+
+namespace {
+
+std::string printed(const std::string& expression) {
+  const Run run("import numpy as np\nprint(" + expression + ")\n");
+  INFO(expression);
+  CHECK(run.findings().empty());
+  return run.output.substr(0, run.output.size() - 1);
+}
+
+}  // namespace
+
+TEST_CASE("Arrays compute element by element", "[numpy]") {
+  CHECK(printed("(np.array([1, 2, 3]) * 2 + 1).tolist()") == "[3, 5, 7]");
+  CHECK(printed("(1.0 / np.array([1., 2., 4.])).tolist()") == "[1.0, 0.5, 0.25]");
+  CHECK(printed("(np.array([1, 2]) + np.array([10, 20])).tolist()") == "[11, 22]");
+  CHECK(printed("(np.array([1., 5.]) > 2).tolist()") == "[0, 1]");
+}
+
+TEST_CASE("Arrays are sliced by rows and columns", "[numpy]") {
+  CHECK(printed("np.array([[1, 2], [3, 4]])[:, 1].tolist()") == "[2, 4]");
+  CHECK(printed("np.array([[1, 2], [3, 4]])[1, 0]") == "3");
+  CHECK(printed("np.array([[1, 2], [3, 4]])[0].tolist()") == "[1, 2]");
+  CHECK(printed("np.arange(5)[::-1].tolist()") == "[4, 3, 2, 1, 0]");
+  CHECK(printed("np.array([[1, 2, 3]]).shape") == "(1, 3)");
+}
+
+TEST_CASE("Ranges and reductions agree with their definitions", "[numpy]") {
+  CHECK(printed("np.linspace(0, 1, 5).tolist()") == "[0.0, 0.25, 0.5, 0.75, 1.0]");
+  CHECK(printed("np.arange(0, 1, 0.25).tolist()") == "[0.0, 0.25, 0.5, 0.75]");
+  CHECK(printed("np.dot([1, 2], [3, 4]), np.linalg.norm([3., 4.]), np.cross([1, 0, 0], [0, 1, 0]).tolist()") ==
+        "11 5.0 [0, 0, 1]");
+  CHECK(printed("np.array([3, 1, 2]).max(), np.argmin([3, 1, 2]), np.mean([1, 2]), np.sum([1, 2])") == "3 1 1.5 3");
+  CHECK(printed("np.dot([[1, 2], [3, 4]], [1, 1]).tolist()") == "[3, 7]");
+}
+
+TEST_CASE("What numpy has and comma has not is told by name", "[numpy]") {
+  const Run run("import numpy as np\nx = np.fft\n");
+  REQUIRE(run.diagnostics.items().size() == 1);
+  CHECK(run.diagnostics.items()[0].message == "module 'numpy' has no attribute 'fft'");
+}

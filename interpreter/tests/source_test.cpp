@@ -1,0 +1,43 @@
+#include "interpreter/source.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "interpreter/diagnostic.hpp"
+
+using namespace comma::interpreter;
+
+TEST_CASE("A place is counted in lines and characters from 1", "[source]") {
+  const SourceFile file("a.comm", "ab\né=1\r\nx");
+  CHECK(file.position(0).line == 1);
+  CHECK(file.position(0).column == 1);
+  CHECK(file.position(3).line == 2);
+  // The two bytes of é are one character.
+  CHECK(file.position(5).column == 2);
+  CHECK(file.position(9).line == 3);
+  CHECK(file.position(1000).line == 3);
+  CHECK(file.position(1000).column == 2);
+}
+
+TEST_CASE("A line comes without its line break, whatever system wrote it", "[source]") {
+  const SourceFile file("a.comm", "one\r\ntwo\rthree\n");
+  CHECK(file.line(1) == "one");
+  CHECK(file.line(2) == "two");
+  CHECK(file.line(3) == "three");
+  CHECK(file.line(4).empty());
+  CHECK(file.line(5).empty());
+  CHECK(file.line(0).empty());
+}
+
+TEST_CASE("A Latin-1 file is read as what it means", "[source]") {
+  const SourceFile file("a.comm", "# d\xE9placement");
+  CHECK(file.text() == "# d\xC3\xA9placement");
+}
+
+TEST_CASE("A file that cannot be read is a diagnostic", "[source]") {
+  try {
+    SourceFile::read("no/such/file.comm");
+    FAIL("nothing was thrown");
+  } catch (const DiagnosticError& error) {
+    CHECK(error.diagnostic().code == "unreadable-file");
+  }
+}
