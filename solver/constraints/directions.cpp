@@ -44,14 +44,6 @@ LinearRelation along(int node, Motion motion, const Eigen::Vector3d& direction, 
   return relation;
 }
 
-Eigen::Matrix3d nautical_axes(double about_z, double about_y, double about_x) {
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(about_z, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(about_y, Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(about_x, Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
-  return turn.transpose();
-}
-
 Eigen::Matrix3d beam_axes(const Mesh& mesh, int cell, const Eigen::Vector3d& y_direction) {
   const Eigen::Vector3d x = own_axes(mesh, cell).row(0);
   const Eigen::Vector3d across = y_direction - x * x.dot(y_direction);

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "solver/loads/load.hpp"
+#include "solver/mesh/axes.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {
@@ -17,10 +18,6 @@ enum class Motion : std::uint8_t { translation, rotation };
 /// direction does not have are left out. With a function, it replaces `value`. Throws Error `zero-vector`.
 LinearRelation along(int node, Motion motion, const Eigen::Vector3d& direction, double value,
                      const FieldFunction& function, const Origin& origin);
-
-/// Axes (rows) turned by the nautical angles in radians: about Z, then about the new Y, then about the new X (U4.42.01,
-/// ORIENTATION/ANGL_NAUT). Their first row goes down for a positive second angle.
-Eigen::Matrix3d nautical_axes(double about_z, double about_y, double about_x);
 
 /// Axes (rows) of a beam at one of its nodes: x along the cell from its first node to its second, y the part of
 /// `y_direction` across x, z = x cross y (U4.44.01, DDL_POUTRE/VECT_Y). Throws Error `zero-vector` when that part

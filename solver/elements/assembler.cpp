@@ -42,13 +42,14 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
 }
 
 /// The stresses of one block into a field whose components are those of all blocks.
-void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ImposedStrains* imposed, ElementField& field) {
+void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed,
+                    ElementField& field) {
   const auto names = block.stress_names();
   std::vector<int> columns;
   for (const auto name : names) columns.push_back(field.component(name));
   std::vector<double> values(block.cells().size() * block.point_count() * names.size());
-  block.stresses(u, values);
-  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, values);
+  block.stresses(u, state, values);
+  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
   const double* value = values.data();
   for (const int cell : block.cells()) {
     for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
@@ -71,14 +72,26 @@ void throw_unsupported_element(const Model& model, int cell) {
                                          model.mesh->cell_name(cell), name_of(model.mesh->cell_types[cell])));
 }
 
-const IsotropicElasticity& elasticity_of(const BlockInput& input, int cell) {
+CellMaterial elastic_material(const BlockInput& input, int cell) {
   const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
   if (material == nullptr || !material->elasticity) {
     throw Error("missing-material",
                 fmt::format("cell {} carries an element but has no elastic material", input.model.mesh->cell_name(cell)));
   }
-  check_elasticity(*material->elasticity);
-  return *material->elasticity;
+  CellMaterial result{&*material->elasticity, nullptr};
+  const auto axes = input.properties.material_axes.find(cell);
+  if (axes != input.properties.material_axes.end()) result.axes = &axes->second;
+  if (is_constant(*result.elasticity)) solid_stiffness(result, MaterialPoint());
+  return result;
+}
+
+const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
+  const auto* isotropic = std::get_if<IsotropicElasticity>(elastic_material(input, cell).elasticity);
+  if (isotropic == nullptr) {
+    throw Error("unsupported", fmt::format("the bar or beam on cell {} has an anisotropic material, but needs an isotropic one",
+                                           input.model.mesh->cell_name(cell)));
+  }
+  return *isotropic;
 }
 
 std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
@@ -106,24 +119,32 @@ Assembler::Assembler(const Model& model, const MaterialField& materials, const E
 
 Assembler::~Assembler() = default;
 
+void Assembler::set_time(double time) {
+  state_ = VariableState(*model_.mesh, materials_.variables, time);
+  const bool constant = std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_constant(); });
+  if (!constant) ++version_;
+}
+
 SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
-  for (const auto& block : blocks_->list) block->add_stiffness(u, blocks_->pattern.column_starts(), matrix.valuePtr());
+  for (const auto& block : blocks_->list) block->add_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
   return matrix;
 }
 
 Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& block : blocks_->list) block->add_internal_forces(u, sums);
+  for (const auto& block : blocks_->list) block->add_internal_forces(u, state_, sums);
   return rounded(sums);
 }
 
+Eigen::VectorXd Assembler::variable_forces() const { return -internal_forces(Eigen::VectorXd::Zero(dofs_.size())); }
+
 Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  add_external_forces({model_, materials_, properties_, dofs_}, loads, time, sums);
+  add_external_forces({model_, materials_, properties_, dofs_, &state_}, loads, time, sums);
   const ImposedStrains imposed(model_, loads, time);
   if (!imposed.empty()) {
-    for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, sums);
+    for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
   }
   return rounded(sums);
 }
@@ -131,7 +152,7 @@ Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, d
 Eigen::VectorXd Assembler::initial_strain_forces(std::span<const AppliedLoad> loads, double time) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   const ImposedStrains imposed(model_, loads, time);
-  for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, sums);
+  for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
   return rounded(sums);
 }
 
@@ -159,7 +180,27 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
   }
   for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
-  for (const auto& block : blocks_->list) write_stresses(*block, u, imposed, field);
+  for (const auto& block : blocks_->list) write_stresses(*block, u, state_, imposed, field);
+  return field;
+}
+
+ElementField Assembler::elastic_energies(const Eigen::VectorXd& u) const {
+  ElementField field;
+  field.quantity = "ENER_R";
+  field.components = {"TOTALE"};
+  field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
+  for (const auto& block : blocks_->list) {
+    for (const int cell : block->cells()) field.starts[cell + 1] = 1;
+  }
+  for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
+  field.values.assign(static_cast<std::size_t>(field.starts.back()), absent);
+  std::vector<double> values;
+  for (const auto& block : blocks_->list) {
+    const auto cells = block->cells();
+    values.resize(cells.size());
+    block->energies(u, state_, values);
+    for (std::size_t i = 0; i < cells.size(); ++i) field.values[field.starts[cells[i]]] = values[i];
+  }
   return field;
 }
 

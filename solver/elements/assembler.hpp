@@ -10,6 +10,7 @@
 #include "solver/fields/field.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
+#include "solver/materials/command_variables.hpp"
 #include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"
 
@@ -27,15 +28,24 @@ class Assembler {
   Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs);
   ~Assembler();
 
+  /// Takes the command variables of the materials at a time: from now on stiffness, forces, stresses and energies are those of that
+  /// instant. Before the first call no command variable is known. Throws Error `out-of-function`, `incompatible-field`.
+  void set_time(double time);
+  const VariableState& state() const { return state_; }
+
   /// Lower triangle of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls. Rows of
   /// continua, bars and beams add up to exactly zero over each translation (see translation.hpp), so that a residual b - K x taken in
   /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
 
-  /// Internal forces at u (n), accumulated in extended precision so that the equilibrium of a stiff body held by weak
-  /// springs is not drowned in rounding.
+  /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so that
+  /// the equilibrium of a stiff body held by weak springs is not drowned in rounding.
   Eigen::VectorXd internal_forces(const Eigen::VectorXd& u) const;
 
+  /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.
+  Eigen::VectorXd variable_forces() const;
+
+  /// External forces (n) of the loads at a time: nodal forces and pressures, on the initial geometry.
   /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains take part as
   /// the forces of the stresses that would undo them.
   Eigen::VectorXd external_forces(std::span<const AppliedLoad> loads, double time) const;
@@ -45,12 +55,19 @@ class Assembler {
 
   /// Whether the tangent is the same for every u.
   bool is_linear() const;
+  /// Changes whenever the stiffness at a given u may have changed: with each set_time if properties depend on command variables or
+  /// time, else never.
+  int stiffness_version() const { return version_; }
 
   /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), with SIXZ SIYZ in 3D; N for bars; N VY VZ MT MFY MFZ in own
   /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node). N > 0 in tension.
   ElementField stresses(const Eigen::VectorXd& u) const;
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
+
+  /// Elastic energy of each element (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
+  /// per radian.
+  ElementField elastic_energies(const Eigen::VectorXd& u) const;
 
  private:
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
@@ -61,6 +78,8 @@ class Assembler {
   const ElementProperties& properties_;
   const DofMap& dofs_;
   std::unique_ptr<Blocks> blocks_;
+  VariableState state_;
+  int version_ = 0;
 };
 
 /// A vector over the degrees of freedom as a nodal field ("DEPL_R", components of the map, NaN where a node has none).

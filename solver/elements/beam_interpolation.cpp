@@ -27,7 +27,7 @@ void add_bending(Interpolation& h, double s, double length, double softening, in
 
 }  // namespace
 
-BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicElasticity& material,
+BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material,
                                            double length) {
   const double shear_modulus = material.young / (2.0 * (1.0 + material.poisson));
   const double scale = 12.0 * material.young / (shear_modulus * section.area * length * length);

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 
 #include "solver/elements/section.hpp"
-#include "solver/materials/material.hpp"
+#include "solver/materials/elasticity.hpp"
 
 namespace comma::solver {
 
@@ -16,7 +16,7 @@ struct BeamInterpolation {
   double softening_z = 0.0;
 };
 
-BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicElasticity& material,
+BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material,
                                            double length);
 
 /// Displacements and rotations in own axes at x = position * length, position in [0, 1], from those of the ends: the

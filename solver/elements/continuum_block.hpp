@@ -2,8 +2,9 @@
 // continuum_plane.cpp and continuum_solid.cpp include it, each to make its blocks.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,29 +48,31 @@ class ContinuumBlock final : public ElementBlock {
  public:
   ContinuumBlock(const BlockInput& input, std::vector<int> cells)
       : mesh_(*input.model.mesh),
+        formulation_(input.model.formulations[cells.front()]),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), Nodes, gather_nodes(mesh_, cells_)) {
     const CellType type = mesh_.cell_types[cells_.front()];
-    for (const auto& point : quadrature(type, stiffness_family(type, input.model.formulations[cells_.front()]))) {
+    for (const auto& point : quadrature(type, stiffness_family(type, formulation_))) {
       samples_.push_back({point.weight, shape_functions(type, point.at), shape_derivatives(type, point.at)});
     }
-    collect_laws(input);
+    collect_materials(input);
     for (int element = 0; element < map_.element_count(); ++element) check_geometry(element);
   }
 
-  void add_stiffness(const Eigen::VectorXd&, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     Stiffness k;
     for (int element = 0; element < map_.element_count(); ++element) {
-      element_stiffness(element, k);
+      element_stiffness(element, state, k);
       map_.add(element, k.data(), column_starts, values);
     }
   }
 
-  void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const override {
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
-      const Coordinates force = element_forces(element, relative_displacements(u, dofs));
+      const Coordinates force = element_forces(element, relative_displacements(u, dofs), state);
       scatter_forces(force, dofs, forces);
     }
   }
@@ -81,38 +84,59 @@ class ContinuumBlock final : public ElementBlock {
     return plane_stress_names;
   }
   bool is_linear() const override { return true; }
+  bool is_constant() const override {
+    return std::all_of(materials_.begin(), materials_.end(), [](const MaterialInUse& material) { return material.constant; });
+  }
 
-  void stresses(const Eigen::VectorXd& u, std::span<double> out) const override {
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
       const Displacements displacements = relative_displacements(u, dofs);
       const Coordinates x = coordinates(element);
-      for (const Sample& sample : samples_) {
-        Eigen::Map<Strain>(target).noalias() = law(element) * strain(displacements, sample, locate(x, sample));
+      for (int g = 0; g < point_count(); ++g) {
+        const Behaviour behaviour(*this, element, g, x, state);
+        const Strain elastic = strain(displacements, samples_[g], locate(x, samples_[g])) - behaviour.inelastic;
+        Eigen::Map<Strain>(target).noalias() = *behaviour.law * elastic;
         target += strains;
       }
     }
   }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, ForceSum forces) const override {
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Displacements displacements = relative_displacements(u, dofs);
+      const Coordinates x = coordinates(element);
+      out[element] = 0.0;
+      for (int g = 0; g < point_count(); ++g) {
+        const Point point = locate(x, samples_[g]);
+        const Behaviour behaviour(*this, element, g, x, state);
+        const Strain elastic = strain(displacements, samples_[g], point) - behaviour.inelastic;
+        out[element] += 0.5 * point.weight * elastic.dot(*behaviour.law * elastic);
+      }
+    }
+  }
+
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
       map_.dofs(element, dofs.data());
       const Coordinates x = coordinates(element);
       Coordinates force = Coordinates::Zero();
-      for (const Sample& sample : samples_) {
-        const Point point = locate(x, sample);
-        const Strain stress = point.weight * imposed_stress(imposed, element, x, sample);
-        for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(sample, point, a).transpose() * stress).transpose();
+      for (int g = 0; g < point_count(); ++g) {
+        const Point point = locate(x, samples_[g]);
+        const Strain stress = point.weight * imposed_stress(imposed, element, g, x, state);
+        for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(samples_[g], point, a).transpose() * stress).transpose();
       }
       scatter_forces(force, dofs, forces);
     }
   }
 
-  void subtract_imposed_stresses(const ImposedStrains& imposed, std::span<double> out) const override {
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) {
@@ -120,8 +144,8 @@ class ContinuumBlock final : public ElementBlock {
         continue;
       }
       const Coordinates x = coordinates(element);
-      for (const Sample& sample : samples_) {
-        Eigen::Map<Strain>(target) -= imposed_stress(imposed, element, x, sample);
+      for (int g = 0; g < point_count(); ++g) {
+        Eigen::Map<Strain>(target) -= imposed_stress(imposed, element, g, x, state);
         target += strains;
       }
     }
@@ -135,26 +159,70 @@ class ContinuumBlock final : public ElementBlock {
     Eigen::Matrix<double, Nodes, 1> radial;
   };
 
-  /// Hooke's law once for each distinct material.
-  void collect_laws(const BlockInput& input) {
-    std::unordered_map<const IsotropicElasticity*, int> known;
-    const Formulation formulation = input.model.formulations[cells_.front()];
+  /// A material with its axes, and Hooke's law where that is the same everywhere.
+  struct MaterialInUse {
+    CellMaterial material;
+    bool constant;
+    bool expands;
+    Law law;
+  };
+
+  /// Hooke's law at one integration point, and the strain that command variables cause there.
+  struct Behaviour {
+    const Law* law;
+    Strain inelastic = Strain::Zero();
+    Law own;  ///< written when the law varies alone
+
+    Behaviour(const ContinuumBlock& block, int element, int g, const Coordinates& x, const VariableState& state) {
+      const MaterialInUse& used = block.materials_[block.material_of_element_[element]];
+      law = &used.law;
+      if (used.constant && (!used.expands || state.empty())) return;
+      const MaterialPoint at = block.material_point(element, g, x, state);
+      try {
+        if (used.expands) inelastic = inelastic_strain(used.material, at).template head<strains>();
+        if (used.constant) return;
+        own = make_law(used.material, block.formulation_, at);
+      } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), block.mesh_.cell_name(block.cells_[element])), error.hint());
+      }
+      law = &own;
+    }
+    Behaviour(const Behaviour&) = delete;
+    Behaviour& operator=(const Behaviour&) = delete;
+  };
+
+  MaterialPoint material_point(int element, int g, const Coordinates& x, const VariableState& state) const {
+    const Sample& sample = samples_[g];
+    MaterialPoint at;
+    state.sample(cells_[element], map_.nodes(element), {sample.values.data(), static_cast<std::size_t>(Nodes)}, g, at);
+    std::array<double, 3> place{};
+    for (int j = 0; j < Dim; ++j) place[j] = sample.values.dot(x.col(j));
+    at.place(place);
+    return at;
+  }
+
+  /// Hooke's law once for each distinct material and axes.
+  void collect_materials(const BlockInput& input) {
+    std::map<std::pair<const Elasticity*, const Eigen::Matrix3d*>, int> known;
     for (const int cell : cells_) {
-      const IsotropicElasticity& elasticity = elasticity_of(input, cell);
-      const auto [entry, is_new] = known.try_emplace(&elasticity, static_cast<int>(laws_.size()));
-      if (is_new) laws_.push_back(make_law(elasticity, formulation));
-      law_of_element_.push_back(entry->second);
+      CellMaterial material = elastic_material(input, cell);
+      if (std::holds_alternative<IsotropicElasticity>(*material.elasticity)) material.axes = nullptr;
+      const auto [entry, is_new] = known.try_emplace({material.elasticity, material.axes}, static_cast<int>(materials_.size()));
+      if (is_new) {
+        const bool constant = solver::is_constant(*material.elasticity);
+        materials_.push_back({material, constant, solver::expands(*material.elasticity),
+                              constant ? make_law(material, formulation_, MaterialPoint()) : Law::Zero().eval()});
+      }
+      material_of_element_.push_back(entry->second);
     }
   }
 
-  static Law make_law(const IsotropicElasticity& elasticity, Formulation formulation) {
-    if constexpr (Dim == 3) return solid_stiffness(elasticity);
+  static Law make_law(const CellMaterial& material, Formulation formulation, const MaterialPoint& at) {
+    if constexpr (Dim == 3) return solid_stiffness(material, at);
     else if (formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced)
-      return plane_stress_stiffness(elasticity);
-    else return plane_strain_stiffness(elasticity);
+      return plane_stress_stiffness(material, at);
+    else return plane_strain_stiffness(material, at);
   }
-
-  const Law& law(int element) const { return laws_[law_of_element_[element]]; }
 
   Coordinates coordinates(int element) const {
     Coordinates x;
@@ -210,12 +278,14 @@ class ContinuumBlock final : public ElementBlock {
     return row;
   }
 
-  void element_stiffness(int element, Stiffness& k) const {
+  void element_stiffness(int element, const VariableState& state, Stiffness& k) const {
     const Coordinates x = coordinates(element);
-    const Law& d = law(element);
     k.setZero();
     std::array<StrainRow, Nodes> rows;
-    for (const Sample& sample : samples_) {
+    for (int g = 0; g < point_count(); ++g) {
+      const Sample& sample = samples_[g];
+      const Behaviour behaviour(*this, element, g, x, state);
+      const Law& d = *behaviour.law;
       const Point point = locate(x, sample);
       for (int a = 0; a < Nodes; ++a) rows[a] = strain_row(sample, point, a);
       for (int b = 0; b < Nodes; ++b) {
@@ -259,18 +329,21 @@ class ContinuumBlock final : public ElementBlock {
     return e;
   }
 
-  Strain imposed_stress(const ImposedStrains& imposed, int element, const Coordinates& x, const Sample& sample) const {
+  Strain imposed_stress(const ImposedStrains& imposed, int element, int g, const Coordinates& x, const VariableState& state) const {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    at.head<Dim>() = x.transpose() * sample.values;
-    return law(element) * imposed.continuum(cells_[element], at).template head<strains>();
+    at.head<Dim>() = x.transpose() * samples_[g].values;
+    const Behaviour behaviour(*this, element, g, x, state);
+    return *behaviour.law * imposed.continuum(cells_[element], at).template head<strains>();
   }
 
-  Coordinates element_forces(int element, const Displacements& u) const {
+  Coordinates element_forces(int element, const Displacements& u, const VariableState& state) const {
     const Coordinates x = coordinates(element);
     Coordinates force = Coordinates::Zero();
-    for (const Sample& sample : samples_) {
+    for (int g = 0; g < point_count(); ++g) {
+      const Sample& sample = samples_[g];
       const Point point = locate(x, sample);
-      const Strain stress = point.weight * (law(element) * strain(u, sample, point));
+      const Behaviour behaviour(*this, element, g, x, state);
+      const Strain stress = point.weight * (*behaviour.law * (strain(u, sample, point) - behaviour.inelastic));
       for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(sample, point, a).transpose() * stress).transpose();
     }
     return force;
@@ -289,11 +362,12 @@ class ContinuumBlock final : public ElementBlock {
   }
 
   const Mesh& mesh_;
+  Formulation formulation_;
   std::vector<int> cells_;
   ElementMap map_;
   std::vector<Sample> samples_;
-  std::vector<Law> laws_;
-  std::vector<int> law_of_element_;
+  std::vector<MaterialInUse> materials_;
+  std::vector<int> material_of_element_;
 };
 
 }  // namespace comma::solver

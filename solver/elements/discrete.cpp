@@ -39,13 +39,14 @@ class DiscreteBlock final : public ElementBlock {
     }
   }
 
-  void add_stiffness(const Eigen::VectorXd&, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int> column_starts,
+                     double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.add(element, stiffnesses_[element]->matrix.data(), column_starts, values);
     }
   }
 
-  void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const override {
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState&, ForceSum forces) const override {
     std::array<int, max_size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
@@ -69,7 +70,7 @@ class DiscreteBlock final : public ElementBlock {
   }
 
   /// The force with which the part beyond the element pulls at its last node, in the element's own axes: N > 0 in tension.
-  void stresses(const Eigen::VectorXd& u, std::span<double> out) const override {
+  void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
     const int translations = formulation_ == Formulation::spring_2d || formulation_ == Formulation::spring_rotation_2d ? 2 : 3;
     std::array<int, max_size> dofs;
@@ -89,7 +90,21 @@ class DiscreteBlock final : public ElementBlock {
     }
   }
 
+  void energies(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
+    std::array<int, max_size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Eigen::MatrixXd& k = stiffnesses_[element]->matrix;
+      double sum = 0.0;
+      for (int i = 0; i < k.rows(); ++i) {
+        for (int j = 0; j < k.cols(); ++j) sum += u[dofs[i]] * k(i, j) * u[dofs[j]];
+      }
+      out[element] = 0.5 * sum;
+    }
+  }
+
   bool is_linear() const override { return true; }
+  bool is_constant() const override { return true; }
 
  private:
   static constexpr int max_size = 2 * component_count;

@@ -10,7 +10,7 @@
 #include "solver/elements/section.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
-#include "solver/materials/material.hpp"
+#include "solver/materials/elasticity.hpp"
 
 namespace comma::solver {
 
@@ -26,12 +26,14 @@ struct BlockInput {
 /// Internal forces add up in extended precision (64 significant bits).
 using ForceSum = std::span<long double>;
 
+/// `state` everywhere: the command variables of the instant.
 class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
 
-  virtual void add_stiffness(const Eigen::VectorXd& u, std::span<const int> column_starts, double* values) const = 0;
-  virtual void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const = 0;
+  virtual void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const = 0;
+  virtual void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const = 0;
 
   virtual std::span<const int> cells() const = 0;
   /// Stresses have this many points a cell ...
@@ -39,13 +41,17 @@ class ElementBlock {
   /// ... and these components.
   virtual std::span<const std::string_view> stress_names() const = 0;
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
-  virtual void stresses(const Eigen::VectorXd& u, std::span<double> out) const = 0;
+  virtual void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
+  /// Writes the elastic energy of each element (one value a cell).
+  virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;
+  /// Whether the stiffness is the same in all states.
+  virtual bool is_constant() const = 0;
 
   /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
-  virtual void add_imposed_strain_forces(const ImposedStrains&, ForceSum) const {}
+  virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
   /// Takes those stresses away from `out`, laid out as in stresses().
-  virtual void subtract_imposed_stresses(const ImposedStrains&, std::span<double>) const {}
+  virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
 
 /// Blocks for cells that share type and formulation.
@@ -55,8 +61,11 @@ std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vec
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 
-/// The elastic constants of a cell, checked. Throws Error `missing-material` naming the cell, `invalid-material`.
-const IsotropicElasticity& elasticity_of(const BlockInput& input, int cell);
+/// The elastic material of a cell, checked where its constants are known. Throws Error `missing-material` naming the cell,
+/// `invalid-material`.
+CellMaterial elastic_material(const BlockInput& input, int cell);
+/// The same for bars and beams, which need an isotropic one. Throws Error `unsupported` for others.
+const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell);
 
 /// The nodes of cells of one type, one cell after the other.
 std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells);

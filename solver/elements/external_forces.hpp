@@ -16,6 +16,7 @@ struct ForceInput {
   const MaterialField& materials;
   const ElementProperties& properties;
   const DofMap& dofs;
+  const VariableState* state = nullptr;  ///< command variables, on which densities and moduli may depend
 };
 
 /// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,

@@ -24,8 +24,8 @@ bool any_axisymmetric(const Model& model, std::span<const int> cells) {
 
 void add_continuum(const ForceInput& input, int cell, const AccelerationField& field, double factor,
                    CellSamples& samples, std::span<long double> forces) {
-  const double density = factor * elasticity_of(input, cell).density;
-  if (density == 0.0) return;
+  const double per_volume = factor * density(elasticity_of(input, cell), material_point_of(input, cell));
+  if (per_volume == 0.0) return;
   const Mesh& mesh = *input.model.mesh;
   const CellType type = mesh.cell_types[cell];
   const bool axisymmetric = is_axisymmetric(input.model.formulations[cell]);
@@ -34,7 +34,7 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
   NodeColumns nodal = NodeColumns::Zero(3, places.cols());
   for (const CellSample& sample : samples.of(type, CellRole::body)) {
     const CellPoint point = locate(places, sample);
-    const double mass = density * sample.weight * point.measure(components) * (axisymmetric ? point.at[0] : 1.0);
+    const double mass = per_volume * sample.weight * point.measure(components) * (axisymmetric ? point.at[0] : 1.0);
     nodal += (mass * field.at(point.at)).lazyProduct(sample.values.transpose());
   }
   for (Eigen::Index a = 0; a < nodal.cols(); ++a) {
@@ -45,7 +45,8 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
 
 void add_slender(const ForceInput& input, int cell, const AccelerationField& field, double factor,
                  std::span<long double> forces) {
-  const double line_density = factor * elasticity_of(input, cell).density * section_of(input, cell).area;
+  const double line_density =
+      factor * density(elasticity_of(input, cell), material_point_of(input, cell)) * section_of(input, cell).area;
   const auto nodes = input.model.mesh->cell(cell);
   const Eigen::Matrix3d axes = slender_axes(input, cell);
   std::array<Vector6, 2> loads = {Vector6::Zero(), Vector6::Zero()};

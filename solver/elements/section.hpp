@@ -40,6 +40,9 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                                       DiscreteFrame frame);
 
+/// What is known of a section's outline: enough to say where its axial stress is largest.
+enum class SectionShape : std::uint8_t { general, rectangle, circle };
+
 /// The cross-section of a bar or beam, in its own axes. Bars use the area alone.
 struct BeamSection {
   double area = 0.0;
@@ -49,6 +52,10 @@ struct BeamSection {
   double shear_y = 1.0;    ///< A over the reduced section along y, >= 1 (A_Y of U4.42.01); used by Timoshenko beams
   double shear_z = 1.0;
   double roll = 0.0;       ///< see own_axes
+  SectionShape shape = SectionShape::general;
+  double reach_y = 1.0;        ///< distance from the axis to the outermost fibre along y (RY of U4.42.01)
+  double reach_z = 1.0;        ///< along z (RZ)
+  double torsion_reach = 1.0;  ///< torsional moment times this over the torsion constant is the largest shear stress (RT)
 };
 
 /// The mass matrix of a discrete element in global axes, of the size of its stiffness.
@@ -68,6 +75,8 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
 
 /// Characteristics by cell index. Discrete elements without an entry in `masses` have none.
 struct ElementProperties {
+  /// Axes L, T, N (rows) of anisotropic materials; the global axes where none are given.
+  std::unordered_map<int, Eigen::Matrix3d> material_axes;
   std::unordered_map<int, DiscreteStiffness> discrete;
   std::unordered_map<int, DiscreteMass> masses;
   std::unordered_map<int, BeamSection> sections;

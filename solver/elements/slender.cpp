@@ -69,7 +69,7 @@ void add_spring(BeamMatrix& k, double stiffness, int first, int second) {
   k(second, first) -= stiffness;
 }
 
-BeamMatrix local_beam(const BeamSection& section, const IsotropicElasticity& material, double length, bool shear) {
+BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
   const double shear_scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
   BeamMatrix k = BeamMatrix::Zero();
@@ -80,14 +80,19 @@ BeamMatrix local_beam(const BeamSection& section, const IsotropicElasticity& mat
   return k;
 }
 
+/// What the stiffness of one element is made from.
+struct Member {
+  Segment segment;
+  const BeamSection* section;
+  const IsotropicElasticity* material;
+};
+
 /// Stiffness in global axes of a bar (Dim translations a node).
 template <int Dim>
-Eigen::Matrix<double, 2 * Dim, 2 * Dim> bar_matrix(const BlockInput& input, int cell) {
-  const BeamSection& section = section_of(input, cell);
-  const Segment segment = segment_of(*input.model.mesh, cell, 0.0);
-  const Eigen::Matrix<double, Dim, 1> along = segment.axes.row(0).template head<Dim>();
+Eigen::Matrix<double, 2 * Dim, 2 * Dim> bar_matrix(const Member& member, const IsotropicModuli& material) {
+  const Eigen::Matrix<double, Dim, 1> along = member.segment.axes.row(0).template head<Dim>();
   const Eigen::Matrix<double, Dim, Dim> block =
-      elasticity_of(input, cell).young * section.area / segment.length * (along * along.transpose());
+      material.young * member.section->area / member.segment.length * (along * along.transpose());
   Eigen::Matrix<double, 2 * Dim, 2 * Dim> k;
   k << block, -block, -block, block;
   std::array<bool, Dim> invariant;
@@ -96,13 +101,10 @@ Eigen::Matrix<double, 2 * Dim, 2 * Dim> bar_matrix(const BlockInput& input, int 
   return k;
 }
 
-BeamMatrix beam_matrix(const BlockInput& input, int cell) {
-  const BeamSection& section = section_of(input, cell);
-  const Segment segment = segment_of(*input.model.mesh, cell, section.roll);
-  BeamMatrix k = local_beam(section, elasticity_of(input, cell), segment.length,
-                            input.model.formulations[cell] == Formulation::timoshenko_beam);
+BeamMatrix beam_matrix(const Member& member, const IsotropicModuli& material, bool shear) {
+  BeamMatrix k = local_beam(*member.section, material, member.segment.length, shear);
   BeamMatrix turn = BeamMatrix::Zero();
-  for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = segment.axes;
+  for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = member.segment.axes;
   k = (turn.transpose() * k * turn).eval();
   k = (0.5 * (k + k.transpose())).eval();
   // A translation strains nothing, to the last bit: see translation.hpp.
@@ -111,7 +113,7 @@ BeamMatrix beam_matrix(const BlockInput& input, int cell) {
   return k;
 }
 
-/// Elements on two nodes with a constant stiffness of their own.
+/// Elements on two nodes with a stiffness of their own. Command variables count by their mean over the two nodes.
 template <int Components>
 class SlenderBlock final : public ElementBlock {
   static constexpr int size = 2 * Components;
@@ -121,33 +123,31 @@ class SlenderBlock final : public ElementBlock {
  public:
   SlenderBlock(const BlockInput& input, std::vector<int> cells)
       : mesh_(*input.model.mesh),
+        shear_(input.model.formulations[cells.front()] == Formulation::timoshenko_beam),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
-      if constexpr (is_beam) {
-        matrices_.push_back(beam_matrix(input, cell));
-        const BeamSection& section = section_of(input, cell);
-        rigidities_.push_back(elasticity_of(input, cell).young * Eigen::Vector3d(section.area, section.inertia_y, section.inertia_z));
-        axes_.push_back(own_axes(*input.model.mesh, cell, section_of(input, cell).roll));
-      } else {
-        matrices_.push_back(bar_matrix<Components>(input, cell));
-        rigidities_.push_back(Eigen::Vector3d(elasticity_of(input, cell).young * section_of(input, cell).area, 0.0, 0.0));
-        axes_.push_back(own_axes(*input.model.mesh, cell));
-      }
+      const BeamSection& section = section_of(input, cell);
+      members_.push_back({segment_of(mesh_, cell, is_beam ? section.roll : 0.0), &section, &isotropic_material(input, cell)});
+      const bool constant = is_constant_material(*members_.back().material);
+      constant_ = constant_ && constant;
+      matrices_.push_back(constant ? matrix(members_.back(), MaterialPoint()) : Matrix::Zero().eval());
     }
   }
 
-  void add_stiffness(const Eigen::VectorXd&, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
+    Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
-      map_.add(element, matrices_[element].data(), column_starts, values);
+      map_.add(element, matrix_at(element, state, own).data(), column_starts, values);
     }
   }
 
-  void add_internal_forces(const Eigen::VectorXd& u, ForceSum forces) const override {
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
-      const auto force = end_forces(element, u, dofs);
+      const auto force = end_forces(element, u, dofs, state);
       for (int i = 0; i < size; ++i) forces[dofs[i]] += force[i];
     }
   }
@@ -161,35 +161,53 @@ class SlenderBlock final : public ElementBlock {
 
   /// Section forces, in the element's own axes, of the part with greater x upon the part with smaller x: N > 0 in tension. Beams
   /// have them at both ends, bars once.
-  void stresses(const Eigen::VectorXd& u, std::span<double> out) const override {
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
-      const auto force = end_forces(element, u, dofs);
+      const auto force = end_forces(element, u, dofs, state);
       if constexpr (is_beam) {
         for (const int end : {0, 1}) {
           for (const int part : {0, 3}) target = write_local(element, force.data() + 6 * end + part, end == 0 ? -1.0 : 1.0, target);
         }
       } else {
         double axial = 0.0;
-        for (int i = 0; i < Components; ++i) axial += axes_[element](0, i) * static_cast<double>(force[Components + i]);
+        for (int i = 0; i < Components; ++i) axial += axes(element)(0, i) * static_cast<double>(force[Components + i]);
         *target++ = axial;
       }
     }
   }
 
-  bool is_linear() const override { return true; }
+  /// 1/2 u K u - u f + 1/2 E A strain^2 L with the forces f and the axial strain of the command variables.
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const auto force = end_forces(element, u, dofs, state);
+      const Expansion expansion = expansion_of(element, state);
+      double work = 0.0;
+      for (int i = 0; i < size; ++i) work += u[dofs[i]] * static_cast<double>(force[i]);
+      double elongation = 0.0;
+      for (int i = 0; i < 3 && i < Components; ++i) elongation += axes(element)(0, i) * (u[dofs[Components + i]] - u[dofs[i]]);
+      // `force` lacks f, so that u . force = u K u - u f: half of u f is missing still.
+      const double length = members_[element].segment.length;
+      out[element] = 0.5 * (work - expansion.force * (elongation - expansion.strain * length));
+    }
+  }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, ForceSum forces) const override {
+  bool is_linear() const override { return true; }
+  bool is_constant() const override { return constant_; }
+
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
       map_.dofs(element, dofs.data());
-      const Eigen::Vector3d resultants = imposed_resultants(imposed, element);
-      const Eigen::Matrix3d& axes = axes_[element];
-      const Eigen::Vector3d force = axes.row(0).transpose() * resultants[0];
-      const Eigen::Vector3d moment = axes.row(1).transpose() * resultants[1] + axes.row(2).transpose() * resultants[2];
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element, state);
+      const Eigen::Matrix3d& own = axes(element);
+      const Eigen::Vector3d force = own.row(0).transpose() * resultants[0];
+      const Eigen::Vector3d moment = own.row(1).transpose() * resultants[1] + own.row(2).transpose() * resultants[2];
       for (int i = 0; i < Components; ++i) {
         const double end = i < 3 ? force[i] : moment[i - 3];
         forces[dofs[i]] -= end;
@@ -198,11 +216,11 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  void subtract_imposed_stresses(const ImposedStrains& imposed, std::span<double> out) const override {
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
     const auto names = stress_names().size();
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Eigen::Vector3d resultants = imposed_resultants(imposed, element);
+      const Eigen::Vector3d resultants = imposed_resultants(imposed, element, state);
       for (int point = 0; point < point_count(); ++point, target += names) {
         target[0] -= resultants[0];
         if constexpr (is_beam) {
@@ -215,17 +233,78 @@ class SlenderBlock final : public ElementBlock {
 
  private:
   /// N, MFY and MFZ of the imposed strain at the middle of an element.
-  Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element) const {
+  Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element, const VariableState& state) const {
     const auto nodes = map_.nodes(element);
     const Eigen::Vector3d middle = 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
                                           Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data()));
-    return rigidities_[element].cwiseProduct(imposed.slender(cells_[element], middle));
+    const Member& member = members_[element];
+    const double young = named(element, [&] { return member.material->young(material_point(element, state)); });
+    const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0, is_beam ? member.section->inertia_z : 0.0);
+    return young * section.cwiseProduct(imposed.slender(cells_[element], middle));
   }
 
   using Forces = std::array<long double, size>;
 
+  /// The axial strain of the command variables, and the compression that holding it back takes.
+  struct Expansion {
+    double strain = 0.0;
+    double force = 0.0;
+  };
+
+  static bool is_constant_material(const IsotropicElasticity& material) {
+    return material.young.is_constant() && material.poisson.is_constant();
+  }
+
+  Matrix matrix(const Member& member, const MaterialPoint& at) const {
+    if constexpr (is_beam) return beam_matrix(member, moduli(*member.material, at), shear_);
+    else return bar_matrix<Components>(member, moduli(*member.material, at));
+  }
+
+  const Matrix& matrix_at(int element, const VariableState& state, Matrix& own) const {
+    if (is_constant_material(*members_[element].material)) return matrices_[element];
+    own = named(element, [&] { return matrix(members_[element], material_point(element, state)); });
+    return own;
+  }
+
+  MaterialPoint material_point(int element, const VariableState& state) const {
+    constexpr std::array<double, 2> middle = {0.5, 0.5};
+    const auto nodes = map_.nodes(element);
+    MaterialPoint at;
+    state.sample(cells_[element], nodes, middle, 0, at);
+    std::array<double, 3> place{};
+    for (int j = 0; j < 3; ++j) place[j] = 0.5 * (mesh_.nodes[nodes[0]][j] + mesh_.nodes[nodes[1]][j]);
+    at.place(place);
+    return at;
+  }
+
+  Expansion expansion_of(int element, const VariableState& state) const {
+    const Member& member = members_[element];
+    if (state.empty()) return {};
+    return named(element, [&] {
+      const MaterialPoint at = material_point(element, state);
+      Expansion expansion;
+      expansion.strain = inelastic_axial_strain(*member.material, at);
+      if (expansion.strain != 0.0) expansion.force = member.material->young(at) * member.section->area * expansion.strain;
+      return expansion;
+    });
+  }
+
+  /// Runs f; its errors name the cell.
+  template <class F>
+  auto named(int element, F&& f) const {
+    try {
+      return f();
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[element])), error.hint());
+    }
+  }
+
+  const Eigen::Matrix3d& axes(int element) const { return members_[element].segment.axes; }
+
   /// Forces on both ends, from the translation of the second end relative to the first.
-  Forces end_forces(int element, const Eigen::VectorXd& u, const std::array<int, size>& dofs) const {
+  Forces end_forces(int element, const Eigen::VectorXd& u, const std::array<int, size>& dofs, const VariableState& state) const {
+    Matrix own;
+    const Matrix& k = matrix_at(element, state, own);
     std::array<long double, size> moved;
     for (int j = 0; j < size; ++j) moved[j] = u[dofs[j]];
     constexpr int translations = is_beam ? 3 : Components;
@@ -235,7 +314,12 @@ class SlenderBlock final : public ElementBlock {
     }
     Forces force{};
     for (int j = 0; j < size; ++j) {
-      for (int i = 0; i < size; ++i) force[i] += matrices_[element](i, j) * moved[j];
+      for (int i = 0; i < size; ++i) force[i] += k(i, j) * moved[j];
+    }
+    const double held = expansion_of(element, state).force;
+    for (int i = 0; held != 0.0 && i < translations; ++i) {
+      force[i] += held * axes(element)(0, i);
+      force[Components + i] -= held * axes(element)(0, i);
     }
     return force;
   }
@@ -243,18 +327,19 @@ class SlenderBlock final : public ElementBlock {
   double* write_local(int element, const long double* global, double sign, double* target) const {
     for (int i = 0; i < 3; ++i) {
       double sum = 0.0;
-      for (int j = 0; j < 3; ++j) sum += axes_[element](i, j) * static_cast<double>(global[j]);
+      for (int j = 0; j < 3; ++j) sum += axes(element)(i, j) * static_cast<double>(global[j]);
       *target++ = sign * sum;
     }
     return target;
   }
 
   const Mesh& mesh_;
+  bool shear_;
+  bool constant_ = true;
   std::vector<int> cells_;
   ElementMap map_;
-  std::vector<Matrix> matrices_;
-  std::vector<Eigen::Vector3d> rigidities_;  ///< E A, E I_y, E I_z
-  std::vector<Eigen::Matrix3d> axes_;
+  std::vector<Member> members_;
+  std::vector<Matrix> matrices_;  ///< where the material is constant
 };
 
 }  // namespace

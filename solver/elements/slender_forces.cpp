@@ -1,8 +1,11 @@
 #include "solver/elements/slender_forces.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "solver/elements/beam_interpolation.hpp"
+#include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -33,8 +36,13 @@ Vector12 bar_end_forces(const Mesh& mesh, int cell, const Vector6& first, const 
 Vector12 beam_end_forces(const ForceInput& input, int cell, const Vector6& first, const Vector6& second) {
   const double length = length_of(*input.model.mesh, cell);
   if (input.model.formulations[cell] == Formulation::euler_beam) return end_forces({length, 0.0, 0.0}, first, second);
-  return end_forces(timoshenko_interpolation(section_of(input, cell), elasticity_of(input, cell), length), first,
-                    second);
+  const auto* isotropic = std::get_if<IsotropicElasticity>(&elasticity_of(input, cell));
+  if (isotropic == nullptr) {
+    throw Error("unsupported", fmt::format("the beam on cell {} has an anisotropic material, but needs an isotropic one",
+                                           input.model.mesh->cell_name(cell)));
+  }
+  const IsotropicModuli material = moduli(*isotropic, material_point_of(input, cell));
+  return end_forces(timoshenko_interpolation(section_of(input, cell), material, length), first, second);
 }
 
 }  // namespace
@@ -54,11 +62,26 @@ const BeamSection& section_of(const ForceInput& input, int cell) {
               fmt::format("the bar or beam on cell {} has no cross-section", input.model.mesh->cell_name(cell)));
 }
 
-const IsotropicElasticity& elasticity_of(const ForceInput& input, int cell) {
+const Elasticity& elasticity_of(const ForceInput& input, int cell) {
   const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
   if (material != nullptr && material->elasticity) return *material->elasticity;
   throw Error("missing-material", fmt::format("a load depends on the material of cell {}, which has none",
                                               input.model.mesh->cell_name(cell)));
+}
+
+MaterialPoint material_point_of(const ForceInput& input, int cell) {
+  const Mesh& mesh = *input.model.mesh;
+  const auto nodes = mesh.cell(cell);
+  std::array<double, max_nodes> shares;
+  shares.fill(1.0 / static_cast<double>(nodes.size()));
+  MaterialPoint at;
+  if (input.state != nullptr) input.state->sample(cell, nodes, std::span(shares).first(nodes.size()), 0, at);
+  Point place{};
+  for (const int node : nodes) {
+    for (int j = 0; j < 3; ++j) place[j] += mesh.nodes[node][j] / static_cast<double>(nodes.size());
+  }
+  at.place(place);
+  return at;
 }
 
 Eigen::Matrix3d slender_axes(const ForceInput& input, int cell) {

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "solver/elements/external_forces.hpp"
+#include "solver/materials/elasticity.hpp"
 
 namespace comma::solver {
 
@@ -17,7 +18,9 @@ Eigen::Matrix3d slender_axes(const ForceInput& input, int cell);
 /// Throws Error `missing-properties` naming a cell without cross-section.
 const BeamSection& section_of(const ForceInput& input, int cell);
 /// Throws Error `missing-material` naming a cell without elastic material.
-const IsotropicElasticity& elasticity_of(const ForceInput& input, int cell);
+const Elasticity& elasticity_of(const ForceInput& input, int cell);
+/// What the material knows on the mean of a cell.
+MaterialPoint material_point_of(const ForceInput& input, int cell);
 
 /// Adds to the degrees of freedom of a bar or beam the end forces (own axes, N VY VZ MT MFY MFZ at each end) that do
 /// the work of a load per length, given in the same way, that is linear between `first` and `second` at its ends. A bar

@@ -1,27 +1,68 @@
 // Materials and their distribution over a mesh.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
+
+#include "solver/materials/command_variables.hpp"
+#include "solver/materials/property.hpp"
 
 namespace comma::solver {
 
+/// No temperature of definition: expansion is measured from the reference temperature.
+inline constexpr double from_reference = std::numeric_limits<double>::quiet_NaN();
+
 /// Isotropic linear elasticity. Stresses in the unit of `young`.
 struct IsotropicElasticity {
-  double young = 0.0;      ///< Young's modulus, > 0
-  double poisson = 0.0;    ///< in (-1, 0.5)
-  double density = 0.0;
-  double expansion = 0.0;  ///< coefficient of thermal expansion
+  Property young{};    ///< Young's modulus, > 0
+  Property poisson{};  ///< in (-1, 0.5)
+  Property density{};
+  Property expansion{};                            ///< mean coefficient of thermal expansion
+  double definition_temperature = from_reference;  ///< temperature from which `expansion` was measured
+  Property drying_shrinkage{};                     ///< K_DESSIC: strain for a unit of water content
+  Property hydration_shrinkage{};                  ///< B_ENDOGE: shrinkage at full hydration
 };
 
+/// Orthotropic linear elasticity in the axes L, T, N of each cell. Pairs are in the order LT, LN, TN; a stress along L
+/// shrinks T by poisson[LT] / young[L] (R4.01.02).
+struct OrthotropicElasticity {
+  std::array<Property, 3> young{};  ///< L, T, N
+  std::array<Property, 3> poisson{};
+  std::array<Property, 3> shear{};
+  Property density{};
+  std::array<Property, 3> expansion{};  ///< L, T, N
+  double definition_temperature = from_reference;
+};
+
+/// Isotropic in the plane (L, T), with the axis N: an orthotropic law whose shear modulus in the plane follows from the
+/// others.
+struct TransverseElasticity {
+  Property young{};           ///< in the plane
+  Property young_normal{};    ///< along N
+  Property poisson{};         ///< LT
+  Property poisson_normal{};  ///< LN: a stress along L shrinks N by poisson_normal / young
+  Property shear_normal{};    ///< G_LN
+  Property density{};
+  Property expansion{};
+  Property expansion_normal{};
+  double definition_temperature = from_reference;
+};
+OrthotropicElasticity as_orthotropic(const TransverseElasticity& material);
+
+using Elasticity = std::variant<IsotropicElasticity, OrthotropicElasticity>;
+
 struct Material {
-  std::optional<IsotropicElasticity> elasticity;
+  std::optional<Elasticity> elasticity;
 };
 
 /// The material of each cell; null where none is given.
 struct MaterialField {
   std::vector<std::shared_ptr<const Material>> by_cell;
+  std::vector<CommandVariable> variables;
 };
 
 }  // namespace comma::solver

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -82,9 +83,16 @@ class StaticAnalysis {
     ResultStep step;
     step.instant = instant;
     step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
-    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u));
+    assembler_.set_time(instant);
+    step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(state_.u)));
     step.parameters["ITER_GLOB"] = 0.0;
     result_.steps.push_back(std::move(step));
+  }
+
+  /// The body starts without stress even where its first temperature is not that of reference.
+  static ElementField unstressed(ElementField field) {
+    for (double& value : field.values) value = std::isnan(value) ? value : 0.0;
+    return field;
   }
 
   void take_last_step() {
@@ -117,6 +125,7 @@ class StaticAnalysis {
   }
 
   int solve_step(double time) {
+    assembler_.set_time(time);
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;

@@ -12,8 +12,9 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
     : model_(model), dofs_(dofs), assembler_(assembler), elimination_(elimination), options_(options), counters_(counters) {}
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u) {
-  if (factorised_ && assembler_.is_linear()) return false;
+  if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
+  version_ = assembler_.stiffness_version();
   factorise(elimination_.reduce(assembler_.stiffness(u)));
   return true;
 }

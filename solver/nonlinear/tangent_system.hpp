@@ -19,7 +19,7 @@ class TangentSystem {
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                 const NewtonOptions& options, Counters& counters);
 
-  /// Factorises the tangent at u unless it is known already. Returns whether it was factorised. Throws Error
+  /// Factorises the tangent at u unless it is known already, for the assembler's instant too. Returns whether it was factorised. Throws Error
   /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds.
   bool refresh(const Eigen::VectorXd& u);
 
@@ -43,6 +43,7 @@ class TangentSystem {
   Eigen::VectorXd row_sizes_;
   bool analysed_ = false;
   bool factorised_ = false;
+  int version_ = 0;  ///< of the assembler's stiffness, when last factorised
 };
 
 }  // namespace comma::solver

@@ -67,7 +67,7 @@ TEST_CASE("a linear displacement gives the exact stress in every cell, curved on
     const Body body(single_cell(c.type, 0.05), c.formulation, elastic(young, poisson));
     Eigen::VectorXd strain(6);
     strain << h(0, 0), h(1, 1), h(2, 2), h(0, 1) + h(1, 0), h(0, 2) + h(2, 0), h(1, 2) + h(2, 1);
-    const IsotropicElasticity material{young, poisson};
+    const IsotropicModuli material{young, poisson};
     Eigen::VectorXd expected = solid_stiffness(material) * strain;
     if (c.formulation != Formulation::solid) {
       strain[2] = 0.0;

@@ -1,0 +1,146 @@
+#include "solver/fields/beam_stresses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
+
+struct SectionForces {
+  double n, vy, vz, mt, mfy, mfz;
+};
+
+bool is_beam(Formulation formulation) {
+  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+}
+
+bool is_slender(Formulation formulation) {
+  return is_beam(formulation) || formulation == Formulation::bar || formulation == Formulation::bar_2d;
+}
+
+const BeamSection& section_of(const FieldInput& input, int cell) {
+  const auto found = input.properties.sections.find(cell);
+  if (found != input.properties.sections.end()) return found->second;
+  throw Error("missing-properties",
+              fmt::format("the bar or beam on cell {} has no cross-section", input.model.mesh->cell_name(cell)));
+}
+
+/// A field with `names` on the bars and beams: `write(cell, section, forces, target)` at each node.
+template <class Write>
+ElementField on_members(const FieldInput& input, const ElementField& forces, std::string quantity,
+                        std::vector<std::string> names, Write&& write) {
+  std::array<int, 6> columns;
+  for (int i = 0; i < 6; ++i) columns[i] = forces.component(force_names[i]);
+  if (columns[0] < 0) throw Error("incompatible-field", "the field of section forces has no component N");
+  ElementField result{std::move(quantity), forces.support, std::move(names), {0}, {}};
+  const std::size_t width = result.components.size();
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    const int points = is_slender(input.model.formulations[cell]) ? forces.points(cell) : 0;
+    result.starts.push_back(result.starts.back() + points);
+    for (int point = 0; point < points; ++point) {
+      const auto force = [&](int i) {
+        const double value = columns[i] < 0 ? 0.0 : forces.at(cell, point, columns[i]);
+        return std::isnan(value) ? 0.0 : value;
+      };
+      const std::size_t start = result.values.size();
+      result.values.resize(start + width, 0.0);
+      write(cell, section_of(input, cell), SectionForces{force(0), force(1), force(2), force(3), force(4), force(5)},
+            result.values.data() + start);
+    }
+  }
+  return result;
+}
+
+/// The largest stress that bending causes.
+double bending_stress(const FieldInput& input, int cell, const BeamSection& section, const SectionForces& f) {
+  if (!is_beam(input.model.formulations[cell])) return 0.0;
+  const double about_y = std::abs(f.mfy) * section.reach_z / section.inertia_y;
+  const double about_z = std::abs(f.mfz) * section.reach_y / section.inertia_z;
+  switch (section.shape) {
+    case SectionShape::rectangle:
+      return about_y + about_z;
+    case SectionShape::circle:
+      return std::hypot(about_y, about_z);
+    case SectionShape::general:
+      break;
+  }
+  throw Error(
+      "unsupported",
+      fmt::format(
+          "the extreme stresses of the beam on cell {} are not known: its section is general, without an outline",
+          input.model.mesh->cell_name(cell)),
+      "ask for them on beams with a rectangular or circular section");
+}
+
+/// What the material knows at the middle of a cell of two nodes.
+MaterialPoint middle_point(const FieldInput& input, int cell) {
+  constexpr std::array<double, 2> half = {0.5, 0.5};
+  const auto nodes = input.model.mesh->cell(cell);
+  MaterialPoint at;
+  input.state.sample(cell, nodes, half, 0, at);
+  const Point& a = input.model.mesh->nodes[nodes[0]];
+  const Point& b = input.model.mesh->nodes[nodes[1]];
+  at.place({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+  return at;
+}
+
+const IsotropicElasticity& isotropic(const FieldInput& input, int cell) {
+  const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
+  if (material != nullptr) return *material;
+  throw Error("unsupported",
+              fmt::format("the bar or beam on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+}
+
+}  // namespace
+
+ElementField force_stresses(const FieldInput& input, const ElementField& forces) {
+  return on_members(input, forces, "SIEF_R", {"SN", "SVY", "SVZ", "SMT", "SMFY", "SMFZ"},
+                    [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
+                      target[0] = f.n / section.area;
+                      if (!is_beam(input.model.formulations[cell])) return;
+                      target[1] = f.vy * section.shear_y / section.area;
+                      target[2] = f.vz * section.shear_z / section.area;
+                      target[3] = f.mt * section.torsion_reach / section.torsion;
+                      target[4] = f.mfy * section.reach_z / section.inertia_y;
+                      target[5] = -f.mfz * section.reach_y / section.inertia_z;
+                    });
+}
+
+ElementField extreme_stresses(const FieldInput& input, const ElementField& forces) {
+  return on_members(input, forces, "SIEF_R", {"SIXXMIN", "SIXXMAX"},
+                    [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
+                      const double bending = bending_stress(input, cell, section, f);
+                      target[0] = f.n / section.area - bending;
+                      target[1] = f.n / section.area + bending;
+                    });
+}
+
+ElementField generalised_strains(const FieldInput& input, const ElementField& forces) {
+  return on_members(input, forces, "EPSI_R", {"EPXX", "GAXY", "GAXZ", "GAT", "KY", "KZ"},
+                    [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
+                      const MaterialPoint at = middle_point(input, cell);
+                      const IsotropicElasticity& material = isotropic(input, cell);
+                      const IsotropicModuli m = moduli(material, at);
+                      const double shear = m.young / (2 * (1 + m.poisson));
+                      target[0] = f.n / (m.young * section.area) + inelastic_axial_strain(material, at);
+                      const Formulation formulation = input.model.formulations[cell];
+                      if (!is_beam(formulation)) return;
+                      if (formulation == Formulation::timoshenko_beam) {
+                        target[1] = f.vy * section.shear_y / (shear * section.area);
+                        target[2] = f.vz * section.shear_z / (shear * section.area);
+                      }
+                      target[3] = f.mt / (shear * section.torsion);
+                      target[4] = f.mfy / (m.young * section.inertia_y);
+                      target[5] = f.mfz / (m.young * section.inertia_z);
+                    });
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,148 @@
+#include "solver/fields/energies.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
+constexpr std::array<std::string_view, 6> strain_names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+
+/// Reads a tensor at points of a field; components that it lacks are 0.
+class TensorReader {
+ public:
+  TensorReader(const ElementField& field, const std::array<std::string_view, 6>& names) : field_(field) {
+    for (int i = 0; i < 6; ++i) columns_[i] = field.component(names[i]);
+  }
+  bool has(int cell) const {
+    return columns_[0] >= 0 && field_.points(cell) > 0 && !std::isnan(field_.at(cell, 0, columns_[0]));
+  }
+  Vector6d at(int cell, int point) const {
+    Vector6d tensor;
+    for (int i = 0; i < 6; ++i) {
+      const double value = columns_[i] < 0 ? 0.0 : field_.at(cell, point, columns_[i]);
+      tensor[i] = std::isnan(value) ? 0.0 : value;
+    }
+    return tensor;
+  }
+
+ private:
+  const ElementField& field_;
+  std::array<int, 6> columns_;
+};
+
+/// A scalar field on the points of a tensor field.
+template <class ValueAt>
+ElementField scalar_field(const ElementField& like, const TensorReader& reader, ValueAt&& value_at) {
+  ElementField result{"ENER_R", like.support, {"TOTALE"}, {0}, {}};
+  for (int cell = 0; cell + 1 < static_cast<int>(like.starts.size()); ++cell) {
+    const int points = reader.has(cell) ? like.points(cell) : 0;
+    for (int point = 0; point < points; ++point) result.values.push_back(value_at(cell, point));
+    result.starts.push_back(result.starts.back() + points);
+  }
+  return result;
+}
+
+void check_points(const Model& model, const ElementField& field, int cell, std::size_t expected) {
+  if (static_cast<std::size_t>(field.points(cell)) == expected) return;
+  throw Error("incompatible-field", fmt::format("the field has {} values on cell {}, not {}", field.points(cell),
+                                                model.mesh->cell_name(cell), expected));
+}
+
+}  // namespace
+
+ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses) {
+  ContinuumPoints points(input.model);
+  const TensorReader stress(stresses, stress_names);
+  return scalar_field(stresses, stress, [&](int cell, int g) {
+    const auto& samples = points.samples(cell);
+    check_points(input.model, stresses, cell, samples.size());
+    const ContinuumPoint point = points.locate(cell, samples[g]);
+    const MaterialPoint at = points.material_point(cell, input.state, samples[g], point.at, g);
+    const Vector6d value = stress.at(cell, g);
+    return 0.5 * value.dot(solid_compliance(material_of(input, cell), at) * value);
+  });
+}
+
+ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
+                                  const ElementField* stresses_before, const ElementField* strains_before,
+                                  const ElementField* previous) {
+  const TensorReader stress(stresses, stress_names);
+  const TensorReader strain(strains, strain_names);
+  const TensorReader stress_before(stresses_before ? *stresses_before : stresses, stress_names);
+  const TensorReader strain_before(strains_before ? *strains_before : strains, strain_names);
+  return scalar_field(stresses, stress, [&](int cell, int point) {
+    Vector6d mean = 0.5 * stress.at(cell, point);
+    Vector6d change = strain.at(cell, point);
+    if (stresses_before) mean += 0.5 * stress_before.at(cell, point);
+    if (strains_before) change -= strain_before.at(cell, point);
+    change.tail<3>() *= 2;
+    return mean.dot(change) + (previous ? previous->at(cell, point, 0) : 0.0);
+  });
+}
+
+ElementField integrate_cells(const Model& model, const ElementField& field) {
+  const std::size_t width = field.components.size();
+  ContinuumPoints points(model);
+  ElementField result{field.quantity, Support::cell, field.components, {0}, {}};
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    const bool carries = points.covers(cell) && field.points(cell) > 0;
+    result.starts.push_back(result.starts.back() + (carries ? 1 : 0));
+    if (!carries) continue;
+    const auto& samples = points.samples(cell);
+    const auto nodes = model.mesh->cell(cell);
+    const bool nodal = field.support == Support::element_node;
+    if (field.support != Support::cell) check_points(model, field, cell, nodal ? nodes.size() : samples.size());
+    const std::size_t start = result.values.size();
+    result.values.resize(start + width, 0.0);
+    for (std::size_t g = 0; g < samples.size(); ++g) {
+      const double weight = points.locate(cell, samples[g]).weight;
+      for (std::size_t c = 0; c < width; ++c) {
+        const auto at = [&](std::size_t p) { return field.at(cell, static_cast<int>(p), static_cast<int>(c)); };
+        double value = 0.0;
+        if (nodal) {
+          for (std::size_t a = 0; a < nodes.size(); ++a)
+            value += samples[g].values[static_cast<Eigen::Index>(a)] * at(a);
+        } else {
+          value = at(field.support == Support::cell ? 0 : g);
+        }
+        result.values[start + c] += weight * value;
+      }
+    }
+  }
+  return result;
+}
+
+ElementField cell_volumes(const Model& model) {
+  ContinuumPoints points(model);
+  ElementField unit{"NEUT_R", Support::cell, {"VOL"}, {0}, {}};
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (points.covers(cell)) unit.values.push_back(1.0);
+    unit.starts.push_back(static_cast<int>(unit.values.size()));
+  }
+  return integrate_cells(model, unit);
+}
+
+double sum_over_cells(const ElementField& field, int component, std::optional<std::span<const int>> cells) {
+  double sum = 0.0;
+  const auto add = [&](int cell) {
+    for (int point = 0; point < field.points(cell); ++point) {
+      const double value = field.at(cell, point, component);
+      if (!std::isnan(value)) sum += value;
+    }
+  };
+  if (cells) {
+    for (const int cell : *cells) add(cell);
+  } else {
+    for (int cell = 0; cell + 1 < static_cast<int>(field.starts.size()); ++cell) add(cell);
+  }
+  return sum;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,33 @@
+// Strain energies of continua from their stresses (CALC_CHAMP, ENERGIE; POST_ELEM; R4.09.01).
+// Assembler::elastic_energies has those of all elements from displacements.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "solver/fields/continuum_points.hpp"
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+/// ENEL_ELGA: 1/2 stress : compliance : stress per volume at Gauss points (TOTALE).
+ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses);
+
+/// ETOT_ELGA: the work of the stresses per volume since the unstressed state, by the trapezoidal rule: `previous` plus
+/// 1/2 (stress + stress before) : (strain - strain before). Strains are EPSI at Gauss points. The fields of the step
+/// before are null at the first one.
+ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
+                                  const ElementField* stresses_before, const ElementField* strains_before,
+                                  const ElementField* previous);
+
+/// The integral over each continuum cell of the components of a field at Gauss points or at element nodes (ENEL_ELEM
+/// from ENEL_ELGA): one value a cell and component. Volumes are those of ContinuumPoint.
+ElementField integrate_cells(const Model& model, const ElementField& field);
+
+/// The volume of each continuum cell (component VOL).
+ElementField cell_volumes(const Model& model);
+
+/// The sum of a component over cells (all that carry it when none are given).
+double sum_over_cells(const ElementField& field, int component, std::optional<std::span<const int>> cells = {});
+
+}  // namespace comma::solver

@@ -1,0 +1,115 @@
+#include "solver/fields/mass_inertia.hpp"
+
+#include <array>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// Integrals of density times 1, x and x x^T.
+class Moments {
+ public:
+  explicit Moments(const FieldInput& input) : input_(input), points_(input.model, PointFamily::mass) {}
+
+  void add(int cell) {
+    if (points_.covers(cell)) return add_continuum(cell);
+    switch (input_.model.formulations[cell]) {
+      case Formulation::bar:
+      case Formulation::bar_2d:
+        return add_member(cell, false);
+      case Formulation::euler_beam:
+      case Formulation::timoshenko_beam:
+        return add_member(cell, true);
+      default:
+        return;
+    }
+  }
+
+  MassInertia result() const {
+    MassInertia result;
+    result.mass = mass_;
+    if (mass_ == 0.0) return result;
+    result.centre = first_ / mass_;
+    const Eigen::Matrix3d about_centre = second_ - mass_ * result.centre * result.centre.transpose();
+    result.inertia = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
+    return result;
+  }
+
+ private:
+  void add_continuum(int cell) {
+    const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
+    const CellMaterial material = material_of(input_, cell);
+    const auto& samples = points_.samples(cell);
+    for (std::size_t g = 0; g < samples.size(); ++g) {
+      const ContinuumPoint point = points_.locate(cell, samples[g]);
+      const MaterialPoint at = points_.material_point(cell, input_.state, samples[g], point.at, static_cast<int>(g));
+      const double mass = point.weight * density(*material.elasticity, at);
+      if (!axisymmetric) {
+        add_mass(mass, point.at, point.at * point.at.transpose());
+        continue;
+      }
+      // A ring about Y: its mean x x^T spreads r^2 over X and Z alike.
+      const double r = point.at[0];
+      const double y = point.at[1];
+      add_mass(2 * std::numbers::pi * mass, Eigen::Vector3d(0, y, 0),
+               Eigen::Vector3d(0.5 * r * r, y * y, 0.5 * r * r).asDiagonal());
+    }
+  }
+
+  void add_member(int cell, bool beam) {
+    const Mesh& mesh = *input_.model.mesh;
+    const auto nodes = mesh.cell(cell);
+    const auto found = input_.properties.sections.find(cell);
+    if (found == input_.properties.sections.end()) {
+      throw Error("missing-properties",
+                  fmt::format("the bar or beam on cell {} has no cross-section", mesh.cell_name(cell)));
+    }
+    const BeamSection& section = found->second;
+    const Eigen::Vector3d a(mesh.nodes[nodes[0]].data());
+    const Eigen::Vector3d b(mesh.nodes[nodes[1]].data());
+    constexpr std::array<double, 2> half = {0.5, 0.5};
+    MaterialPoint at;
+    input_.state.sample(cell, nodes, half, 0, at);
+    const double per_volume = density(*material_of(input_, cell).elasticity, at);
+    const double length = (b - a).norm();
+    const double mass = per_volume * section.area * length;
+    const Eigen::Vector3d middle = 0.5 * (a + b);
+    add_mass(mass, middle, middle * middle.transpose() + (b - a) * (b - a).transpose() / 12);
+    if (!beam) return;
+    // The second moment about the own y axis is the integral of z^2.
+    const Eigen::Matrix3d axes = own_axes(mesh, cell, section.roll);
+    const Eigen::Matrix3d own = Eigen::Vector3d(0.0, section.inertia_z, section.inertia_y).asDiagonal();
+    second_ += per_volume * length * axes.transpose() * own * axes;
+  }
+
+  void add_mass(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& square) {
+    mass_ += mass;
+    first_ += mass * at;
+    second_ += mass * square;
+  }
+
+  const FieldInput& input_;
+  ContinuumPoints points_;
+  double mass_ = 0.0;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace
+
+MassInertia mass_inertia(const FieldInput& input, std::optional<std::span<const int>> cells) {
+  Moments moments(input);
+  if (cells) {
+    for (const int cell : *cells) moments.add(cell);
+  } else {
+    for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) moments.add(cell);
+  }
+  return moments.result();
+}
+
+}  // namespace comma::solver

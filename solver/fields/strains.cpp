@@ -1,0 +1,117 @@
+#include "solver/fields/strains.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// dU_i / dX_j at a point; the hoop term of an axisymmetric body stands at (2, 2).
+class DisplacementGradients {
+ public:
+  DisplacementGradients(const Model& model, const NodalField& displacement)
+      : model_(model),
+        displacement_(displacement),
+        columns_{displacement.component("DX"), displacement.component("DY"), displacement.component("DZ")} {}
+
+  Eigen::Matrix3d at(int cell, const ContinuumSample& sample, const ContinuumPoint& point) const {
+    const auto nodes = model_.mesh->cell(cell);
+    const int dim = continuum_dimension(model_.formulations[cell]);
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    double radial = 0.0;
+    // Relative to the last node: a large translation must not cost digits.
+    const Eigen::Vector3d base = value(nodes.back(), dim, cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const Eigen::Vector3d u = value(nodes[a], dim, cell);
+      gradient += (u - base) * point.gradients.row(static_cast<Eigen::Index>(a));
+      radial += sample.values[static_cast<Eigen::Index>(a)] * u[0];
+    }
+    if (is_axisymmetric(model_.formulations[cell])) gradient(2, 2) = radial / point.at[0];
+    return gradient;
+  }
+
+ private:
+  Eigen::Vector3d value(int node, int dim, int cell) const {
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    for (int i = 0; i < dim; ++i) {
+      u[i] = columns_[i] < 0 ? absent : displacement_.at(node, columns_[i]);
+      if (std::isnan(u[i])) {
+        throw Error("incompatible-field", fmt::format("the displacement field has no value at node {} of cell {}",
+                                                      model_.mesh->node_name(node), model_.mesh->cell_name(cell)));
+      }
+    }
+    return u;
+  }
+
+  const Model& model_;
+  const NodalField& displacement_;
+  std::array<int, 3> columns_;
+};
+
+bool is_plane_stress(Formulation formulation) {
+  return formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced;
+}
+
+Vector6d engineering(const Eigen::Matrix3d& strain) {
+  Vector6d result;
+  result << strain(0, 0), strain(1, 1), strain(2, 2), 2 * strain(0, 1), 2 * strain(0, 2), 2 * strain(1, 2);
+  return result;
+}
+
+/// The strain across a plane body that carries no stress there.
+double transverse_strain(const Matrix6d& stiffness, const Vector6d& strain, const Vector6d& inelastic) {
+  const Vector6d elastic = strain - inelastic;
+  const double driven = stiffness(2, 0) * elastic[0] + stiffness(2, 1) * elastic[1] + stiffness(2, 3) * elastic[3];
+  return inelastic[2] - driven / stiffness(2, 2);
+}
+
+Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, StrainKind kind,
+                   const MaterialPoint& at) {
+  Eigen::Matrix3d tensor = 0.5 * (h + h.transpose());
+  if (kind == StrainKind::green) tensor += 0.5 * h.transpose() * h;
+  Vector6d strain = engineering(tensor);
+  const bool plane_stress = is_plane_stress(input.model.formulations[cell]);
+  if (!plane_stress && kind != StrainKind::mechanical) return strain;
+  const CellMaterial material = material_of(input, cell);
+  const Vector6d inelastic = inelastic_strain(material, at);
+  if (plane_stress) strain[2] = transverse_strain(solid_stiffness(material, at), strain, inelastic);
+  return kind == StrainKind::mechanical ? Vector6d(strain - inelastic) : strain;
+}
+
+}  // namespace
+
+ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind) {
+  const Mesh& mesh = *input.model.mesh;
+  ContinuumPoints points(input.model);
+  bool solid = false;
+  ElementField field{"EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const int count = points.covers(cell) ? static_cast<int>(points.samples(cell).size()) : 0;
+    solid = solid || (count > 0 && dimension(mesh.cell_types[cell]) == 3);
+    field.starts.push_back(field.starts.back() + count);
+  }
+  if (solid) field.components.insert(field.components.end(), {"EPXZ", "EPYZ"});
+  const std::size_t width = field.components.size();
+  field.values.assign(static_cast<std::size_t>(field.starts.back()) * width, absent);
+  const DisplacementGradients gradients(input.model, displacement);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (field.points(cell) == 0) continue;
+    const auto& samples = points.samples(cell);
+    for (std::size_t g = 0; g < samples.size(); ++g) {
+      const ContinuumPoint point = points.locate(cell, samples[g]);
+      const MaterialPoint at = points.material_point(cell, input.state, samples[g], point.at, static_cast<int>(g));
+      const Vector6d strain = strain_at(input, cell, gradients.at(cell, samples[g], point), kind, at);
+      double* target = field.values.data() + (static_cast<std::size_t>(field.starts[cell]) + g) * width;
+      const int own = dimension(mesh.cell_types[cell]) == 3 ? 6 : 4;
+      for (int i = 0; i < own; ++i) target[i] = i < 3 ? strain[i] : 0.5 * strain[i];
+    }
+  }
+  return field;
+}
+
+}  // namespace comma::solver

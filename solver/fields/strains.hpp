@@ -1,0 +1,20 @@
+// Strains of continua from displacements (CALC_CHAMP, DEFORMATION; U4.81.04).
+#pragma once
+
+#include "solver/fields/continuum_points.hpp"
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+enum class StrainKind : std::uint8_t {
+  total,       ///< EPSI: symmetric part of the displacement gradient
+  mechanical,  ///< EPME: less the strain of the command variables
+  green        ///< EPSG: Green-Lagrange
+};
+
+/// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
+/// components (half the shear angles). In plane stress EPZZ is that of the elastic law without stress across the plane.
+/// Throws Error `incompatible-field` where a node of a continuum has no displacement.
+ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
+
+}  // namespace comma::solver

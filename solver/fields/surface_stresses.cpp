@@ -1,0 +1,171 @@
+#include "solver/fields/surface_stresses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "solver/error.hpp"
+#include "solver/fields/equivalent.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
+
+using Corners = std::array<int, 4>;
+
+/// The corners of a face or edge, sorted; -1 fills up to four.
+Corners sorted_corners(std::span<const int> nodes, int count) {
+  Corners corners = {-1, -1, -1, -1};
+  std::copy_n(nodes.begin(), count, corners.begin());
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Eigen::Vector3d normal_of(const Mesh& mesh, std::span<const int> nodes, int corners) {
+  const auto at = [&](int i) { return Eigen::Vector3d(mesh.nodes[nodes[i]].data()); };
+  if (corners == 2) return (at(1) - at(0)).cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d normal =
+      corners == 4 ? (at(2) - at(0)).cross(at(3) - at(1)) : (at(1) - at(0)).cross(at(2) - at(0));
+  return normal.normalized();
+}
+
+/// The faces asked for, by their corners, with the body cells that they bound.
+class BoundedCells {
+ public:
+  BoundedCells(const Mesh& mesh, const ElementField& stresses, std::span<const int> faces) : mesh_(mesh) {
+    for (const int face : faces) {
+      if (dimension(mesh.cell_types[face]) > 0) bounded_.emplace(key_of(face), std::vector<int>());
+    }
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+      if (stresses.points(cell) > 0) add(cell);
+    }
+  }
+
+  /// The cell whose outward normal the face has, else the one on its other side; -1 if there is none.
+  int behind(int face) const {
+    const auto found = bounded_.find(key_of(face));
+    if (found == bounded_.end() || found->second.empty()) return -1;
+    const Eigen::Vector3d normal = normal_of(mesh_, mesh_.cell(face), corner_count(mesh_.cell_types[face]));
+    const Eigen::Vector3d centre = centre_of(face);
+    for (const int cell : found->second) {
+      if (normal.dot(centre - centre_of(cell)) > 0.0) return cell;
+    }
+    return found->second.front();
+  }
+
+ private:
+  Corners key_of(int face) const { return sorted_corners(mesh_.cell(face), corner_count(mesh_.cell_types[face])); }
+
+  void add(int cell) {
+    const auto nodes = mesh_.cell(cell);
+    for (const BoundaryFacet& facet : boundary_facets(mesh_.cell_types[cell])) {
+      const int count = corner_count(facet.type);
+      std::array<int, 4> corners{};
+      for (int i = 0; i < count; ++i) corners[i] = nodes[facet.nodes[i]];
+      const auto found = bounded_.find(sorted_corners(corners, count));
+      if (found != bounded_.end()) found->second.push_back(cell);
+    }
+  }
+
+  Eigen::Vector3d centre_of(int cell) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const auto nodes = mesh_.cell(cell).first(static_cast<std::size_t>(corner_count(mesh_.cell_types[cell])));
+    for (const int node : nodes) sum += Eigen::Vector3d(mesh_.nodes[node].data());
+    return sum / static_cast<double>(nodes.size());
+  }
+
+  const Mesh& mesh_;
+  std::map<Corners, std::vector<int>> bounded_;
+};
+
+Eigen::Matrix3d mean_stress(const Mesh& mesh, const ElementField& stresses, const std::array<int, 6>& columns, int cell,
+                            int face) {
+  std::array<double, 6> sums{};
+  const auto face_nodes = mesh.cell(face);
+  const auto nodes = mesh.cell(cell);
+  int count = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (std::find(face_nodes.begin(), face_nodes.end(), nodes[i]) == face_nodes.end()) continue;
+    for (int c = 0; c < 6; ++c) {
+      const double value = columns[c] < 0 ? 0.0 : stresses.at(cell, static_cast<int>(i), columns[c]);
+      sums[c] += std::isnan(value) ? 0.0 : value;
+    }
+    ++count;
+  }
+  Eigen::Matrix3d tensor;
+  tensor << sums[0], sums[3], sums[4], sums[3], sums[1], sums[5], sums[4], sums[5], sums[2];
+  return tensor / count;
+}
+
+constexpr int component_count_of_result = 16;
+using Values = std::array<double, component_count_of_result>;
+
+Values resolve_on_edge(const Eigen::Matrix3d& stress, const Eigen::Vector3d& n) {
+  const Eigen::Vector3d t = Eigen::Vector3d::UnitZ().cross(n);
+  const Eigen::Vector3d across = stress * n;
+  const Eigen::Vector3d along = stress * t;
+  return {across[0], across[1], across[2],    n.dot(across), along[0], along[1], along[2], along[0],
+          along[1],  along[2],  t.dot(along), 0.0,           0.0,      0.0,      0.0,      t.dot(across)};
+}
+
+Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d traction = stress * normal;
+  const double across = normal.dot(traction);
+  const Eigen::Vector3d tangential = traction - across * normal;
+  // Two directions of the surface, and the principal values of the stress between them.
+  const Eigen::Vector3d s = normal.unitOrthogonal();
+  const Eigen::Vector3d t = normal.cross(s);
+  const double ss = s.dot(stress * s);
+  const double tt = t.dot(stress * t);
+  const double st = s.dot(stress * t);
+  const double angle = 0.5 * std::atan2(2 * st, ss - tt) + 0.5 * std::acos(-1.0);  // of the smaller value
+  Eigen::Vector3d first = std::cos(angle) * s + std::sin(angle) * t;
+  Eigen::Index largest = 0;
+  first.cwiseAbs().maxCoeff(&largest);
+  if (first[largest] > 0.0) first = -first;
+  const Eigen::Vector3d second = normal.cross(first);
+  const double smaller = first.dot(stress * first);
+  const double larger = second.dot(stress * second);
+  const Eigen::Vector3d n = across * normal;
+  const Eigen::Vector3d one = smaller * first;
+  const Eigen::Vector3d two = larger * second;
+  return {n[0],   n[1],   n[2],    across, tangential[0], tangential[1], tangential[2], one[0],
+          one[1], one[2], smaller, two[0], two[1],        two[2],        larger,        0.0};
+}
+
+}  // namespace
+
+ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, std::span<const int> faces) {
+  std::array<int, 6> columns;
+  for (int c = 0; c < 6; ++c) columns[c] = stresses.component(stress_names[c]);
+  if (*std::min_element(columns.begin(), columns.begin() + 4) < 0) {
+    throw Error("incompatible-field", "stresses on a skin need SIXX SIYY SIZZ SIXY of the body behind it");
+  }
+  ElementField result{"SIEF_R",
+                      Support::cell,
+                      {"SIG_NX", "SIG_NY", "SIG_NZ", "SIG_N", "SIG_TX", "SIG_TY", "SIG_TZ", "SIG_T1X", "SIG_T1Y",
+                       "SIG_T1Z", "SIG_T1", "SIG_T2X", "SIG_T2Y", "SIG_T2Z", "SIG_T2", "SIG_TN"},
+                      std::vector<int>(mesh.cell_types.size() + 1, 0),
+                      {}};
+  const BoundedCells bounded(mesh, stresses, faces);
+  std::vector<int> sorted(faces.begin(), faces.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (const int face : sorted) {
+    const int cell = dimension(mesh.cell_types[face]) > 0 ? bounded.behind(face) : -1;
+    if (cell < 0) continue;
+    const Eigen::Vector3d normal = normal_of(mesh, mesh.cell(face), corner_count(mesh.cell_types[face]));
+    const Eigen::Matrix3d stress = mean_stress(mesh, stresses, columns, cell, face);
+    const Values values =
+        dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal);
+    result.values.insert(result.values.end(), values.begin(), values.end());
+    result.starts[face + 1] = 1;
+  }
+  for (std::size_t cell = 1; cell < result.starts.size(); ++cell) result.starts[cell] += result.starts[cell - 1];
+  return result;
+}
+
+}  // namespace comma::solver

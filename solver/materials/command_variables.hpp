@@ -1,0 +1,63 @@
+// Command variables: fields known beforehand on which materials depend, temperature first of all (U4.43.03, AFFE_VARC).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/fields/field.hpp"
+#include "solver/functions/function.hpp"
+#include "solver/materials/property.hpp"
+
+namespace comma::solver {
+
+/// A field at one instant; its first component counts. On nodes, at element nodes, at Gauss points or one value a cell.
+struct VariableSnapshot {
+  double instant = 0.0;
+  std::shared_ptr<const Field> field;
+};
+
+/// One variable on some cells. Between two snapshots it is linear in time; a single snapshot holds at all times.
+struct CommandVariable {
+  Parameter variable = Parameter::temperature;
+  std::vector<int> cells;  ///< empty: all
+  double reference = std::numeric_limits<double>::quiet_NaN();
+  std::vector<VariableSnapshot> snapshots;  ///< rising instants
+  Extension left = Extension::excluded;     ///< before the first snapshot
+  Extension right = Extension::excluded;
+};
+
+/// The command variables of a body at one instant.
+class VariableState {
+ public:
+  VariableState() = default;
+  /// Of two variables of the same kind on one cell the later counts. Throws Error `out-of-function` for a time outside
+  /// the snapshots where that is excluded, `incompatible-field` for snapshots that do not fit each other or the mesh,
+  /// and for something that is no command variable.
+  VariableState(const Mesh& mesh, std::span<const CommandVariable> variables, double time);
+
+  double time() const { return time_; }
+  bool empty() const { return entries_.empty(); }
+
+  /// Fills in time and command variables at a point of a cell. `shape`: the shape functions at the point, one a node of
+  /// the cell; `point`: its number among the Gauss points. Throws Error `incompatible-field` when a field at Gauss
+  /// points has not this point.
+  void sample(int cell, std::span<const int> nodes, std::span<const double> shape, int point, MaterialPoint& out) const;
+
+ private:
+  struct Entry {
+    Parameter variable;
+    double reference;
+    Field field;
+  };
+  double value(const Entry& entry, int cell, std::span<const int> nodes, std::span<const double> shape,
+               int point) const;
+
+  double time_ = 0.0;
+  std::vector<Entry> entries_;
+  /// For each variable that occurs, the entry of each cell (-1: none).
+  std::array<std::vector<int>, command_variable_count> entry_of_cell_;
+};
+
+}  // namespace comma::solver

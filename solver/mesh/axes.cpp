@@ -1,0 +1,33 @@
+#include "solver/mesh/axes.hpp"
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  const Eigen::Matrix3d turn =
+      (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
+  return turn.transpose();
+}
+
+Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d& origin, const Eigen::Vector3d& at) {
+  const Eigen::Vector3d along = nautical_axes(yaw, pitch, 0.0).row(0);
+  const Eigen::Vector3d from_origin = at - origin;
+  const Eigen::Vector3d radial = from_origin - along.dot(from_origin) * along;
+  // A centre this near the axis has no radial direction that rounding has not made up.
+  constexpr double nearest = 1e-12;
+  if (!(radial.norm() > nearest * from_origin.norm())) {
+    throw Error("distorted-cell",
+                "a cell with cylindrical material axes has its centre on the axis, where they are not defined");
+  }
+  Eigen::Matrix3d axes;
+  axes.row(0) = radial.normalized();
+  axes.row(2) = along;
+  axes.row(1) = along.cross(axes.row(0).transpose());
+  return axes;
+}
+
+}  // namespace comma::solver

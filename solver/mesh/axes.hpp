@@ -1,0 +1,17 @@
+// Axes from angles.
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace comma::solver {
+
+/// Axes (rows) of nautical angles in radians: turned by `yaw` about Z, then by `pitch` about the new Y, then by `roll`
+/// about the new X (U4.42.01, ANGL_REP, ANGL_NAUT). The first goes down for a positive pitch.
+Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll);
+
+/// Axes (rows) at `at` in a body made round an axis through `origin` with the nautical angles `yaw` and `pitch`: L away
+/// from the axis, N along it, T = N x L round it (U4.42.01, ANGL_AXE, ORIG_AXE). Throws Error `distorted-cell` for a
+/// place on the axis.
+Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d& origin, const Eigen::Vector3d& at);
+
+}  // namespace comma::solver

@@ -1,0 +1,98 @@
+#include "solver/nonlinear/linear_static_analysis.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/tangent_system.hpp"
+
+namespace comma::solver {
+namespace {
+
+/// Corrections after the first solution, at most: each gains the digits that the factorisation has to give.
+constexpr int max_corrections = 3;
+/// A correction below this share of the solution is rounding.
+constexpr double negligible_step = 4e-16;
+
+double largest(const Eigen::VectorXd& v) {
+  return v.size() ? v.cwiseAbs().maxCoeff() : 0.0;
+}
+
+NewtonOptions tangent_options(const LinearStaticOptions& options) {
+  NewtonOptions result;
+  result.method = options.method;
+  result.linear = options.linear;
+  return result;
+}
+
+class LinearStaticAnalysis {
+ public:
+  LinearStaticAnalysis(const StaticProblem& problem, const LinearStaticOptions& options, Counters& counters)
+      : problem_(problem),
+        dofs_(*problem.model),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
+        elimination_(*problem.model->mesh, dofs_, problem.loads),
+        tangent_options_(tangent_options(options)),
+        tangent_(*problem.model, dofs_, assembler_, elimination_, tangent_options_, counters) {}
+
+  Eigen::VectorXd solve(double time) {
+    assembler_.set_time(time);
+    const Eigen::VectorXd offset = elimination_.offset(time);
+    const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
+    tangent_.refresh(offset);
+    // The linear solver refines its solution to the last digits. What it cannot see is the rounding of forces that
+    // large imposed displacements cause, which a body held by weak springs feels: corrections remove that.
+    const int corrections = largest(offset) > 0.0 ? max_corrections : 0;
+    Eigen::VectorXd reduced = Eigen::VectorXd::Zero(elimination_.reduced_size());
+    Eigen::VectorXd u = offset;
+    double last = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= corrections; ++k) {
+      Eigen::MatrixXd step = elimination_.transformation().transpose() * (external - assembler_.internal_forces(u));
+      tangent_.solve(step);
+      reduced += step;
+      u = elimination_.transformation() * reduced + offset;
+      const double share = largest(step) / std::max(largest(reduced), std::numeric_limits<double>::min());
+      if (share <= negligible_step || (k > 0 && share > 0.5 * last)) break;
+      last = share;
+    }
+    return u;
+  }
+
+  ResultStep archive(double time, const Eigen::VectorXd& u, bool stresses) const {
+    ResultStep step;
+    step.instant = time;
+    step.fields.emplace("DEPL", to_field(u, dofs_, "DEPL_R"));
+    if (stresses) step.fields.emplace("SIEF_ELGA", assembler_.stresses(u, problem_.loads, time));
+    return step;
+  }
+
+ private:
+  const StaticProblem& problem_;
+  DofMap dofs_;
+  Assembler assembler_;
+  Elimination elimination_;
+  NewtonOptions tangent_options_;
+  TangentSystem tangent_;
+};
+
+}  // namespace
+
+void solve_linear_static(const StaticProblem& problem, std::span<const double> instants,
+                         const LinearStaticOptions& options, Result& result, Counters& counters) {
+  if (problem.contact || !problem.unilateral.empty()) {
+    throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions",
+                "solve the problem as a nonlinear one");
+  }
+  LinearStaticAnalysis analysis(problem, options, counters);
+  result.model = problem.model;
+  for (const double time : instants) {
+    ResultStep step = analysis.archive(time, analysis.solve(time), options.stresses);
+    step.order = result.steps.empty() ? 1 : result.steps.back().order + 1;
+    result.steps.push_back(std::move(step));
+  }
+}
+
+}  // namespace comma::solver

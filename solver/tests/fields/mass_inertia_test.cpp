@@ -1,0 +1,79 @@
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "../elements/sample_meshes.hpp"
+#include "solver/fields/mass_inertia.hpp"
+
+using namespace comma::solver;
+using namespace comma::solver::testing;
+
+namespace {
+
+std::shared_ptr<const Material> dense(double density) {
+  Material material;
+  IsotropicElasticity elasticity{1.0, 0.0};
+  elasticity.density = density;
+  material.elasticity = elasticity;
+  return std::make_shared<const Material>(material);
+}
+
+MassInertia of(const Body& body) {
+  return mass_inertia({body.model, body.materials, body.properties, body.assembler->state()});
+}
+
+/// A brick a x b x c with its first corner at `corner`, as one cell of a quadratic type.
+std::shared_ptr<Mesh> brick(const Point& corner, double a, double b, double c) {
+  auto mesh = std::make_shared<Mesh>();
+  std::vector<int> nodes;
+  for (const auto& at : reference_nodes(CellType::hexa20)) {
+    nodes.push_back(mesh->node_count());
+    mesh->nodes.push_back(
+        {corner[0] + a * (at[0] + 1) / 2, corner[1] + b * (at[1] + 1) / 2, corner[2] + c * (at[2] + 1) / 2});
+  }
+  mesh->add_cell(CellType::hexa20, nodes);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a brick: mass, centre and m (b^2 + c^2) / 12", "[fields]") {
+  const MassInertia result = of(Body(brick({1, 2, 3}, 2, 4, 6), Formulation::solid, dense(10)));
+  CHECK(result.mass == Approx(480));
+  CHECK((result.centre - Eigen::Vector3d(2, 4, 6)).norm() < 1e-13);
+  CHECK(result.inertia(0, 0) == Approx(480 * (16 + 36) / 12.0));
+  CHECK(result.inertia(2, 2) == Approx(480 * (4 + 16) / 12.0));
+  CHECK(result.inertia(0, 1) == Approx(0).margin(1e-10));
+}
+
+TEST_CASE("a hollow cylinder by its axisymmetric section", "[fields]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{1, 0, 0}, {2, 0, 0}, {2, 3, 0}, {1, 3, 0}, {1.5, 0, 0}, {2, 1.5, 0}, {1.5, 3, 0}, {1, 1.5, 0}};
+  mesh->add_cell(CellType::quad8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
+  const MassInertia result = of(Body(mesh, Formulation::axisymmetric, dense(7)));
+  const double mass = 7 * std::numbers::pi * (4 - 1) * 3;
+  CHECK(result.mass == Approx(mass));
+  CHECK((result.centre - Eigen::Vector3d(0, 1.5, 0)).norm() < 1e-13);
+  CHECK(result.inertia(1, 1) == Approx(mass * (1 + 4) / 2));
+  CHECK(result.inertia(0, 0) == Approx(mass * (3 * (1 + 4) + 9) / 12));
+}
+
+TEST_CASE("a slanted rod: m L^2 / 12 across it, its section along it", "[fields]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{0, 0, 0}, {3, 4, 0}};
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  ElementProperties properties;
+  BeamSection section;
+  section.area = 0.5;
+  section.inertia_y = 0.02;
+  section.inertia_z = 0.03;
+  section.torsion = 0.04;
+  properties.sections[0] = section;
+  const MassInertia result = of(Body(mesh, std::vector{Formulation::euler_beam}, dense(8), properties));
+  CHECK(result.mass == Approx(20));
+  const Eigen::Vector3d along(0.6, 0.8, 0);
+  CHECK(along.dot(result.inertia * along) == Approx(8 * 5 * (0.02 + 0.03)));
+  CHECK(result.inertia(2, 2) == Approx(20 * 25 / 12.0 + 8 * 5 * 0.03));
+}

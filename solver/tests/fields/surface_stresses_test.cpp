@@ -1,0 +1,57 @@
+#include <catch2/catch.hpp>
+
+#include "../elements/sample_meshes.hpp"
+#include "solver/fields/surface_stresses.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+double value(const ElementField& field, int cell, std::string_view name) {
+  return field.at(cell, 0, field.component(name));
+}
+
+/// A unit cube (cell 0) with its top face (cell 1).
+Mesh cube() {
+  Mesh mesh;
+  for (const auto& at : reference_nodes(CellType::hexa8)) mesh.nodes.push_back({at[0], at[1], at[2]});
+  mesh.add_cell(CellType::hexa8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
+  mesh.add_cell(CellType::quad4, std::array{4, 5, 6, 7});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a uniform stress on a face: normal and tangential traction, principal stresses within it", "[fields]") {
+  const Mesh mesh = cube();
+  ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 8, 8}, {}};
+  for (int i = 0; i < 8; ++i) stress.values.insert(stress.values.end(), {100, 200, 1000, 0, 50, -70});
+  const ElementField skin = surface_stresses(mesh, stress, std::array{1});
+  REQUIRE(skin.points(1) == 1);
+  CHECK(skin.points(0) == 0);
+  CHECK(value(skin, 1, "SIG_N") == Approx(1000));
+  CHECK(value(skin, 1, "SIG_NZ") == Approx(1000));
+  CHECK(value(skin, 1, "SIG_TX") == Approx(50));
+  CHECK(value(skin, 1, "SIG_TY") == Approx(-70));
+  CHECK(value(skin, 1, "SIG_TZ") == Approx(0).margin(1e-12));
+  CHECK(value(skin, 1, "SIG_T1") == Approx(100));
+  CHECK(value(skin, 1, "SIG_T2") == Approx(200));
+  CHECK(std::abs(value(skin, 1, "SIG_T1X")) == Approx(100));
+  CHECK(std::abs(value(skin, 1, "SIG_T2Y")) == Approx(200));
+}
+
+TEST_CASE("a uniform stress on an edge of a plane body", "[fields]") {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.add_cell(CellType::quad4, std::array{0, 1, 2, 3});
+  mesh.add_cell(CellType::seg2, std::array{1, 2});  // outward normal +X
+  ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY"}, {0, 4, 4}, {}};
+  for (int i = 0; i < 4; ++i) stress.values.insert(stress.values.end(), {100, 200, 30, 50});
+  const ElementField skin = surface_stresses(mesh, stress, std::array{1});
+  CHECK(value(skin, 1, "SIG_N") == Approx(100));
+  CHECK(value(skin, 1, "SIG_NY") == Approx(50));
+  CHECK(value(skin, 1, "SIG_T1") == Approx(200));
+  CHECK(value(skin, 1, "SIG_TX") == Approx(50));
+  CHECK(value(skin, 1, "SIG_TN") == Approx(50));
+}

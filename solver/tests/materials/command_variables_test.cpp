@@ -1,0 +1,76 @@
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+#include "solver/materials/command_variables.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+Mesh two_bars() {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  mesh.add_cell(CellType::seg2, std::array{0, 1});
+  mesh.add_cell(CellType::seg2, std::array{1, 2});
+  return mesh;
+}
+
+std::shared_ptr<const Field> nodal(std::vector<double> values) {
+  return std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::move(values)});
+}
+
+CommandVariable heating() {
+  CommandVariable variable;
+  variable.reference = 20.0;
+  variable.snapshots = {{0.0, nodal({0, 100, 200})}, {10.0, nodal({0, 300, 400})}};
+  return variable;
+}
+
+double temperature(const Mesh& mesh, const VariableState& state, int cell, double first_share) {
+  MaterialPoint at;
+  state.sample(cell, mesh.cell(cell), std::array{first_share, 1 - first_share}, 0, at);
+  return at[Parameter::temperature];
+}
+
+}  // namespace
+
+TEST_CASE("command variables are linear in time and place", "[materials]") {
+  const Mesh mesh = two_bars();
+  const std::vector variables = {heating()};
+  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 0, 0.5) == Approx(50.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 2.5), 1, 0.25) == Approx(0.25 * 150 + 0.75 * 250));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == Approx(400.0));
+}
+
+TEST_CASE("outside its instants a command variable is refused unless it is extended", "[materials]") {
+  const Mesh mesh = two_bars();
+  std::vector variables = {heating()};
+  CHECK_THROWS_WITH(VariableState(mesh, variables, 11.0), Catch::Contains("temperature") && Catch::Contains("11"));
+  variables[0].right = Extension::constant;
+  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == Approx(400.0));
+  variables[0].right = Extension::linear;
+  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == Approx(420.0));
+  CHECK_THROWS_AS(VariableState(mesh, variables, -1.0), Error);
+}
+
+TEST_CASE("a later variable replaces an earlier one on its cells alone", "[materials]") {
+  const Mesh mesh = two_bars();
+  CommandVariable local;
+  local.cells = {1};
+  local.snapshots = {
+      {0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::cell, {"TEMP"}, {0, 0, 1}, {77.0}})}};
+  const std::vector variables = {heating(), local};
+  const VariableState state(mesh, variables, 5.0);
+  CHECK(temperature(mesh, state, 0, 0.0) == Approx(200.0));
+  CHECK(temperature(mesh, state, 1, 0.3) == 77.0);
+}
+
+TEST_CASE("fields of another mesh are refused", "[materials]") {
+  const Mesh mesh = two_bars();
+  std::vector variables = {heating()};
+  variables[0].snapshots[1].field = nodal({1, 2});
+  CHECK_THROWS_WITH(VariableState(mesh, variables, 0.0), Catch::Contains("another mesh"));
+}

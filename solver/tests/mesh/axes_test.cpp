@@ -1,0 +1,17 @@
+#include "solver/mesh/axes.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+TEST_CASE("cylindrical axes point away from the axis, round it and along it", "[mesh]") {
+  const Eigen::Matrix3d axes = cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 7, 50});  // axis along +Z
+  CHECK((axes.row(0) - Eigen::RowVector3d(0, 1, 0)).norm() < 1e-14);
+  CHECK((axes.row(1) - Eigen::RowVector3d(-1, 0, 0)).norm() < 1e-14);
+  CHECK((axes.row(2) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-14);
+  CHECK_THROWS_AS(cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 2, 50}), Error);
+}

@@ -1,0 +1,138 @@
+#include "solver/nonlinear/linear_static_analysis.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "scene.hpp"
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+namespace {
+
+constexpr double young = 2e11;
+constexpr double poisson = 0.3;
+
+struct Solved {
+  Result result;
+  Counters counters;
+};
+
+Solved solve(const StaticProblem& problem, std::vector<double> instants) {
+  Solved solved;
+  solve_linear_static(problem, instants, {}, solved.result, solved.counters);
+  return solved;
+}
+
+double value(const Result& result, std::size_t step, std::string_view field, int place, std::string_view component) {
+  const Field& found = result.steps[step].fields.find(field)->second;
+  if (const auto* nodal = std::get_if<NodalField>(&found)) return nodal->at(place, nodal->component(component));
+  const auto& element = std::get<ElementField>(found);
+  return element.at(place, 0, element.component(component));
+}
+
+/// A plate held along its left side in x and at one corner in y.
+struct Plate {
+  Scene scene;
+  Scene::Block block;
+
+  explicit Plate(Property modulus = young, double expansion = 0.0)
+      : block(scene.block("b", {0, 0}, {4, 2}, 4, 2, young, poisson)) {
+    for (const auto& row : block.nodes) scene.impose({row.front()}, Component::dx, 0.0);
+    scene.impose({block.nodes[0][0]}, Component::dy, 0.0);
+    Material material;
+    IsotropicElasticity elasticity{std::move(modulus), poisson};
+    elasticity.expansion = expansion;
+    material.elasticity = elasticity;
+    auto materials = std::make_shared<MaterialField>();
+    materials->by_cell.assign(scene.mesh->cell_types.size(), std::make_shared<const Material>(material));
+    scene.problem.materials = materials;
+  }
+
+  /// Temperatures at times 0 and 10, from a reference of 0.
+  void heat(double first, double second) {
+    const auto uniform = [&](double temperature) {
+      return std::make_shared<const Field>(
+          NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), temperature)});
+    };
+    CommandVariable variable;
+    variable.reference = 0.0;
+    variable.snapshots = {{0.0, uniform(first)}, {10.0, uniform(second)}};
+    auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
+    materials->variables = {variable};
+    scene.problem.materials = materials;
+  }
+
+  void pull(double force) {
+    for (std::size_t row = 0; row < block.nodes.size(); ++row) {
+      const bool end = row == 0 || row + 1 == block.nodes.size();
+      scene.force(block.nodes[row].back(), Component::dx, end ? force / 2 : force);
+    }
+  }
+
+  int corner() const { return block.nodes.back().back(); }
+};
+
+}  // namespace
+
+TEST_CASE("linear statics: several instants, one factorisation, orders from 1 on", "[linear-statics]") {
+  Plate plate;
+  plate.pull(1e6);
+  const auto [result, counters] = solve(plate.scene.problem, {0.0, 1.0, 5.0});
+  CHECK(counters.factorisations == 1);
+  REQUIRE(result.steps.size() == 3);
+  CHECK(result.steps[0].order == 1);
+  CHECK(result.steps[2].order == 3);
+  // Uniform tension: 2e6 N on a side of 2 m.
+  CHECK(value(result, 2, "DEPL", plate.corner(), "DX") == Approx(1e6 * (1 - poisson * poisson) / young * 4));
+  CHECK(value(result, 2, "SIEF_ELGA", 0, "SIXX") == Approx(1e6));
+}
+
+TEST_CASE("linear statics: free thermal expansion has no stress in the plane, and grows with the temperature",
+          "[linear-statics]") {
+  Plate plate(young, 1e-5);
+  plate.heat(0.0, 100.0);
+  const auto [result, counters] = solve(plate.scene.problem, {5.0, 10.0});
+  CHECK(counters.factorisations == 1);
+  const double stretch = 1e-5 * (1 + poisson);
+  CHECK(value(result, 0, "DEPL", plate.corner(), "DX") == Approx(stretch * 50 * 4));
+  CHECK(value(result, 1, "DEPL", plate.corner(), "DY") == Approx(stretch * 100 * 2));
+  CHECK(value(result, 1, "SIEF_ELGA", 3, "SIXX") == Approx(0.0).margin(1e-6));
+  CHECK(value(result, 1, "SIEF_ELGA", 3, "SIZZ") == Approx(-young * 1e-3));
+}
+
+TEST_CASE("linear statics: a modulus that changes with temperature is factorised again at each instant",
+          "[linear-statics]") {
+  const Property softening([](const MaterialPoint& at) { return young * (1 - at[Parameter::temperature] / 200); });
+  Plate plate(softening);
+  plate.heat(0.0, 100.0);
+  plate.pull(1e6);
+  const auto [result, counters] = solve(plate.scene.problem, {0.0, 10.0});
+  CHECK(counters.factorisations == 2);
+  const double cold = value(result, 0, "DEPL", plate.corner(), "DX");
+  CHECK(value(result, 1, "DEPL", plate.corner(), "DX") == Approx(2 * cold));
+}
+
+TEST_CASE("linear statics and Newton agree on a thermal scene with imposed displacements", "[linear-statics]") {
+  const Property softening([](const MaterialPoint& at) { return young * (1 - at[Parameter::temperature] / 200); });
+  Plate plate(softening, 1e-5);
+  plate.heat(0.0, 100.0);
+  plate.scene.impose({plate.corner()}, Component::dx, 1e-3, true);
+  const auto [result, counters] = solve(plate.scene.problem, {1.0, 2.0});
+  plate.scene.solve(2);
+  for (const int node : plate.block.nodes[1]) {
+    for (const auto component : {Component::dx, Component::dy}) {
+      CHECK(value(result, 1, "DEPL", node, name_of(component)) ==
+            Approx(plate.scene.displacement(node, component)).margin(1e-15));
+    }
+  }
+}
+
+TEST_CASE("linear statics takes no unilateral conditions", "[linear-statics]") {
+  Plate plate;
+  plate.scene.bound({plate.corner()}, Component::dx, 1.0, [](const Point&, double) { return 0.0; });
+  CHECK_THROWS_WITH(solve(plate.scene.problem, {0.0}), Catch::Contains("unilateral"));
+}
