@@ -78,7 +78,9 @@ std::vector<fs::path> scenes() {
   const fs::path root = COMMA_SOURCE_DIR;
   std::vector<fs::path> found = {root / "commands/tests/wrong/sound.comm"};
   for (const auto& entry : fs::recursive_directory_iterator(root / "testcases")) {
-    if (entry.path().extension() == ".comm" && mesh_is_small(entry.path())) found.push_back(entry.path());
+    if (entry.path().extension() != ".comm" || !mesh_is_small(entry.path())) continue;
+    // FORMULE takes keywords of any name: what is planted there may be right.
+    if (text_of(entry.path()).find("FORMULE(") == std::string::npos) found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
   return found;

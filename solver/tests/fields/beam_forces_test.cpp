@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "../elements/sample_meshes.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;

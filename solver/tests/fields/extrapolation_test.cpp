@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "../elements/sample_meshes.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/extrapolation.hpp"

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "../elements/sample_meshes.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/mass_inertia.hpp"
 
 using namespace comma::solver;

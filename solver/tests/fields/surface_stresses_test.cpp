@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "../elements/sample_meshes.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/surface_stresses.hpp"
 
 using namespace comma::solver;
