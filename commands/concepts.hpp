@@ -64,6 +64,13 @@ struct ResultConcept : ConceptData {
   solver::StaticProblem problem;
 };
 
+/// A field of its own (CREA_CHAMP) and what it lies on; `model` is null for a field that knows its mesh alone.
+struct FieldConcept : ConceptData {
+  solver::Field field;
+  std::shared_ptr<const solver::Mesh> mesh;
+  std::shared_ptr<const solver::Model> model;
+};
+
 struct TableConcept : ConceptData {
   Table table;
 
