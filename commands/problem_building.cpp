@@ -31,6 +31,7 @@ std::optional<LinearMethod> linear_method(const std::string& word) {
   if (word == "MUMPS") return LinearMethod::mumps;
   if (word == "MULT_FRONT") return LinearMethod::cholmod;
   if (word == "LDLT") return LinearMethod::eigen_ldlt;
+  if (word == "GCPC") return LinearMethod::conjugate_gradient;
   return std::nullopt;
 }
 
@@ -61,6 +62,10 @@ SolverChoice solver_choice(const Call& call) {
   const Keywords& solver = call.factor("SOLVEUR");
   if (solver.given("METHODE")) choice.method = linear_method(solver.text("METHODE"));
   if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
+  if (solver.text("METHODE") == "GCPC") {
+    choice.options.iteration_tolerance = solver.real("RESI_RELA");
+    choice.options.most_iterations = static_cast<int>(solver.integer("NMAX_ITER"));
+  }
   return choice;
 }
 

@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "solver/linear/cholmod_solver.hpp"
+#include "solver/linear/conjugate_gradient_solver.hpp"
 #include "solver/linear/eigen_ldlt_solver.hpp"
 #include "solver/linear/mumps_solver.hpp"
 
@@ -15,6 +16,8 @@ std::string_view name_of(LinearMethod method) {
       return "CHOLMOD";
     case LinearMethod::eigen_ldlt:
       return "LDLT";
+    case LinearMethod::conjugate_gradient:
+      return "GCPC";
   }
   return "";
 }
@@ -27,6 +30,8 @@ std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const Line
       return make_cholmod_solver(options);
     case LinearMethod::eigen_ldlt:
       return make_eigen_ldlt_solver(options);
+    case LinearMethod::conjugate_gradient:
+      return make_conjugate_gradient_solver(options);
   }
   throw Error("unsupported", "no such linear solver");
 }

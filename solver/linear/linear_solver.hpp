@@ -1,7 +1,7 @@
-// One interface for all direct solvers of symmetric systems (design: analyse once a pattern, factorise once a
+// One interface for all solvers of symmetric systems (design: analyse once a pattern, factorise once a
 // stiffness).
 //
-// Every solver works on the equilibrated matrix S A S and refines its solutions against the matrix as given, see
+// Every direct solver works on the equilibrated matrix S A S and refines its solutions against the matrix as given, see
 // refined_solver.hpp; docs/linear_solvers.md shows what that buys on nearly singular matrices.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace comma::solver {
 /// Symmetric; only the lower triangle is stored, diagonal included (an explicit entry on every row).
 using SymmetricMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-enum class LinearMethod : std::uint8_t { mumps, cholmod, eigen_ldlt };
+enum class LinearMethod : std::uint8_t { mumps, cholmod, eigen_ldlt, conjugate_gradient };
 std::string_view name_of(LinearMethod method);
 
 enum class FactorVerdict : std::uint8_t { ok, indefinite, singular };
@@ -41,6 +41,10 @@ struct LinearOptions {
   int refinement_steps = 20;
   /// Power-of-two scaling of rows and columns; only a study of its effect turns it off.
   bool equilibrate = true;
+  /// Conjugate gradients alone: residual relative to the right-hand side at which they stop (RESI_RELA), and how many
+  /// iterations they may take (NMAX_ITER; 0: half the unknowns).
+  double iteration_tolerance = 1e-6;
+  int most_iterations = 0;
 };
 
 class LinearSolver {

@@ -9,6 +9,7 @@
 #include "solver/error.hpp"
 #include "solver/linear/double_double.hpp"
 #include "solver/linear/equilibration.hpp"
+#include "solver/linear/matrix_checks.hpp"
 
 namespace comma::solver {
 
@@ -39,28 +40,6 @@ void residual(const SymmetricMatrix& matrix, const double* b, const double* high
     }
   }
   for (int row = 0; row < n; ++row) result[row] = sums[row].value();
-}
-
-double row_sum_norm(const SymmetricMatrix& matrix) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(matrix.rows());
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (SymmetricMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      sums[entry.row()] += std::abs(entry.value());
-      if (entry.row() != column) sums[column] += std::abs(entry.value());
-    }
-  }
-  return sums.size() == 0 ? 0.0 : sums.maxCoeff();
-}
-
-void check_finite(const SymmetricMatrix& matrix) {
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (SymmetricMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (std::isfinite(entry.value())) continue;
-      throw Error("not-finite",
-                  fmt::format("the matrix has the entry {} at row {}, column {}", entry.value(), entry.row(), column),
-                  "look for a material constant, a section or a coordinate that is zero, infinite or missing");
-    }
-  }
 }
 
 int digits_lost(double pivot, double reference) {

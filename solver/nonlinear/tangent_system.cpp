@@ -32,8 +32,14 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced) {
     report = solver_->factorise(reduced);
     ++counters_.factorisations;
   }
+  // Iterations have no pivots: what moves freely is looked for before they start.
+  const int digits = options_.linear.singular_digits;
+  if (solver_->method() == LinearMethod::conjugate_gradient &&
+      !find_free_parts(*model_.mesh, dofs_, elimination_, reduced, {}, digits).empty()) {
+    report.verdict = FactorVerdict::singular;
+  }
   if (report.verdict == FactorVerdict::singular) {
-    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, options_.linear.singular_digits);
+    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
   measure_rows(reduced);
   factorised_ = true;

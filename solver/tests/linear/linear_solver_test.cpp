@@ -221,3 +221,26 @@ TEST_CASE("small positive definite systems stay inside the program, large ones g
   identity.setIdentity();
   CHECK(choose_method(identity) == LinearMethod::cholmod);
 }
+
+TEST_CASE("conjugate gradients reach the residual asked for, and say so when they cannot") {
+  const Eigen::MatrixXd dense = chain(std::vector<double>(201, 3.0));
+  const Eigen::MatrixXd expected = random_integers(200, 2, 5);
+  LinearOptions options;
+  options.iteration_tolerance = 1e-12;
+  auto solver = make_linear_solver(LinearMethod::conjugate_gradient, options);
+  CHECK(solver->factorise(lower_triangle(dense)).verdict == FactorVerdict::ok);
+  CHECK(solve_error(*solver, dense, expected) < 1e-8);
+  SECTION("too few iterations") {
+    // A band of many couplings, for which the incomplete factor is not the factor itself.
+    const Eigen::MatrixXd root = random_integers(60, 60, 1);
+    const Eigen::MatrixXd full = root * root.transpose() + Eigen::MatrixXd::Identity(60, 60);
+    Eigen::MatrixXd sparse = full;
+    for (int i = 0; i < 60; ++i) sparse(i, i) += 60.0 * 81.0;
+    options.most_iterations = 1;
+    options.iteration_tolerance = 1e-15;
+    solver = make_linear_solver(LinearMethod::conjugate_gradient, options);
+    solver->factorise(lower_triangle(sparse));
+    Eigen::MatrixXd x = random_integers(60, 1, 3);
+    CHECK_THROWS_AS(solver->solve(x), Error);
+  }
+}
