@@ -36,6 +36,7 @@ Product impr_fonction(const Call& call, Context& context);
 Product impr_resu(const Call& call, Context& context);
 Product impr_table(const Call& call, Context& context);
 Product lire_maillage(const Call& call, Context& context);
+Product meca_statique(const Call& call, Context& context);
 Product modi_maillage(const Call& call, Context& context);
 Product post_releve_t(const Call& call, Context& context);
 Product recu_fonction(const Call& call, Context& context);

@@ -36,6 +36,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"IMPR_RESU", impr_resu},
     {"IMPR_TABLE", impr_table},
     {"LIRE_MAILLAGE", lire_maillage},
+    {"MECA_STATIQUE", meca_statique},
     {"MODI_MAILLAGE", modi_maillage},
     {"POST_RELEVE_T", post_releve_t},
     {"RECU_FONCTION", recu_fonction},
