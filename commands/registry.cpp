@@ -21,6 +21,8 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"CALC_CHAMP", calc_champ},
     {"CALC_FONC_INTERP", calc_fonc_interp},
     {"CALC_TABLE", calc_table},
+    {"CREA_CHAMP", crea_champ},
+    {"CREA_RESU", crea_resu},
     {"CREA_TABLE", crea_table},
     {"DEBUT", debut},
     {"DEFI_CONSTANTE", defi_constante},
