@@ -31,7 +31,6 @@ std::optional<LinearMethod> linear_method(const std::string& word) {
   if (word == "MUMPS") return LinearMethod::mumps;
   if (word == "MULT_FRONT") return LinearMethod::cholmod;
   if (word == "LDLT") return LinearMethod::eigen_ldlt;
-  if (word == "GCPC") return LinearMethod::conjugate_gradient;
   return std::nullopt;
 }
 
@@ -42,6 +41,14 @@ int singular_digits(const Keywords& solver) {
   const int digits = static_cast<int>(solver.integer("NPREC"));
   if (digits == 0) return default_digits;
   return solver.text("METHODE") == "MUMPS" ? digits : std::abs(digits);
+}
+
+// METHODE="GCPC". With a complete factor as preconditioner the iterations are nothing but the refinement that every direct
+// method does in any case.
+void take_iterations(const Keywords& solver, SolverChoice& choice) {
+  choice.method = solver.text("PRE_COND") == "LDLT_INC" ? LinearMethod::conjugate_gradient : LinearMethod::cholmod;
+  choice.options.iteration_tolerance = solver.real("RESI_RELA");
+  choice.options.most_iterations = static_cast<int>(solver.integer("NMAX_ITER"));
 }
 
 }  // namespace
@@ -61,11 +68,8 @@ SolverChoice solver_choice(const Call& call) {
   if (!call.has("SOLVEUR")) return choice;
   const Keywords& solver = call.factor("SOLVEUR");
   if (solver.given("METHODE")) choice.method = linear_method(solver.text("METHODE"));
+  if (solver.text("METHODE") == "GCPC") take_iterations(solver, choice);
   if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
-  if (solver.text("METHODE") == "GCPC") {
-    choice.options.iteration_tolerance = solver.real("RESI_RELA");
-    choice.options.most_iterations = static_cast<int>(solver.integer("NMAX_ITER"));
-  }
   return choice;
 }
 
