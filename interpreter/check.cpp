@@ -165,14 +165,13 @@ class LevelCheck {
   /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends on
   /// it is not known.
   void guess_misspelt() {
-    if (level_.further) return;
-    std::set<std::string, std::less<>> known;
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { known.insert(keyword.name); });
-    const std::vector<std::string> names(known.begin(), known.end());
+    std::vector<std::string> names;  // in the order of the page, where the likelier ones stand first
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { names.push_back(keyword.name); });
     for (const Pending& pending : pending_) {
-      if (known.contains(pending.name)) continue;
-      std::string meant = nearest(pending.name, names);
-      if (meant.empty()) meant = only_missing();
+      if (std::ranges::find(names, pending.name) != names.end()) continue;
+      // Where the user may choose names, only one that stands for what must be there is a mistake.
+      std::string meant = nearest(pending.name, level_.further ? missing() : names);
+      if (meant.empty() && !level_.further) meant = only_missing();
       if (meant.empty() || is_given(meant) || guessed(meant)) continue;
       given_.push_back({meant, pending.argument->name_span});
       scope_.values[meant] = Value::unknown();
@@ -180,7 +179,21 @@ class LevelCheck {
     }
   }
 
-  /// The one keyword that the level asks for and that is not there; empty when there is none, or more.
+  /// The keywords that the level asks for, by themselves or as one of several, and that are not there.
+  std::vector<std::string> missing() const {
+    std::vector<std::string> names;
+    const auto is_there = [&](const std::string& name) { return is_given(name) || guessed(name); };
+    for (const KeywordPage& keyword : level_.keywords) {
+      if (keyword.required && !is_there(keyword.name)) names.push_back(keyword.name);
+    }
+    for (const RulePage& rule : level_.rules) {
+      const bool asks = rule.kind == RulePage::Kind::exactly_one || rule.kind == RulePage::Kind::at_least_one;
+      if (asks && std::ranges::none_of(rule.keywords, is_there)) names.insert(names.end(), rule.keywords.begin(), rule.keywords.end());
+    }
+    return names;
+  }
+
+  /// The one compulsory keyword that is not there; empty when there is none, or more.
   std::string only_missing() const {
     std::string only;
     for (const KeywordPage& keyword : level_.keywords) {
@@ -203,12 +216,6 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
-    // A call that names it twice in so many letters was told so when it was read.
-    const auto told = [&](const Diagnostic& item) {
-      return item.code == "repeated-keyword" && item.span.file == pending.argument->name_span.file &&
-             item.span.begin == pending.argument->name_span.begin;
-    };
-    if (std::ranges::any_of(context_.diagnostics.items(), told)) return;
     const std::string also =
         pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
@@ -252,7 +259,7 @@ class LevelCheck {
 
   /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
   void take_other(const Pending& pending) {
-    if (!level_.further) return report_stray(pending);
+    if (!level_.further || guesses_.contains(pending.name)) return report_stray(pending);
     KeywordPage keyword = *level_.further;
     keyword.name = pending.name;
     take_given(keyword, *pending.argument);

@@ -166,6 +166,7 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   const auto& word = name.id;
   const bool like_a_command =
       called && std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; });
+  if (names_lost_ && !like_a_command) return Value::unknown();
   std::vector<std::string> known = global_names();
   const std::vector<std::string> commands = host_.command_names();
   const std::vector<std::string> builtins = builtin_names();

@@ -84,6 +84,7 @@ Value Evaluator::evaluate_argument(const Node& node, bool tolerant) {
 CallArguments Evaluator::evaluate_arguments(const CallNode& node, bool tolerant) {
   CallArguments arguments;
   for (const CallNode::Item& item : node.arguments) {
+    if (item.repeated) continue;
     Value value = evaluate_argument(*item.value, tolerant);
     switch (item.kind) {
       case CallNode::Kind::positional:
@@ -225,7 +226,8 @@ std::optional<Value> Evaluator::visible(std::string_view name) const {
     if (slot != code_->slots.end() && index < frame_->slots.size() && frame_->slots[index]) return frame_->slots[index];
   }
   const Value* value = global(name);
-  return value == nullptr ? std::nullopt : std::optional(*value);
+  if (value != nullptr) return *value;
+  return names_lost_ ? std::optional(Value::unknown()) : std::nullopt;
 }
 
 // Functions

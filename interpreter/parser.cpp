@@ -81,17 +81,25 @@ void Parser::advance() {
     broken_ = false;
   }
   if (now_.end > previous_end_ && now_.kind != TokenKind::newline) previous_end_ = now_.end;
+  flawed_ = flawed_ || now_.flawed;
   if (ahead_) {
     now_ = std::move(*ahead_);
     ahead_.reset();
   } else {
-    now_ = lexer_.next();
+    now_ = lex();
   }
   broken_ = broken_ || now_.kind == TokenKind::broken;
 }
 
+Token Parser::lex() {
+  const std::size_t findings = diagnostics_.items().size();
+  Token token = lexer_.next();
+  token.flawed = diagnostics_.items().size() != findings;
+  return token;
+}
+
 const Token& Parser::ahead() {
-  if (!ahead_) ahead_ = lexer_.next();
+  if (!ahead_) ahead_ = lex();
   return *ahead_;
 }
 
@@ -117,7 +125,14 @@ void Parser::fail(std::string code, std::string message, Span span, std::string 
   throw Failure{std::move(finding), now_.begin};
 }
 
+/// An error after which the statement is read on for its other errors, and then left out.
 void Parser::report(std::string code, std::string message, Span span, std::string hint) {
+  flawed_ = true;
+  report_mended(std::move(code), std::move(message), std::move(span), std::move(hint));
+}
+
+/// An error that leaves no doubt about what was meant: the statement counts as if it had been written so.
+void Parser::report_mended(std::string code, std::string message, Span span, std::string hint) {
   if (broken_) return;
   ++errors_;
   diagnostics_.error(std::move(code), std::move(message), std::move(span), std::move(hint));
@@ -168,7 +183,16 @@ void Parser::expect_colon(std::string_view after) {
   if (accept(":")) return;
   if (at("=")) fail("syntax", "'=' assigns, it does not compare", span_of(now_), "write '=='");
   if (now_.kind != TokenKind::newline) fail_here(fmt::format("':' after {}", after));
-  report("missing-colon", fmt::format("':' is missing after {}", after), span_of(now_), "end the line with ':'");
+  report_mended("missing-colon", fmt::format("':' is missing after {}", after), span_of(now_), "end the line with ':'");
+}
+
+/// Whether a string that begins behind the token on its line is not closed there.
+bool Parser::leaves_quote_open(const Token& token) const {
+  const std::size_t line_end = std::min(file_->text().find_first_of("\r\n", token.end), file_->text().size());
+  Diagnostics findings;
+  Lexer rest(file_, findings, token.begin, static_cast<std::uint32_t>(line_end), true);
+  while (rest.next().kind != TokenKind::end) continue;
+  return std::ranges::any_of(findings.items(), [](const Diagnostic& item) { return item.code == "unterminated-string"; });
 }
 
 /// After an item of a bracket: true when another one may follow. A missing comma is reported and taken as written.
@@ -176,6 +200,11 @@ bool Parser::separate_items(std::string_view closing) {
   if (accept(",")) return !at(closing);
   if (at(closing)) return false;
   if (is_operand(now_) && !starts_statement(now_)) {
+    // "A, B="C": the missing quote is the mistake, and the lexer tells it when it comes there.
+    if (leaves_quote_open(now_)) {
+      broken_ = flawed_ = true;
+      return true;
+    }
     report("missing-comma", fmt::format("a comma is missing before {:.40}", now_.text), {file_, now_.begin, now_.end},
            "separate the items by ','");
     return true;
@@ -283,6 +312,7 @@ Block Parser::parse_file() {
     if (errors_ >= most_errors) {
       diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_),
                          span_of(now_));
+      leave_out_rest(block);
       break;
     }
     // Only a dedent that the lexer made of a wrong indentation ends the statements before the file does.
