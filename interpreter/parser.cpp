@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <set>
 
 namespace comma::interpreter {
 
@@ -35,6 +36,28 @@ bool looks_like_command(std::string_view text) {
   const std::string_view name = text.substr(callee, at - callee);
   at = skip_blanks(text, at);
   return !name.empty() && name != "_F" && at < text.size() && text[at] == '(';
+}
+
+/// Behind NAME or NAME, NAME ...
+std::size_t skip_targets(std::string_view text) {
+  std::size_t at = skip_blanks(text, skip_word(text, 0));
+  while (at < text.size() && text[at] == ',') {
+    const std::size_t name = skip_blanks(text, at + 1);
+    if (skip_word(text, name) == name) break;
+    at = skip_blanks(text, skip_word(text, name));
+  }
+  return at;
+}
+
+bool is_compound_word(std::string_view word) {
+  return word == "if" || word == "for" || word == "else";
+}
+
+/// A comprehension, too, has `for` and `if` at the start of a line; only a header ends its line with a colon.
+bool line_ends_with_colon(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n#"));
+  const std::size_t last = line.find_last_not_of(" \t");
+  return last != std::string_view::npos && line[last] == ':';
 }
 
 std::string_view closing_of(std::string_view opening) {
@@ -81,7 +104,8 @@ void Parser::advance() {
     broken_ = false;
   }
   if (now_.end > previous_end_ && now_.kind != TokenKind::newline) previous_end_ = now_.end;
-  flawed_ = flawed_ || now_.flawed;
+  const bool part_of_statement = now_.kind != TokenKind::indent && now_.kind != TokenKind::dedent;
+  flawed_ = flawed_ || (now_.flawed && part_of_statement);
   if (ahead_) {
     now_ = std::move(*ahead_);
     ahead_.reset();
@@ -94,7 +118,7 @@ void Parser::advance() {
 Token Parser::lex() {
   const std::size_t findings = diagnostics_.items().size();
   Token token = lexer_.next();
-  token.flawed = diagnostics_.items().size() != findings;
+  token.flawed = token.flawed || diagnostics_.items().size() != findings;
   return token;
 }
 
@@ -186,25 +210,11 @@ void Parser::expect_colon(std::string_view after) {
   report_mended("missing-colon", fmt::format("':' is missing after {}", after), span_of(now_), "end the line with ':'");
 }
 
-/// Whether a string that begins behind the token on its line is not closed there.
-bool Parser::leaves_quote_open(const Token& token) const {
-  const std::size_t line_end = std::min(file_->text().find_first_of("\r\n", token.end), file_->text().size());
-  Diagnostics findings;
-  Lexer rest(file_, findings, token.begin, static_cast<std::uint32_t>(line_end), true);
-  while (rest.next().kind != TokenKind::end) continue;
-  return std::ranges::any_of(findings.items(), [](const Diagnostic& item) { return item.code == "unterminated-string"; });
-}
-
 /// After an item of a bracket: true when another one may follow. A missing comma is reported and taken as written.
 bool Parser::separate_items(std::string_view closing) {
   if (accept(",")) return !at(closing);
   if (at(closing)) return false;
   if (is_operand(now_) && !starts_statement(now_)) {
-    // "A, B="C": the missing quote is the mistake, and the lexer tells it when it comes there.
-    if (leaves_quote_open(now_)) {
-      broken_ = flawed_ = true;
-      return true;
-    }
     report("missing-comma", fmt::format("a comma is missing before {:.40}", now_.text), {file_, now_.begin, now_.end},
            "separate the items by ','");
     return true;
@@ -223,13 +233,14 @@ bool Parser::starts_line_outside(const Token& token) const {
 /// Whether a line inside brackets is rather the next statement, the brackets having been left open.
 bool Parser::starts_statement(const Token& token) const {
   if (!starts_line_outside(token)) return false;
+  const std::string_view rest = file_->text().substr(token.begin);
   if (token.kind == TokenKind::keyword) {
-    return std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
+    const bool only_there = std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
+    return only_there || (is_compound_word(token.text) && line_ends_with_colon(rest));
   }
   if (token.kind != TokenKind::name) return false;
-  const std::string_view rest = file_->text().substr(token.begin);
   if (looks_like_command(rest)) return true;
-  const std::size_t next = skip_blanks(rest, skip_word(rest, 0));
+  const std::size_t next = skip_targets(rest);
   const bool call_or_assignment = next < rest.size() && (rest[next] == '(' || rest[next] == '=');
   const char before = file_->text().substr(0, previous_end_).back();
   return call_or_assignment && std::string_view(",([{=+-*/%:").find(before) == std::string_view::npos;
@@ -256,7 +267,7 @@ void Parser::recover(Failure failure, const Token& start) {
     failure.finding = {Severity::error, "unclosed-bracket", fmt::format("this '{}' is never closed", left_open->text),
                        fmt::format("add '{}'", closing_of(left_open->text)), span_of(*left_open)};
   }
-  const bool is_news = !failure.finding.message.empty() && (never_closed || !follows_from_broken);
+  const bool is_news = !failure.finding.message.empty() && !follows_from_broken;
   if (is_news) {
     ++errors_;
     diagnostics_.add(std::move(failure.finding));
@@ -336,11 +347,30 @@ NodePtr Parser::parse_only_expression() {
   }
 }
 
+namespace {
+
+/// A quote that is missing turns texts into code and code into texts to the end of its line: whatever else is found there
+/// follows from it.
+void move_findings(Diagnostics& found, Diagnostics& told) {
+  std::set<int> misread;
+  const auto line_of = [](const Diagnostic& item) { return item.span.file->position(item.span.begin).line; };
+  for (const Diagnostic& item : found.items()) {
+    if (item.code == "unterminated-string") misread.insert(line_of(item));
+  }
+  for (const Diagnostic& item : found.items()) {
+    if (item.code == "unterminated-string" || !misread.contains(line_of(item))) told.add(item);
+  }
+}
+
+}  // namespace
+
 Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics) {
-  Parser parser(file, diagnostics);
+  Diagnostics findings;
+  Parser parser(file, findings);
   Ast ast;
   ast.file = file;
   ast.statements = parser.parse_file();
+  move_findings(findings, diagnostics);
   return ast;
 }
 

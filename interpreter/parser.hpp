@@ -63,7 +63,6 @@ class Parser {
   bool accept(std::string_view symbol_or_keyword);
   void expect_closing(std::string_view bracket);
   void expect_colon(std::string_view after);
-  bool leaves_quote_open(const Token& token) const;
   bool separate_items(std::string_view closing);
   Token lex();
   Span span_of(const Token& token) const;

@@ -99,8 +99,10 @@ void Parser::parse_line(Block& block) {
 }
 
 void Parser::parse_unexpected_block(Block& block) {
-  report_mended("unexpected-indent", "this line is indented without need", {file_, now_.end, now_.end + 1},
-         "begin it in the column of the line before");
+  if (!now_.flawed) {
+    report_mended("unexpected-indent", "this line is indented without need", {file_, now_.end, now_.end + 1},
+                  "begin it in the column of the line before");
+  }
   advance();
   if (++blocks_ > deepest_block) fail("too-deep", "blocks are nested too deeply", span_of(now_), "use functions");
   parse_statements(block);

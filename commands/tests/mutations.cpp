@@ -54,6 +54,17 @@ std::string sample_value(const KeywordPage& page) {
   return holds_text(kind) ? "'SAMPLE'" : "";
 }
 
+bool has_block(const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::if_:
+    case StatementKind::while_:
+    case StatementKind::for_:
+    case StatementKind::function:
+    case StatementKind::try_: return true;
+    default: return false;
+  }
+}
+
 class Planter {
  public:
   Planter(const std::string& text, const Catalogue& catalogue)
@@ -68,6 +79,7 @@ class Planter {
       ++statement_;
       visit(*statement);
       if (statement->kind == StatementKind::assign) know(static_cast<const AssignStatement&>(*statement));
+      after_block_ = has_block(*statement);
     }
     return std::move(mutants_);
   }
@@ -113,7 +125,8 @@ class Planter {
     const std::string name = callee_of(call);
     add("misspelt command", call.callee->begin, call.callee->end, misspell(name), "unknown-command", line_of(call.begin), name);
     add_unreadable("unbalanced bracket", call.end - 1, call.end, "", "unclosed-bracket", line_of(call.callee->end));
-    if (statement.begin > 0) add_unreadable("stray indentation", statement.begin, statement.begin, "  ", "unexpected-indent", line_of(statement.begin));
+    const std::string_view stray = after_block_ ? "bad-indentation" : "unexpected-indent";
+    if (statement.begin > 0) add_unreadable("stray indentation", statement.begin, statement.begin, "  ", std::string(stray), line_of(statement.begin));
     for (std::size_t i = 1; i < call.arguments.size(); ++i) {
       const std::uint32_t comma = call.arguments[i - 1].value->end;
       const bool plain = text_[comma] == ',' && call.arguments[i].kind == CallNode::Kind::keyword;
@@ -318,6 +331,7 @@ class Planter {
   std::map<std::string, std::string> known_;  ///< concepts defined so far, and their types
   std::vector<Mutant> mutants_;
   int statement_ = 0;
+  bool after_block_ = false;
 };
 
 /// The sound text with two of its parts replaced.
