@@ -3,24 +3,35 @@
 
 namespace comma::commands {
 
-Product affe_char_meca(const Call& call, Context&) {
-  const LoadedModel target(*call.data<ModelConcept>("MODELE").model);
-  auto load = std::make_shared<solver::Load>();
-  for (const Keywords& imposed : call.factors("DDL_IMPO")) add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
-  for (const Keywords& force : call.factors("FORCE_NODALE")) add_nodal_forces(force, target, *load);
-  for (const Keywords& pressure : call.factors("PRES_REP")) add_pressures(pressure, target, *load);
+namespace {
+
+Product load_concept(std::shared_ptr<const solver::Load> load) {
   auto product = std::make_shared<LoadConcept>();
   product->load = std::move(load);
   return product;
 }
 
-Product affe_char_cine(const Call& call, Context&) {
+}  // namespace
+
+Product affe_char_meca(const Call& call, Context&) {
   const LoadedModel target(*call.data<ModelConcept>("MODELE").model);
   auto load = std::make_shared<solver::Load>();
-  for (const Keywords& imposed : call.factors("MECA_IMPO")) add_imposed_displacements(imposed, "MECA_IMPO", target, *load);
-  auto product = std::make_shared<LoadConcept>();
-  product->load = std::move(load);
-  return product;
+  for (const Keywords& imposed : call.factors("DDL_IMPO")) add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
+  for (const Keywords& imposed : call.factors("FACE_IMPO")) add_face_displacements(imposed, target, *load);
+  for (const Keywords& imposed : call.factors("DDL_POUTRE")) add_beam_displacements(imposed, target, *load);
+  for (const Keywords& imposed : call.factors("LIAISON_OBLIQUE")) add_oblique_displacements(imposed, target, *load);
+  add_relations(call, target, *load);
+  add_forces(call, target, *load);
+  return load_concept(std::move(load));
+}
+
+Product affe_char_cine(const Call& call, Context& context) {
+  const LoadedModel target(*call.data<ModelConcept>("MODELE").model);
+  auto load = std::make_shared<solver::Load>();
+  for (const Keywords& imposed : call.factors("MECA_IMPO")) {
+    add_imposed_displacements(imposed, "MECA_IMPO", target, *load, &context.diagnostics);
+  }
+  return load_concept(std::move(load));
 }
 
 // The same with functions in place of numbers.

@@ -1,7 +1,62 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::Parameter;
+
+// NOM_VARC with the field that EVOL holds it in (U4.43.03).
+struct VariableName {
+  const char* name;
+  Parameter variable;
+  const char* field;
+};
+
+constexpr VariableName variables[] = {
+    {"TEMP", Parameter::temperature, "TEMP"}, {"SECH", Parameter::drying, "TEMP"},     {"HYDR", Parameter::hydration, "HYDR_ELNO"},
+    {"NEUT1", Parameter::neutral_1, "NEUT"},  {"NEUT2", Parameter::neutral_2, "NEUT"}, {"NEUT3", Parameter::neutral_3, "NEUT"}};
+
+solver::Extension extension(const std::string& word) {
+  if (word == "CONSTANT") return solver::Extension::constant;
+  return word == "LINEAIRE" ? solver::Extension::linear : solver::Extension::excluded;
+}
+
+std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
+  std::vector<solver::VariableSnapshot> found;
+  for (const solver::ResultStep& step : assignment.data<ResultConcept>("EVOL").result.steps) {
+    const auto held = step.fields.find(field);
+    if (held != step.fields.end()) found.push_back({step.instant, std::make_shared<const solver::Field>(held->second)});
+  }
+  if (!found.empty()) return found;
+  throw DiagnosticError("unknown-field", fmt::format("AFFE_VARC: {} holds no {}", assignment.concept_of("EVOL")->name, field),
+                        assignment.span_of("EVOL"), "NOM_CHAM names the field of the result that holds the variable");
+}
+
+solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
+  const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
+  solver::CommandVariable variable;
+  variable.variable = name->variable;
+  if (names_a_place(assignment)) variable.cells = selected_cells(assignment, mesh);
+  if (assignment.has("VALE_REF")) variable.reference = assignment.real("VALE_REF");
+  if (assignment.has("CHAM_GD")) {
+    variable.snapshots.push_back({0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
+    return variable;
+  }
+  variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name->field);
+  variable.left = extension(assignment.text("PROL_GAUCHE"));
+  variable.right = extension(assignment.text("PROL_DROITE"));
+  return variable;
+}
+
+}  // namespace
 
 Product affe_materiau(const Call& call, Context&) {
   const solver::Mesh& mesh = call.has("MAILLAGE") ? *call.data<MeshConcept>("MAILLAGE").mesh
@@ -10,12 +65,13 @@ Product affe_materiau(const Call& call, Context&) {
   field->by_cell.resize(static_cast<std::size_t>(mesh.cell_count()));
   for (const Keywords& assignment : call.factors("AFFE")) {
     if (assignment.concepts("MATER").size() > 1) {
-      throw interpreter::DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material", assignment.span_of("MATER"),
-                                         "put all laws into one DEFI_MATERIAU");
+      throw DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material", assignment.span_of("MATER"),
+                            "put all laws into one DEFI_MATERIAU");
     }
     const auto& material = interpreter::data_of<MaterialConcept>(assignment.concepts("MATER").front(), "MATER").material;
     for (const int cell : selected_cells(assignment, mesh)) field->by_cell[cell] = material;
   }
+  for (const Keywords& assignment : call.factors("AFFE_VARC")) field->variables.push_back(command_variable(assignment, mesh));
   auto product = std::make_shared<MaterialFieldConcept>();
   product->field = std::move(field);
   return product;

@@ -12,22 +12,24 @@ using solver::Formulation;
 // MODELISATION (U4.41.01) in the solver's words.
 const std::map<std::string, Formulation, std::less<>>& formulations() {
   static const std::map<std::string, Formulation, std::less<>> table = {
+      {"3D", Formulation::solid},
+      {"3D_SI", Formulation::solid_reduced},
       {"D_PLAN", Formulation::plane_strain},
+      {"D_PLAN_SI", Formulation::plane_strain_reduced},
       {"C_PLAN", Formulation::plane_stress},
+      {"C_PLAN_SI", Formulation::plane_stress_reduced},
+      {"AXIS", Formulation::axisymmetric},
+      {"AXIS_SI", Formulation::axisymmetric_reduced},
+      {"BARRE", Formulation::bar},
+      {"2D_BARRE", Formulation::bar_2d},
+      {"POU_D_E", Formulation::euler_beam},
+      {"POU_D_T", Formulation::timoshenko_beam},
+      {"DIS_T", Formulation::spring_3d},
+      {"DIS_TR", Formulation::spring_rotation_3d},
       {"2D_DIS_T", Formulation::spring_2d},
+      {"2D_DIS_TR", Formulation::spring_rotation_2d},
   };
   return table;
-}
-
-bool is_plane(Formulation formulation) {
-  return formulation == Formulation::plane_strain || formulation == Formulation::plane_stress;
-}
-
-// A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay empty.
-bool has_element(Formulation formulation, solver::CellType type) {
-  const int dimension = solver::dimension(type);
-  if (is_plane(formulation)) return dimension == 1 || dimension == 2;
-  return dimension == 0 || type == solver::CellType::seg2;
 }
 
 }  // namespace
@@ -41,7 +43,8 @@ Product affe_modele(const Call& call, Context&) {
     const Formulation formulation = formulations().at(assignment.texts("MODELISATION").front());
     int assigned = 0;
     for (const int cell : selected_cells(assignment, mesh)) {
-      if (!has_element(formulation, mesh.cell_types[cell])) continue;
+      // A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay as they are.
+      if (!solver::has_element(formulation, mesh.cell_types[cell])) continue;
       model->formulations[cell] = formulation;
       ++assigned;
     }

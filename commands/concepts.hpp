@@ -58,7 +58,7 @@ struct ContactConcept : ConceptData {
   std::variant<solver::ContactDefinition, std::vector<solver::UnilateralCondition>> conditions;
 };
 
-/// A result and what CALC_CHAMP needs to go on from it.
+/// A result and what CALC_CHAMP needs to go on from it; `problem` has no model when the result lies on a mesh alone.
 struct ResultConcept : ConceptData {
   solver::Result result;
   solver::StaticProblem problem;
@@ -69,6 +69,8 @@ struct FieldConcept : ConceptData {
   solver::Field field;
   std::shared_ptr<const solver::Mesh> mesh;
   std::shared_ptr<const solver::Model> model;
+  /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
+  std::vector<std::shared_ptr<const FunctionConcept>> functions;
 };
 
 struct TableConcept : ConceptData {

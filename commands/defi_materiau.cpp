@@ -1,23 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
 #include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
 
 namespace comma::commands {
 
 namespace {
 
-solver::IsotropicElasticity elasticity(const Keywords& law) {
+using interpreter::DiagnosticError;
+using solver::MaterialPoint;
+using solver::Parameter;
+using solver::Property;
+
+// What a property may depend on (U4.43.01), in the solver's words.
+constexpr std::pair<const char*, Parameter> parameters[] = {
+    {"TEMP", Parameter::temperature}, {"SECH", Parameter::drying},    {"HYDR", Parameter::hydration},
+    {"NEUT1", Parameter::neutral_1},  {"NEUT2", Parameter::neutral_2}, {"NEUT3", Parameter::neutral_3},
+    {"INST", Parameter::time},        {"X", Parameter::x},             {"Y", Parameter::y},
+    {"Z", Parameter::z}};
+
+Parameter parameter_named(const std::string& name, const Keywords& law, const std::string& keyword) {
+  const auto found = std::ranges::find_if(parameters, [&](const auto& known) { return name == known.first; });
+  if (found != std::end(parameters)) return found->second;
+  throw DiagnosticError("unknown-parameter", keyword + " depends on " + name + ", which a material does not know", law.span_of(keyword),
+                        "here a function may depend on TEMP, SECH, HYDR, NEUT1, NEUT2, NEUT3, INST, X, Y, Z");
+}
+
+Property varying(const Keywords& law, const std::string& keyword) {
+  const auto& handle = law.concept_of(keyword);
+  interpreter::data_of<FunctionConcept>(handle, keyword);
+  auto function = std::dynamic_pointer_cast<const FunctionConcept>(handle->data);
+  std::vector<Parameter> order;
+  for (const std::string& name : function->parameters()) order.push_back(parameter_named(name, law, keyword));
+  if (const auto* table = function->table()) return solver::tabulated_property(*table, order.front());
+  return Property([function, order, keyword](const MaterialPoint& at) {
+    std::vector<double> arguments;
+    for (const Parameter parameter : order) {
+      if (std::isnan(at[parameter])) {
+        throw solver::Error("missing-variable", keyword + " depends on the " + std::string(solver::name_of(parameter)) + ", which is not given",
+                            "give it by AFFE_MATERIAU/AFFE_VARC");
+      }
+      arguments.push_back(at[parameter]);
+    }
+    return function->evaluate(arguments);
+  });
+}
+
+/// A number, or a function; `otherwise` where the keyword is absent.
+Property property(const Keywords& law, const std::string& keyword, double otherwise = 0.0) {
+  if (!law.has(keyword)) return otherwise;
+  return law.at(keyword).value.is_concept() ? varying(law, keyword) : Property(law.real(keyword));
+}
+
+solver::IsotropicElasticity isotropic(const Keywords& law) {
   solver::IsotropicElasticity elasticity;
-  elasticity.young = law.real("E");
-  elasticity.poisson = law.real("NU");
-  if (law.has("RHO")) elasticity.density = law.real("RHO");
-  if (law.has("ALPHA")) elasticity.expansion = law.real("ALPHA");
+  elasticity.young = property(law, "E");
+  elasticity.poisson = property(law, "NU");
+  elasticity.density = property(law, "RHO");
+  elasticity.expansion = property(law, "ALPHA");
+  elasticity.drying_shrinkage = property(law, "K_DESSIC");
+  elasticity.hydration_shrinkage = property(law, "B_ENDOGE");
+  if (law.has("TEMP_DEF_ALPHA")) elasticity.definition_temperature = law.real("TEMP_DEF_ALPHA");
   return elasticity;
+}
+
+// ELAS_FO measures ALPHA from a temperature, which must be known.
+solver::IsotropicElasticity varying_isotropic(const Keywords& law) {
+  if (law.has("ALPHA") && !law.has("TEMP_DEF_ALPHA")) {
+    throw DiagnosticError("missing-keyword", "DEFI_MATERIAU/ELAS_FO needs TEMP_DEF_ALPHA beside ALPHA", law.span,
+                          "TEMP_DEF_ALPHA is the temperature from which ALPHA was measured");
+  }
+  return isotropic(law);
+}
+
+solver::OrthotropicElasticity orthotropic(const Keywords& law) {
+  solver::OrthotropicElasticity elasticity;
+  elasticity.young = {property(law, "E_L"), property(law, "E_T"), property(law, "E_N")};
+  elasticity.poisson = {property(law, "NU_LT"), property(law, "NU_LN"), property(law, "NU_TN")};
+  elasticity.shear = {property(law, "G_LT"), property(law, "G_LN"), property(law, "G_TN")};
+  elasticity.density = property(law, "RHO");
+  elasticity.expansion = {property(law, "ALPHA_L"), property(law, "ALPHA_T"), property(law, "ALPHA_N")};
+  return elasticity;
+}
+
+solver::OrthotropicElasticity transverse(const Keywords& law) {
+  solver::TransverseElasticity elasticity;
+  elasticity.young = property(law, "E_L");
+  elasticity.young_normal = property(law, "E_N");
+  elasticity.poisson = property(law, "NU_LT");
+  elasticity.poisson_normal = property(law, "NU_LN");
+  elasticity.shear_normal = property(law, "G_LN");
+  elasticity.density = property(law, "RHO");
+  elasticity.expansion = property(law, "ALPHA_L");
+  elasticity.expansion_normal = property(law, "ALPHA_N");
+  return solver::as_orthotropic(elasticity);
 }
 
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
   auto material = std::make_shared<solver::Material>();
-  if (call.has("ELAS")) material->elasticity = elasticity(call.factor("ELAS"));
+  if (call.has("ELAS")) material->elasticity = isotropic(call.factor("ELAS"));
+  if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
+  if (call.has("ELAS_ORTH")) material->elasticity = orthotropic(call.factor("ELAS_ORTH"));
+  if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
   return product;

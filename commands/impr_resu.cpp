@@ -21,6 +21,7 @@ constexpr int text_unit = 8;
 solver::Result chosen_part(const Keywords& print, const solver::Result& result) {
   solver::Result part;
   part.model = result.model;
+  part.bare_mesh = result.bare_mesh;
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
     if (!print.given("NOM_CHAM")) continue;
@@ -34,7 +35,7 @@ void write_med(const Keywords& print, const std::string& path) {
   if (print.has("RESULTAT")) {
     const auto& handle = print.concept_of("RESULTAT");
     const auto& data = interpreter::data_of<ResultConcept>(handle, "RESULTAT");
-    solver::write_med_result(path, *data.result.model->mesh, "MAIL", chosen_part(print, data.result), handle->name);
+    solver::write_med_result(path, data.result.mesh(), "MAIL", chosen_part(print, data.result), handle->name);
     return;
   }
   const auto& handle = print.concept_of("MAILLAGE");
@@ -93,7 +94,7 @@ std::string text_of(const Keywords& print) {
   if (!print.has("RESULTAT")) return listing(*interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh);
   const auto& handle = print.concept_of("RESULTAT");
   const auto& data = interpreter::data_of<ResultConcept>(handle, "RESULTAT");
-  const solver::Mesh& mesh = *data.result.model->mesh;
+  const solver::Mesh& mesh = data.result.mesh();
   std::string text;
   for (const solver::ResultStep& step : chosen_part(print, data.result).steps) {
     for (const auto& [name, field] : step.fields) {

@@ -1,10 +1,19 @@
-// What the load commands share: conditions and forces on the nodes that keywords name.
+// What AFFE_CHAR_MECA, AFFE_CHAR_CINE and their kin with functions share (U4.44.01, U4.44.03).
+//
+// Values are numbers or, in the commands that end in _F, functions of X, Y, Z and INST; a function of anything else throws
+// DiagnosticError `unknown-parameter`. Where one call loads the same place twice by one factor keyword, the later occurrence
+// counts, component by component (U1.03.00, overloading).
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "interpreter/call.hpp"
+#include "interpreter/diagnostic.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/model/model.hpp"
 
@@ -12,26 +21,56 @@ namespace comma::commands {
 
 /// A model with its numbering, made once a call.
 struct LoadedModel {
-  explicit LoadedModel(const solver::Model& of) : model(of), dofs(of) {}
+  explicit LoadedModel(const solver::Model& of) : model(of), mesh(*of.mesh), dofs(of) {}
   const solver::Model& model;
+  const solver::Mesh& mesh;
   solver::DofMap dofs;
 };
 
 /// "zzzz237b.comm:66, DDL_IMPO": how messages name a condition.
 solver::Origin origin_of(const interpreter::Keywords& keywords, const std::string& keyword);
 
-/// Values are numbers or, in the commands that end in _F, functions of X, Y, Z and INST; a function of anything else throws
-/// DiagnosticError `unknown-parameter`.
+/// What a keyword gives: a number, or the function that takes its place.
+struct Amount {
+  double value = 0.0;
+  solver::FieldFunction function;
 
-/// Adds u(node, component) = value for each component keyword given (DX, DY ... DRZ) on each node that carries it.
-/// Throws DiagnosticError `unknown-component` at a component that none of the nodes carries.
+  double at(const solver::Point& place, double time) const { return function ? function(place, time) : value; }
+};
+/// 0 where the keyword is not given.
+Amount amount_of(const interpreter::Keywords& keywords, const std::string& name);
+
+struct NamedComponent {
+  const char* keyword;
+  solver::Component component;
+};
+/// DX ... DRZ and FX ... MZ.
+extern const std::array<NamedComponent, 6> displacement_keywords;
+extern const std::array<NamedComponent, 6> force_keywords;
+
+/// The component that a text names. Throws DiagnosticError `unknown-component` at the keyword's value.
+solver::Component component_named(const interpreter::Keywords& keywords, const std::string& keyword, const std::string& name);
+
+/// The nodes among `nodes` that carry a component. A plane and a beam may share one group: a component that only some of its
+/// nodes have is meant for those; one that none has is a mistake: DiagnosticError `unknown-component`.
+std::vector<int> carriers(const interpreter::Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,
+                          const solver::DofMap& dofs);
+
+/// Axes (rows) of nautical angles in degrees, of which those missing are 0.
+Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees);
+
+/// Imposed displacements and rotations: DDL_IMPO or, with `alarms`, MECA_IMPO, where holding a component that no node carries
+/// is an alarm and not an error (AFFE_CHAR_CINE passes over it). The others have keywords of their own.
 void add_imposed_displacements(const interpreter::Keywords& keywords, const std::string& name, const LoadedModel& target,
-                               solver::Load& load);
+                               solver::Load& load, interpreter::Diagnostics* alarms = nullptr);
+void add_face_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+void add_beam_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+void add_oblique_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 
-/// Adds nodal forces for FX, FY, FZ, MX, MY, MZ; throws as above.
-void add_nodal_forces(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+/// LIAISON_...: relations between displacements.
+void add_relations(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
-/// Adds pressures on the skin cells named; throws DiagnosticError `no-skin` when none of them is a skin of the model.
-void add_pressures(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+/// Forces on nodes, skins, volumes, beams; weight, rotation, initial strains.
+void add_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
 }  // namespace comma::commands

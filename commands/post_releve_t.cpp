@@ -69,7 +69,7 @@ std::vector<int> wanted_components(const Keywords& action, const solver::NodalFi
 
 void extract(Table& table, const Keywords& action) {
   const auto& concept_data = interpreter::data_of<ResultConcept>(action.concept_of("RESULTAT"), "RESULTAT");
-  const solver::Mesh& mesh = *concept_data.result.model->mesh;
+  const solver::Mesh& mesh = concept_data.result.mesh();
   const auto nodes = selected_nodes(action, mesh);
   for (const solver::ResultStep* step : selected_steps(action, concept_data.result)) {
     const auto* field = std::get_if<solver::NodalField>(&field_of(action, *step));

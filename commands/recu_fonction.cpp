@@ -71,7 +71,7 @@ double step_value(const Call& call, const solver::ResultStep& step, const solver
 
 void read_result(const Call& call, solver::TabulatedFunction& function) {
   const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
-  const solver::Mesh& mesh = *result.model->mesh;
+  const solver::Mesh& mesh = result.mesh();
   function.parameter = "INST";
   for (const solver::ResultStep* step : selected_steps(call, result)) {
     function.x.push_back(step->instant);

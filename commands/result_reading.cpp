@@ -43,7 +43,7 @@ std::string known_instants(const solver::Result& result) {
 }
 
 const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
-  const double reach = instant_tolerance(keywords).reach(instant);
+  const double reach = instant_reach(keywords, instant);
   for (const ResultStep& step : result.steps) {
     if (std::abs(step.instant - instant) <= reach) return step;
   }
@@ -61,6 +61,8 @@ const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& 
 
 }  // namespace
 
+double instant_reach(const Keywords& keywords, double instant) { return instant_tolerance(keywords).reach(instant); }
+
 std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const solver::Result& result) {
   std::vector<const ResultStep*> steps;
   if (keywords.given("INST")) {
@@ -73,6 +75,13 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
     for (const ResultStep& step : result.steps) steps.push_back(&step);
   }
   return steps;
+}
+
+const ResultStep& only_step(const Keywords& keywords, const solver::Result& result, const char* reason) {
+  const auto steps = selected_steps(keywords, result);
+  if (steps.size() == 1) return *steps.front();
+  throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; {}", steps.size(), reason), keywords.span,
+                        "give INST or NUME_ORDRE");
 }
 
 const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {

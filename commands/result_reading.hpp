@@ -13,6 +13,13 @@ namespace comma::commands {
 /// Throws DiagnosticError `unknown-step` listing the steps there are.
 std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keywords& keywords, const solver::Result& result);
 
+/// How far from `instant` a step may stand to be meant, by PRECISION and CRITERE (in TEST_... the second values of TOLE_MACHINE
+/// and CRITERE).
+double instant_reach(const interpreter::Keywords& keywords, double instant);
+
+/// The one step that the keywords name. Throws DiagnosticError `wrong-count` with the reason for one alone when they name several.
+const solver::ResultStep& only_step(const interpreter::Keywords& keywords, const solver::Result& result, const char* reason);
+
 /// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.
 const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
 

@@ -1,6 +1,7 @@
 #include "commands/selection.hpp"
 
 #include <numeric>
+#include <set>
 
 #include "solver/error.hpp"
 
@@ -92,6 +93,29 @@ std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& me
   }
   for (const int cell : selected_cells(keywords, mesh, names)) nodes.add_all(mesh.cell(cell));
   return nodes.take();
+}
+
+std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
+  static const PlaceKeywords without = {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"};
+  auto nodes = selected_nodes(keywords, mesh, names);
+  const auto excluded = selected_nodes(keywords, mesh, without);
+  const std::set<int> left_out(excluded.begin(), excluded.end());
+  std::erase_if(nodes, [&](int node) { return left_out.contains(node); });
+  return nodes;
+}
+
+std::vector<int> listed_nodes(const Keywords& keywords, const solver::Mesh& mesh, const std::string& node_groups,
+                              const std::string& nodes) {
+  std::vector<int> listed;
+  if (takes(keywords, node_groups)) {
+    each_group(keywords, node_groups, [&](const std::string& name) { return mesh.node_group(name); },
+               [&](const std::vector<int>& group) { listed.insert(listed.end(), group.begin(), group.end()); });
+  }
+  if (takes(keywords, nodes)) {
+    each_name(keywords, nodes, "unknown-node", "node", [&](const std::string& name) { return mesh.find_node(name); },
+              [&](int index) { listed.push_back(index); });
+  }
+  return listed;
 }
 
 bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {

@@ -24,6 +24,14 @@ struct PlaceKeywords {
 std::vector<int> selected_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});
 
+/// The same less those that SANS_GROUP_NO, SANS_NOEUD, SANS_GROUP_MA and SANS_MAILLE name.
+std::vector<int> remaining_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
+                                 const PlaceKeywords& names = {});
+
+/// One node a name, groups opened in their own order, repetitions kept: what lists of terms go along with. Throws as above.
+std::vector<int> listed_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh, const std::string& node_groups,
+                              const std::string& nodes);
+
 /// The cells that the keywords name, each once. Throws as above.
 std::vector<int> selected_cells(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands/commands.hpp"
+#include "commands/problem_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -11,52 +12,17 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-using solver::LinearMethod;
-
-std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
-  std::vector<solver::AppliedLoad> loads;
-  for (const Keywords& excitation : call.factors("EXCIT")) {
-    solver::AppliedLoad& applied = loads.emplace_back();
-    applied.load = excitation.data<LoadConcept>("CHARGE").load;
-    if (excitation.has("FONC_MULT")) {
-      applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
-    }
-  }
-  return loads;
-}
 
 solver::StaticProblem problem_of(const Call& call) {
-  solver::StaticProblem problem;
-  problem.model = call.data<ModelConcept>("MODELE").model;
-  problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
-  problem.properties = call.has("CARA_ELEM") ? call.data<PropertiesConcept>("CARA_ELEM").properties
-                                             : std::make_shared<const solver::ElementProperties>();
-  problem.loads = applied_loads(call);
-  if (call.has("CONTACT")) {
-    const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
-    if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
-      problem.contact = *contact;
-    } else {
-      problem.unilateral = std::get<std::vector<solver::UnilateralCondition>>(conditions);
-    }
+  solver::StaticProblem problem = static_problem(call);
+  if (!call.has("CONTACT")) return problem;
+  const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
+  if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
+    problem.contact = *contact;
+  } else {
+    problem.unilateral = std::get<std::vector<solver::UnilateralCondition>>(conditions);
   }
   return problem;
-}
-
-std::optional<LinearMethod> linear_method(const std::string& word) {
-  if (word == "MUMPS") return LinearMethod::mumps;
-  if (word == "MULT_FRONT") return LinearMethod::cholmod;
-  if (word == "LDLT") return LinearMethod::eigen_ldlt;
-  return std::nullopt;
-}
-
-// NPREC (U4.50.01): 0 stands for the default; a negative number means no test to MUMPS alone, elsewhere its sign says whether
-// to stop, which comma always does.
-int singular_digits(const Keywords& solver) {
-  constexpr int default_digits = 8;
-  const int digits = static_cast<int>(solver.integer("NPREC"));
-  if (digits == 0) return default_digits;
-  return solver.text("METHODE") == "MUMPS" ? digits : std::abs(digits);
 }
 
 // The instants that INCREMENT keeps of its list; the first is the initial state.
@@ -96,12 +62,9 @@ solver::NewtonOptions newton_options(const Call& call) {
     if (absolute && !relative) options.relative_residual.reset();
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
   }
-  if (call.has("SOLVEUR")) {
-    const Keywords& solver = call.factor("SOLVEUR");
-    // Without METHODE in the file the choice is comma's own: the fastest that is safe for the matrix.
-    if (solver.given("METHODE")) options.method = linear_method(solver.text("METHODE"));
-    options.linear.singular_digits = singular_digits(solver);
-  }
+  const SolverChoice choice = solver_choice(call);
+  options.method = choice.method;
+  options.linear = choice.options;
   return options;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "commands/commands.hpp"
+#include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -150,9 +151,9 @@ TestedValue parameter_value(const Keywords& test, const solver::ResultStep& step
   return found->second;
 }
 
-// "DEPL DY at A, INST=20": what a reader of the verdict needs to find the value again.
-std::string label_of(const Keywords& test, const solver::ResultStep& step) {
-  std::string label = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
+// "DEPL DY at A": what a reader of the verdict needs to find the value again.
+std::string label_of(const Keywords& test, const std::string& what) {
+  std::string label = what;
   if (test.given("NOM_CMP")) label += " " + test.texts("NOM_CMP").front();
   if (test.given("TYPE_TEST")) label += " " + test.text("TYPE_TEST");
   const char* lead = " at ";
@@ -162,29 +163,35 @@ std::string label_of(const Keywords& test, const solver::ResultStep& step) {
     lead = " of ";
   }
   if (test.given("POINT")) label += fmt::format(" point {}", test.integer("POINT"));
-  label += fmt::format(", INST={:g}", step.instant);
-  return test.given("LEGENDE") ? test.text("LEGENDE") + ": " + label : label;
+  return label;
+}
+
+void report(const Keywords& test, const std::string& label, const TestedValue& value, Context& context) {
+  const std::string full = test.given("LEGENDE") ? test.text("LEGENDE") + ": " + label : label;
+  for (Verdict& verdict : judge(test, "TEST_RESU", full, value)) context.report(std::move(verdict));
 }
 
 void test_result(const Keywords& test, Context& context) {
   const auto& data = interpreter::data_of<ResultConcept>(test.concept_of("RESULTAT"), "RESULTAT");
-  const auto steps = selected_steps(test, data.result);
-  if (steps.size() != 1) {
-    throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; a value is tested at one", steps.size()),
-                          test.span, "give INST or NUME_ORDRE");
-  }
-  const solver::ResultStep& step = *steps.front();
+  const solver::ResultStep& step = only_step(test, data.result, "a value is tested at one");
   const TestedValue value = test.given("PARA") ? parameter_value(test, step)
-                                               : field_value(test, field_of(test, step), *data.result.model->mesh);
-  for (Verdict& verdict : judge(test, "TEST_RESU", label_of(test, step), value)) {
-    context.report(std::move(verdict));
-  }
+                                               : field_value(test, field_of(test, step), data.result.mesh());
+  const std::string& what = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
+  report(test, label_of(test, what) + fmt::format(", INST={:g}", step.instant), value, context);
+}
+
+void test_field(const Keywords& test, Context& context) {
+  const FieldConcept& data = number_field(test.concept_of("CHAM_GD"), test, "CHAM_GD");
+  report(test, label_of(test, test.concept_of("CHAM_GD")->name), field_value(test, data.field, *data.mesh), context);
 }
 
 }  // namespace
 
 Product test_resu(const Call& call, Context& context) {
   for (const Keywords& test : call.factors("RESU")) test_result(test, context);
+  for (const char* kind : {"CHAM_NO", "CHAM_ELEM", "CARTE"}) {
+    for (const Keywords& test : call.factors(kind)) test_field(test, context);
+  }
   return nullptr;
 }
 

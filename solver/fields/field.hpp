@@ -54,10 +54,13 @@ struct ResultStep {
   std::map<std::string, double, std::less<>> parameters;  ///< "ITER_GLOB" ...
 };
 
-/// Steps in rising order and instant.
+/// Steps in rising order and instant, on a model or on a mesh alone (temperatures in time).
 struct Result {
-  std::shared_ptr<const Model> model;
+  std::shared_ptr<const Model> model;  ///< null: the fields lie on `bare_mesh`
   std::vector<ResultStep> steps;
+  std::shared_ptr<const Mesh> bare_mesh = {};
+
+  const Mesh& mesh() const { return model ? *model->mesh : *bare_mesh; }
 };
 
 }  // namespace comma::solver

@@ -7,13 +7,8 @@
 
 #include "solver/error.hpp"
 
-
-
 namespace comma::solver {
 
-namespace {
-
-/// The values of a nodal field over the degrees of freedom.
 Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs) {
   std::array<int, component_count> columns;
   for (int c = 0; c < component_count; ++c) columns[c] = field.component(name_of(static_cast<Component>(c)));
@@ -30,10 +25,10 @@ Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs) {
   return values;
 }
 
-}  // namespace
-
-NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement) {
-  return to_field(assembler.internal_forces(to_dofs(displacement, dofs)), dofs, "DEPL_R");
+NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
+                        std::span<const AppliedLoad> loads, double time) {
+  const Eigen::VectorXd internal = assembler.internal_forces(to_dofs(displacement, dofs));
+  return to_field(internal - assembler.initial_strain_forces(loads, time), dofs, "DEPL_R");
 }
 
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,

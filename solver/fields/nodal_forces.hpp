@@ -7,8 +7,12 @@
 
 namespace comma::solver {
 
-/// FORC_NODA: the internal forces of a displacement field.
-NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement);
+/// The values of a nodal field over the degrees of freedom. Throws Error `incompatible-field` where one is absent.
+Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs);
+
+/// FORC_NODA: the forces of the stresses of a displacement field, those of the strains that the loads impose included.
+NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
+                        std::span<const AppliedLoad> loads, double time);
 
 /// REAC_NODA: internal minus external forces; zero where nothing is imposed, the reaction where something is.
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,

@@ -41,14 +41,6 @@ bool is_spring(Formulation formulation) {
          formulation == Formulation::spring_3d || formulation == Formulation::spring_rotation_3d;
 }
 
-/// Whether elements of a formulation exist on cells of a type at all, skin included.
-bool carries(Formulation formulation, CellType type) {
-  const int continuum = continuum_dimension(formulation);
-  if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
-  if (is_spring(formulation)) return type == CellType::poi1 || type == CellType::seg2;
-  return formulation != Formulation::none && type == CellType::seg2;
-}
-
 }  // namespace
 
 int continuum_dimension(Formulation formulation) {
@@ -68,6 +60,13 @@ int continuum_dimension(Formulation formulation) {
   }
 }
 
+bool has_element(Formulation formulation, CellType type) {
+  const int continuum = continuum_dimension(formulation);
+  if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
+  if (is_spring(formulation)) return type == CellType::poi1 || type == CellType::seg2;
+  return formulation != Formulation::none && type == CellType::seg2;
+}
+
 bool is_axisymmetric(Formulation formulation) {
   return formulation == Formulation::axisymmetric || formulation == Formulation::axisymmetric_reduced;
 }
@@ -79,7 +78,7 @@ bool Model::is_skin(int cell) const {
 
 ComponentMask Model::components_of(int cell) const {
   const Formulation formulation = formulations[cell];
-  return carries(formulation, mesh->cell_types[cell]) ? components_of_formulation(formulation) : ComponentMask{0};
+  return has_element(formulation, mesh->cell_types[cell]) ? components_of_formulation(formulation) : ComponentMask{0};
 }
 
 }  // namespace comma::solver

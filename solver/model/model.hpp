@@ -20,6 +20,8 @@ enum class Formulation : std::uint8_t {
 /// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric bodies,
 /// 0 for formulations without a continuum.
 int continuum_dimension(Formulation formulation);
+/// Whether elements of a formulation exist on cells of a type at all, skin elements included.
+bool has_element(Formulation formulation, CellType type);
 bool is_axisymmetric(Formulation formulation);
 
 /// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces and

@@ -30,7 +30,7 @@ TEST_CASE("nodal forces of a square pressed flat are half its stress on each cor
   const double strain = -0.02;
   const Body body(unit_square(), Formulation::plane_strain, elastic(young, nu));
   const auto u = body.displacements([&](const Point& x, int c) { return c == 0 ? -nu / (1 - nu) * strain * x[0] : strain * x[1]; });
-  const NodalField forces = nodal_forces(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"));
+  const NodalField forces = nodal_forces(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"), {}, 0.0);
   const double expected = 0.5 * young / (1 - nu * nu) * strain;
   for (int node = 0; node < 4; ++node) {
     CHECK(forces.at(node, 0) == Approx(0.0).margin(1e-12 * young));
@@ -54,5 +54,5 @@ TEST_CASE("reactions are what the applied forces leave of the nodal forces", "[f
 TEST_CASE("a displacement field that does not belong to the model is refused", "[fields]") {
   const Body body(unit_square(), Formulation::plane_strain, elastic(1.0, 0.3));
   const NodalField field{"DEPL_R", {"DX"}, std::vector<double>(4, 0.0)};
-  CHECK_THROWS_WITH(nodal_forces(*body.assembler, *body.dofs, field), Catch::Contains("DY"));
+  CHECK_THROWS_WITH(nodal_forces(*body.assembler, *body.dofs, field, {}, 0.0), Catch::Contains("DY"));
 }

@@ -1,0 +1,225 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands/commands.hpp"
+#include "commands/field_types.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_algebra.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using FieldPtr = std::shared_ptr<FieldConcept>;
+
+// What MAILLAGE or MODELE says the new field lies on.
+FieldPtr on_support(const Call& call) {
+  auto product = std::make_shared<FieldConcept>();
+  if (call.has("MODELE")) {
+    product->model = call.data<ModelConcept>("MODELE").model;
+    product->mesh = product->model->mesh;
+  } else {
+    product->mesh = call.data<MeshConcept>("MAILLAGE").mesh;
+  }
+  return product;
+}
+
+solver::Field empty_field(const Call& call, const FieldConcept& support, const FieldType& type, std::vector<std::string> components) {
+  if (type.place == FieldPlace::node) return solver::empty_nodal_field(*support.mesh, type.quantity_name(), std::move(components));
+  if (type.place == FieldPlace::zone) return solver::empty_cell_field(*support.mesh, type.quantity_name(), std::move(components));
+  if (!support.model) {
+    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type.place)), call.span,
+                          "give MODELE in place of MAILLAGE");
+  }
+  const auto where = type.place == FieldPlace::cell           ? solver::Support::cell
+                     : type.place == FieldPlace::element_node ? solver::Support::element_node
+                                                              : solver::Support::gauss_point;
+  return solver::empty_element_field(*support.model, type.quantity_name(), where, std::move(components), lives_on_skin(type));
+}
+
+void add_name(std::vector<std::string>& names, const std::string& name) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+// The nodes or cells that an occurrence names. On cells a group of nodes says nothing.
+std::vector<int> places(const Keywords& occurrence, const FieldConcept& field, const FieldType& type) {
+  if (type.place == FieldPlace::node) return selected_nodes(occurrence, *field.mesh);
+  for (const char* keyword : {"GROUP_NO", "NOEUD"}) {
+    if (!occurrence.given(keyword)) continue;
+    throw DiagnosticError("wrong-place", fmt::format("CREA_CHAMP: {} names nodes, and the field has its values {}", keyword, describe(type.place)),
+                          occurrence.span_of(keyword), "name cells by GROUP_MA, MAILLE or TOUT");
+  }
+  return selected_cells(occurrence, *field.mesh);
+}
+
+void finish(const Call& call, FieldConcept& product) {
+  if (call.has("PROL_ZERO") && call.text("PROL_ZERO") == "OUI") {
+    double zero = 0.0;
+    if (!product.functions.empty()) {
+      zero = static_cast<double>(product.functions.size());
+      product.functions.push_back(std::make_shared<ConstantConcept>(0.0));
+    }
+    solver::fill_absent(product.field, zero);
+  }
+  if (auto* element = std::get_if<solver::ElementField>(&product.field)) solver::drop_empty_cells(*element);
+}
+
+// The value to store: a number, or the index of a function that is kept beside the field.
+std::vector<double> values_of(const Keywords& occurrence, const FieldType& type, FieldConcept& product) {
+  const char* wanted = type.functions ? "VALE_F" : "VALE";
+  if (!occurrence.given(wanted)) {
+    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field of {} takes its values from {}", type.functions ? "functions" : "numbers", wanted),
+                          occurrence.span, type.functions ? "or ask for a TYPE_CHAM that ends in _R" : "or ask for a TYPE_CHAM that ends in _F");
+  }
+  if (!type.functions) return occurrence.reals("VALE");
+  std::vector<double> indices;
+  for (const auto& handle : occurrence.concepts("VALE_F")) {
+    interpreter::data_of<FunctionConcept>(handle, "VALE_F");
+    indices.push_back(static_cast<double>(product.functions.size()));
+    product.functions.push_back(std::dynamic_pointer_cast<const FunctionConcept>(handle->data));
+  }
+  return indices;
+}
+
+FieldPtr from_values(const Call& call, const FieldType& type) {
+  FieldPtr product = on_support(call);
+  std::vector<std::string> components;
+  for (const Keywords& occurrence : call.factors("AFFE")) {
+    for (const std::string& name : occurrence.texts("NOM_CMP")) {
+      check_component(occurrence, "NOM_CMP", type, name);
+      add_name(components, name);
+    }
+  }
+  product->field = empty_field(call, *product, type, components);
+  for (const Keywords& occurrence : call.factors("AFFE")) {
+    const auto names = occurrence.texts("NOM_CMP");
+    const auto values = values_of(occurrence, type, *product);
+    if (names.size() != values.size()) {
+      throw DiagnosticError("wrong-count", fmt::format("CREA_CHAMP: {} components stand against {} values", names.size(), values.size()),
+                            occurrence.span_of("NOM_CMP"), "give one value a component");
+    }
+    const auto where = places(occurrence, *product, type);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto column = std::ranges::find(components, names[i]) - components.begin();
+      solver::assign(product->field, static_cast<int>(column), values[i], &where);
+    }
+  }
+  return product;
+}
+
+const std::vector<std::string>& components_of(const solver::Field& field) {
+  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+}
+
+solver::FieldPiece piece_of(const Keywords& occurrence) {
+  solver::FieldPiece piece;
+  piece.field = &number_field(occurrence.concept_of("CHAM_GD"), occurrence, "CHAM_GD").field;
+  piece.from = occurrence.given("NOM_CMP") ? occurrence.texts("NOM_CMP") : components_of(*piece.field);
+  piece.to = occurrence.given("NOM_CMP_RESU") ? occurrence.texts("NOM_CMP_RESU") : piece.from;
+  if (piece.from.size() != piece.to.size()) {
+    throw DiagnosticError("wrong-count", fmt::format("CREA_CHAMP: {} components become {}", piece.from.size(), piece.to.size()),
+                          occurrence.span_of("NOM_CMP_RESU"), "give as many names in NOM_CMP_RESU as in NOM_CMP");
+  }
+  for (const std::string& name : piece.from) component_of(occurrence, components_of(*piece.field), name);
+  piece.factor = occurrence.real("COEF_R");
+  piece.adds = occurrence.text("CUMUL") == "OUI";
+  return piece;
+}
+
+FieldPtr from_pieces(const Call& call, const FieldType& type) {
+  FieldPtr product = on_support(call);
+  std::vector<solver::FieldPiece> pieces;
+  std::vector<std::string> components;
+  for (const Keywords& occurrence : call.factors("ASSE")) {
+    pieces.push_back(piece_of(occurrence));
+    const char* keyword = occurrence.given("NOM_CMP_RESU") ? "NOM_CMP_RESU" : occurrence.given("NOM_CMP") ? "NOM_CMP" : "CHAM_GD";
+    for (const std::string& name : pieces.back().to) {
+      check_component(occurrence, keyword, type, name);
+      add_name(components, name);
+    }
+  }
+  product->field = empty_field(call, *product, type, std::move(components));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Keywords& occurrence = call.factors("ASSE")[i];
+    const auto where = places(occurrence, *product, type);
+    solver::put_piece(product->field, pieces[i], &where);
+  }
+  return product;
+}
+
+void take_support(FieldConcept& product, const FieldConcept& from) {
+  product.mesh = from.mesh;
+  product.model = from.model;
+}
+
+FieldPtr from_terms(const Call& call) {
+  auto product = std::make_shared<FieldConcept>();
+  std::vector<solver::FieldTerm> terms;
+  for (const Keywords& occurrence : call.factors("COMB")) {
+    const FieldConcept& data = number_field(occurrence.concept_of("CHAM_GD"), occurrence, "CHAM_GD");
+    if (terms.empty()) take_support(*product, data);
+    terms.push_back({&data.field, occurrence.real("COEF_R")});
+  }
+  product->field = solver::linear_combination(terms);
+  return product;
+}
+
+FieldPtr from_functions(const Call& call, const FieldType& type) {
+  const auto& which = call.data<FieldConcept>("CHAM_F");
+  if (which.functions.empty()) {
+    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: {} is a field of numbers, not of functions", call.concept_of("CHAM_F")->name),
+                          call.span_of("CHAM_F"), "make it by OPERATION='AFFE' with a TYPE_CHAM that ends in _F");
+  }
+  std::vector<const solver::Field*> arguments;
+  for (const auto& handle : call.concepts("CHAM_PARA")) arguments.push_back(&number_field(handle, call, "CHAM_PARA").field);
+  auto product = std::make_shared<FieldConcept>();
+  take_support(*product, which);
+  product->field = solver::evaluate(which.field, value_functions(which), arguments, type.quantity_name());
+  return product;
+}
+
+FieldPtr of_mesh(const Call& call) {
+  auto product = on_support(call);
+  product->field = solver::node_coordinates(*product->mesh);
+  return product;
+}
+
+FieldPtr of_result(const Call& call) {
+  const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
+  auto product = std::make_shared<FieldConcept>();
+  product->model = result.model;
+  product->mesh = result.model ? std::shared_ptr<const solver::Mesh>(result.model->mesh) : result.bare_mesh;
+  product->field = field_of(call, only_step(call, result, "a field is taken of one"));
+  return product;
+}
+
+FieldPtr made_by(const Call& call, const FieldType& type) {
+  const std::string& operation = call.text("OPERATION");
+  if (operation == "AFFE") return from_values(call, type);
+  if (operation == "ASSE") return from_pieces(call, type);
+  if (operation == "COMB") return from_terms(call);
+  if (operation == "EVAL") return from_functions(call, type);
+  return call.has("RESULTAT") ? of_result(call) : of_mesh(call);
+}
+
+}  // namespace
+
+Product crea_champ(const Call& call, Context&) {
+  const FieldType type = field_type(call.text("TYPE_CHAM"));
+  FieldPtr product = made_by(call, type);
+  if (!lies_at(product->field, type.place)) {
+    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says",
+                                                    describe(place_of(product->field)), describe(type.place)),
+                          call.span_of("TYPE_CHAM"));
+  }
+  finish(call, *product);
+  if (!call.reuse) return product;
+  call.result->data = product;
+  return nullptr;
+}
+
+}  // namespace comma::commands

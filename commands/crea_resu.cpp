@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "commands/field_types.hpp"
+#include "commands/result_reading.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+
+// A field of functions is evaluated with the instant and, at nodes, their coordinates (U4.44.12).
+solver::Field at_instant(const FieldConcept& data, double instant) {
+  if (data.functions.empty()) return data.field;
+  const solver::Field time = solver::uniform_like(data.field, "INST", instant);
+  std::vector<const solver::Field*> known = {&time};
+  std::optional<solver::Field> coordinates;
+  if (std::holds_alternative<solver::NodalField>(data.field)) known.push_back(&coordinates.emplace(solver::node_coordinates(*data.mesh)));
+  const std::string quantity = std::visit([](const auto& field) { return field.quantity; }, data.field);
+  return solver::evaluate(data.field, value_functions(data), known, quantity);
+}
+
+// The step at an instant, made in its place among the others if there is none so near.
+solver::ResultStep& step_at(solver::Result& result, double instant, double reach) {
+  auto& steps = result.steps;
+  const auto found = std::ranges::find_if(steps, [&](const auto& step) { return std::abs(step.instant - instant) <= reach; });
+  if (found != steps.end()) return *found;
+  const auto later = std::ranges::find_if(steps, [&](const auto& step) { return step.instant > instant; });
+  solver::ResultStep& made = *steps.insert(later, solver::ResultStep{});
+  made.instant = instant;
+  return made;
+}
+
+void take_support(ResultConcept& product, const Keywords& occurrence, const FieldConcept& data) {
+  solver::Result& result = product.result;
+  if (occurrence.has("MODELE")) {
+    product.problem.model = occurrence.data<ModelConcept>("MODELE").model;
+  } else if (!product.problem.model) {
+    product.problem.model = data.model;
+  }
+  if (occurrence.has("CHAM_MATER")) product.problem.materials = occurrence.data<MaterialFieldConcept>("CHAM_MATER").field;
+  if (occurrence.has("CARA_ELEM")) product.problem.properties = occurrence.data<PropertiesConcept>("CARA_ELEM").properties;
+  if (!product.problem.properties) product.problem.properties = std::make_shared<const solver::ElementProperties>();
+  if (!result.steps.empty() && &result.mesh() != data.mesh.get()) {
+    throw DiagnosticError("incompatible-field", "CREA_RESU: the field lies on another mesh than those before it", occurrence.span_of("CHAM_GD"),
+                          "make one result for each mesh");
+  }
+  result.model = product.problem.model;
+  result.bare_mesh = data.mesh;
+}
+
+std::vector<double> instants(const Keywords& occurrence) {
+  return occurrence.has("LIST_INST") ? occurrence.data<ListConcept>("LIST_INST").values : occurrence.reals("INST");
+}
+
+void add_field(ResultConcept& product, const Keywords& occurrence) {
+  const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
+  take_support(product, occurrence, data);
+  for (const double instant : instants(occurrence)) {
+    solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
+    step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant));
+  }
+}
+
+}  // namespace
+
+Product crea_resu(const Call& call, Context&) {
+  auto product = call.reuse ? std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"))
+                            : std::make_shared<ResultConcept>();
+  int order = product->result.steps.empty() ? 1 : product->result.steps.front().order;
+  for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, occurrence);
+  for (solver::ResultStep& step : product->result.steps) step.order = order++;
+  if (!call.reuse) return product;
+  call.result->data = product;
+  return nullptr;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,144 @@
+// Displacements imposed on nodes: in global axes, along normals, in the axes of a beam, in oblique axes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "commands/load_building.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/constraints/directions.hpp"
+#include "solver/elements/section.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+using solver::Component;
+using solver::Motion;
+
+namespace {
+
+constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
+constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
+
+void impose(int node, Component component, const Amount& amount, const solver::Origin& origin, solver::Load& load) {
+  load.relations.push_back({{{node, component, 1.0}}, amount.value, amount.function, origin});
+}
+
+bool any_carries(const std::vector<int>& nodes, Component component, const LoadedModel& target) {
+  return std::ranges::any_of(nodes, [&](int node) { return target.dofs.dof(node, component) >= 0; });
+}
+
+void impose_components(const Keywords& keywords, const std::vector<int>& nodes, const LoadedModel& target, const solver::Origin& origin,
+                       solver::Load& load, interpreter::Diagnostics* alarms = nullptr) {
+  for (const NamedComponent& named : displacement_keywords) {
+    if (!keywords.given(named.keyword)) continue;
+    const Amount amount = amount_of(keywords, named.keyword);
+    const bool holds = !amount.function && amount.value == 0.0;
+    if (alarms != nullptr && holds && !any_carries(nodes, named.component, target)) {
+      alarms->alarm("unknown-component", fmt::format("{}: none of these nodes carries {}: there is nothing to hold", named.keyword, named.keyword),
+                    keywords.at(named.keyword).name_span);
+      continue;
+    }
+    for (const int node : carriers(keywords, named, nodes, target.dofs)) impose(node, named.component, amount, origin, load);
+  }
+}
+
+void hold(const std::vector<int>& nodes, std::span<const Component> components, const LoadedModel& target, const solver::Origin& origin,
+          solver::Load& load) {
+  for (const int node : nodes) {
+    for (const Component component : components) {
+      if (target.dofs.dof(node, component) >= 0) impose(node, component, {}, origin, load);
+    }
+  }
+}
+
+// BLOCAGE holds what a node has of a kind of motion; LIAISON="ENCASTRE" all of it.
+void impose_holds(const Keywords& keywords, const std::vector<int>& nodes, const LoadedModel& target, const solver::Origin& origin,
+                  solver::Load& load) {
+  const auto blocked = keywords.given("BLOCAGE") ? keywords.texts("BLOCAGE") : std::vector<std::string>{};
+  const auto holds = [&](const char* word) { return keywords.given("LIAISON") || std::ranges::find(blocked, word) != blocked.end(); };
+  if (holds("DEPLACEMENT")) hold(nodes, translations, target, origin, load);
+  if (holds("ROTATION")) hold(nodes, rotations, target, origin, load);
+}
+
+// Imposes the motion along a direction of each node.
+template <class Direction>
+void impose_along(const std::vector<int>& nodes, Motion motion, const Amount& amount, const solver::Origin& origin, solver::Load& load,
+                  const LoadedModel& target, Direction direction) {
+  for (const int node : nodes) {
+    auto relation = solver::along(node, motion, direction(node), amount.value, amount.function, origin);
+    std::erase_if(relation.terms, [&](const auto& term) { return target.dofs.dof(term.node, term.component) < 0; });
+    if (!relation.terms.empty()) load.relations.push_back(std::move(relation));
+  }
+}
+
+// DX ... DRZ in the axes (rows) that each node has of its own.
+template <class Axes>
+void impose_in_axes(const Keywords& keywords, const std::vector<int>& nodes, const LoadedModel& target, const solver::Origin& origin,
+                    solver::Load& load, Axes axes) {
+  for (std::size_t i = 0; i < displacement_keywords.size(); ++i) {
+    if (!keywords.given(displacement_keywords[i].keyword)) continue;
+    const auto row = static_cast<Eigen::Index>(i % 3);
+    impose_along(nodes, i < 3 ? Motion::translation : Motion::rotation, amount_of(keywords, displacement_keywords[i].keyword), origin, load,
+                 target, [&](int node) -> Eigen::Vector3d { return axes(node).row(row).transpose(); });
+  }
+}
+
+// GROUP_MA_REPE and MAILLE_REPE: the cells among which a node's beam is looked for; empty: all.
+std::vector<int> reference_cells(const Keywords& keywords, const solver::Mesh& mesh) {
+  return selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_REPE", "MAILLE_REPE"});
+}
+
+}  // namespace
+
+void add_imposed_displacements(const Keywords& keywords, const std::string& name, const LoadedModel& target, solver::Load& load,
+                               interpreter::Diagnostics* alarms) {
+  const auto origin = origin_of(keywords, name);
+  const auto nodes = remaining_nodes(keywords, target.mesh);
+  impose_components(keywords, nodes, target, origin, load, alarms);
+  impose_holds(keywords, nodes, target, origin, load);
+}
+
+void add_face_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const auto origin = origin_of(keywords, "FACE_IMPO");
+  const auto nodes = remaining_nodes(keywords, target.mesh);
+  impose_components(keywords, nodes, target, origin, load);
+  impose_holds(keywords, nodes, target, origin, load);
+  const bool along_normal = keywords.given("DNOR") || keywords.given("DRNOR") || keywords.given("DTAN");
+  if (!along_normal) return;
+  const auto normals = solver::mean_normals(target.mesh, selected_cells(keywords, target.mesh));
+  const auto normal = [&](int node) { return normals.at(node); };
+  if (keywords.given("DNOR")) impose_along(nodes, Motion::translation, amount_of(keywords, "DNOR"), origin, load, target, normal);
+  if (keywords.given("DRNOR")) impose_along(nodes, Motion::rotation, amount_of(keywords, "DRNOR"), origin, load, target, normal);
+  if (!keywords.given("DTAN")) return;
+  if (target.mesh.dimension != 2) {
+    throw DiagnosticError("unsupported", "FACE_IMPO/DTAN: a face in space has two tangents", keywords.at("DTAN").name_span,
+                          "impose DX, DY, DZ, or LIAISON_OBLIQUE");
+  }
+  impose_along(nodes, Motion::translation, amount_of(keywords, "DTAN"), origin, load, target,
+               [&](int node) { return solver::plane_tangent(normals.at(node)); });
+}
+
+void add_beam_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const auto candidates = reference_cells(keywords, target.mesh);
+  const auto nodes = selected_nodes(keywords, target.mesh);
+  const double roll = keywords.has("ANGL_VRIL") ? keywords.real("ANGL_VRIL") * std::numbers::pi / 180.0 : 0.0;
+  const auto axes = [&](int node) {
+    const int cell = solver::beam_at_node(target.model, node, candidates);
+    if (!keywords.given("VECT_Y")) return solver::own_axes(target.mesh, cell, roll);
+    const auto y = keywords.reals("VECT_Y");
+    return solver::beam_axes(target.mesh, cell, {y[0], y[1], y[2]});
+  };
+  impose_in_axes(keywords, nodes, target, origin_of(keywords, "DDL_POUTRE"), load, axes);
+}
+
+void add_oblique_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const Eigen::Matrix3d axes = axes_of_angles(keywords.reals("ANGL_NAUT"));
+  impose_in_axes(keywords, selected_nodes(keywords, target.mesh), target, origin_of(keywords, "LIAISON_OBLIQUE"), load,
+                 [&](int) -> const Eigen::Matrix3d& { return axes; });
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "commands/problem_building.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/nonlinear/linear_static_analysis.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+std::vector<double> instants(const Call& call) {
+  if (!call.has("LIST_INST")) return {call.real("INST")};
+  std::vector<double> chosen;
+  constexpr double same_instant = 1e-6;
+  for (const double instant : call.data<ListConcept>("LIST_INST").values) {
+    if (!call.has("INST_FIN") || instant <= call.real("INST_FIN") + same_instant * std::abs(call.real("INST_FIN"))) chosen.push_back(instant);
+  }
+  if (!chosen.empty()) return chosen;
+  throw interpreter::DiagnosticError("wrong-order", "MECA_STATIQUE: every instant of LIST_INST lies beyond INST_FIN",
+                                     call.span_of("INST_FIN"));
+}
+
+/// The instants that the result to go on with does not hold yet.
+std::vector<double> new_instants(std::vector<double> instants, const solver::Result& result) {
+  constexpr double same_instant = 1e-6;
+  std::erase_if(instants, [&](double instant) {
+    return std::ranges::any_of(result.steps, [&](const solver::ResultStep& step) {
+      return std::abs(step.instant - instant) <= same_instant * std::max(1.0, std::abs(instant));
+    });
+  });
+  return instants;
+}
+
+}  // namespace
+
+Product meca_statique(const Call& call, Context& context) {
+  auto product = std::make_shared<ResultConcept>();
+  product->problem = static_problem(call);
+  product->result.model = product->problem.model;
+  if (call.reuse) product->result.steps = call.data<ResultConcept>("RESULTAT").result.steps;
+  const SolverChoice choice = solver_choice(call);
+  const solver::LinearStaticOptions options = {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
+  context.console.progress(fmt::format("MECA_STATIQUE {}", call.result->name));
+  const auto wanted = new_instants(instants(call), product->result);
+  // What has been solved stays readable although a later instant fails.
+  call.result->data = product;
+  solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,67 @@
+#include "commands/problem_building.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands/functions.hpp"
+
+namespace comma::commands {
+
+using interpreter::Call;
+using interpreter::Keywords;
+using solver::LinearMethod;
+
+namespace {
+
+std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
+  std::vector<solver::AppliedLoad> loads;
+  for (const Keywords& excitation : call.factors("EXCIT")) {
+    solver::AppliedLoad& applied = loads.emplace_back();
+    applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    if (excitation.has("FONC_MULT")) {
+      applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
+    }
+  }
+  return loads;
+}
+
+std::optional<LinearMethod> linear_method(const std::string& word) {
+  if (word == "MUMPS") return LinearMethod::mumps;
+  if (word == "MULT_FRONT") return LinearMethod::cholmod;
+  if (word == "LDLT") return LinearMethod::eigen_ldlt;
+  return std::nullopt;
+}
+
+// NPREC (U4.50.01): 0 stands for the default; a negative number means no test to MUMPS alone, elsewhere its sign says whether
+// to stop, which comma always does.
+int singular_digits(const Keywords& solver) {
+  constexpr int default_digits = 8;
+  const int digits = static_cast<int>(solver.integer("NPREC"));
+  if (digits == 0) return default_digits;
+  return solver.text("METHODE") == "MUMPS" ? digits : std::abs(digits);
+}
+
+}  // namespace
+
+solver::StaticProblem static_problem(const Call& call) {
+  solver::StaticProblem problem;
+  problem.model = call.data<ModelConcept>("MODELE").model;
+  problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
+  problem.properties = call.has("CARA_ELEM") ? call.data<PropertiesConcept>("CARA_ELEM").properties
+                                             : std::make_shared<const solver::ElementProperties>();
+  problem.loads = applied_loads(call);
+  return problem;
+}
+
+SolverChoice solver_choice(const Call& call) {
+  SolverChoice choice;
+  if (!call.has("SOLVEUR")) return choice;
+  const Keywords& solver = call.factor("SOLVEUR");
+  if (solver.given("METHODE")) choice.method = linear_method(solver.text("METHODE"));
+  if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
+  return choice;
+}
+
+}  // namespace comma::commands

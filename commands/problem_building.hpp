@@ -1,0 +1,25 @@
+// What the commands that solve share: the problem behind MODELE, CHAM_MATER, CARA_ELEM and EXCIT, and the choice of the
+// linear solver.
+#pragma once
+
+#include <optional>
+
+#include "commands/concepts.hpp"
+#include "interpreter/call.hpp"
+#include "solver/linear/linear_solver.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::commands {
+
+/// Model, materials, properties and loads; contact is the nonlinear command's own.
+solver::StaticProblem static_problem(const interpreter::Call& call);
+
+struct SolverChoice {
+  std::optional<solver::LinearMethod> method;  ///< empty: the file does not say, comma takes the fastest that is safe
+  solver::LinearOptions options;
+};
+
+/// The keyword SOLVEUR (U4.50.01).
+SolverChoice solver_choice(const interpreter::Call& call);
+
+}  // namespace comma::commands

@@ -1,0 +1,201 @@
+// LIAISON_...: relations between the displacements of nodes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "commands/load_building.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/constraints/directions.hpp"
+#include "solver/constraints/embedding.hpp"
+#include "solver/constraints/facing_nodes.hpp"
+#include "solver/constraints/rigid_link.hpp"
+#include "solver/constraints/section_link.hpp"
+#include "solver/constraints/weighted_average.hpp"
+#include "solver/mesh/groups.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+using solver::Component;
+
+namespace {
+
+using Relations = std::vector<solver::LinearRelation>;
+
+void append(Relations& to, Relations relations) { std::ranges::move(relations, std::back_inserter(to)); }
+
+void require_same_count(const Keywords& keywords, const std::string& keyword, std::size_t count, std::size_t wanted, const char* what) {
+  if (count == wanted) return;
+  throw DiagnosticError("wrong-count", fmt::format("{} has {} values for {} {}", keyword, count, wanted, what), keywords.span_of(keyword),
+                        "each term of the relation takes one");
+}
+
+int single_node(const Keywords& keywords, const LoadedModel& target, const std::string& group, const std::string& name) {
+  const auto nodes = listed_nodes(keywords, target.mesh, group, name);
+  if (nodes.size() == 1) return nodes.front();
+  const std::string& keyword = keywords.given(group) ? group : name;
+  throw DiagnosticError("wrong-count", fmt::format("{} names {} nodes; one is meant", keyword, nodes.size()), keywords.span_of(keyword));
+}
+
+// LIAISON_DDL: one relation, a term for each node listed.
+Relations between_terms(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO", "NOEUD");
+  const auto components = keywords.texts("DDL");
+  const auto factors = keywords.reals("COEF_MULT");
+  require_same_count(keywords, "DDL", components.size(), nodes.size(), "nodes");
+  require_same_count(keywords, "COEF_MULT", factors.size(), nodes.size(), "nodes");
+  const Amount amount = amount_of(keywords, "COEF_IMPO");
+  solver::LinearRelation relation{{}, amount.value, amount.function, origin};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Component component = component_named(keywords, "DDL", components[i]);
+    if (target.dofs.dof(nodes[i], component) < 0) {
+      throw DiagnosticError("unknown-component", fmt::format("LIAISON_DDL: {} does not carry {}", target.mesh.node_name(nodes[i]), components[i]),
+                            keywords.span_of("DDL"));
+    }
+    relation.terms.push_back({nodes[i], component, factors[i]});
+  }
+  return {std::move(relation)};
+}
+
+// One side of LIAISON_GROUP, whose keywords end in its number.
+struct Side {
+  std::vector<int> nodes;
+  std::vector<int> cells;  ///< of GROUP_MA and MAILLE: they give the normals
+  std::vector<solver::FacingTerm> terms;
+  std::map<int, Eigen::Vector3d> normals;
+};
+
+Side side_of(const Keywords& keywords, const LoadedModel& target, const std::string& number) {
+  const PlaceKeywords names = {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number};
+  Side side;
+  side.nodes = remaining_nodes(keywords, target.mesh, names);
+  side.cells = selected_cells(keywords, target.mesh, names);
+  if (keywords.given("SOMMET")) {
+    const auto corners = solver::nodes_of_cells(target.mesh, side.cells, solver::NodeRole::corner);
+    std::erase_if(side.nodes, [&](int node) { return !std::ranges::binary_search(corners, node); });
+  }
+  const auto components = keywords.texts("DDL_" + number);
+  const auto factors = keywords.reals("COEF_MULT_" + number);
+  require_same_count(keywords, "COEF_MULT_" + number, factors.size(), components.size(), "components");
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const bool normal = components[i] == "DNOR";
+    side.terms.push_back({normal ? std::nullopt : std::optional(component_named(keywords, "DDL_" + number, components[i])), factors[i]});
+    if (normal && side.normals.empty()) side.normals = solver::mean_normals(target.mesh, side.cells);
+  }
+  return side;
+}
+
+solver::Placement placement(const Keywords& keywords) {
+  solver::Placement placement;
+  const auto vector = [&](const char* name) -> Eigen::Vector3d {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    const auto values = keywords.reals(name);
+    for (std::size_t i = 0; i < values.size(); ++i) value[static_cast<Eigen::Index>(i)] = values[i];
+    return value;
+  };
+  // Angles turn the body from the global axes to the turned ones: the rows of the axes are its columns.
+  placement.rotation = axes_of_angles(keywords.reals("ANGL_NAUT")).transpose();
+  placement.centre = vector("CENTRE");
+  placement.translation = vector("TRAN");
+  return placement;
+}
+
+Relations between_facing_nodes(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const Side first = side_of(keywords, target, "1"), second = side_of(keywords, target, "2");
+  const double farthest = keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
+  const auto pairs = solver::facing_nodes(target.mesh, first.nodes, second.nodes, placement(keywords), farthest);
+  const Amount amount = amount_of(keywords, "COEF_IMPO");
+  return solver::facing_relations(target.mesh, pairs, first.terms, second.terms, first.normals, second.normals, amount.value,
+                                  amount.function, origin);
+}
+
+Relations uniform_displacement(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const auto nodes = remaining_nodes(keywords, target.mesh);
+  Relations relations;
+  for (const std::string& name : keywords.texts("DDL")) append(relations, solver::uniform(nodes, component_named(keywords, "DDL", name), origin));
+  return relations;
+}
+
+Relations rigid_body(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const double coincidence = keywords.has("DIST_MIN") ? keywords.real("DIST_MIN") : solver::default_coincidence(target.mesh);
+  return solver::rigid_link(target.mesh, target.dofs, remaining_nodes(keywords, target.mesh), coincidence, origin);
+}
+
+// LIAISON_ELEM, 3D_POU and 2D_POU.
+Relations beam_on_section(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const auto section = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"});
+  const int node = single_node(keywords, target, "GROUP_NO_2", "NOEUD_2");
+  solver::SectionLink link = solver::section_link(target.mesh, section, node, origin);
+  // U4.44.01, LIAISON_ELEM: the beam must end at the centroid of the section.
+  constexpr double allowed_offset = 0.05;
+  if (keywords.text("VERIF_EXCENT") == "OUI" && link.offset > allowed_offset * link.size) {
+    throw DiagnosticError("offset-beam",
+                          fmt::format("LIAISON_ELEM: {} lies {:.4g} from the centroid ({:.6g}, {:.6g}, {:.6g}) of the section, whose size is {:.4g}",
+                                      target.mesh.node_name(node), link.offset, link.centroid[0], link.centroid[1], link.centroid[2], link.size),
+                          keywords.span, "end the beam at the centroid, or write VERIF_EXCENT=\"NON\"");
+  }
+  return std::move(link.relations);
+}
+
+// "DX-DY-DZ" of DDL_ESCL.
+solver::ComponentMask component_mask(const Keywords& keywords, const std::string& joined) {
+  solver::ComponentMask mask = 0;
+  for (std::size_t begin = 0; begin <= joined.size();) {
+    const std::size_t end = std::min(joined.find('-', begin), joined.size());
+    mask |= solver::mask_of(component_named(keywords, "DDL_ESCL", joined.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return mask;
+}
+
+Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const int follower = single_node(keywords, target, "GROUP_NO_MAIT", "NOEUD_MAIT");
+  solver::ComponentMask following = 0;
+  for (const std::string& name : keywords.texts("DDL_MAIT")) following |= solver::mask_of(component_named(keywords, "DDL_MAIT", name));
+  const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO_ESCL", "NOEUD_ESCL");
+  const auto components = keywords.texts("DDL_ESCL");
+  const auto weights = keywords.given("COEF_ESCL") ? keywords.reals("COEF_ESCL") : std::vector<double>{1.0};
+  // One value stands for all nodes.
+  if (components.size() != 1) require_same_count(keywords, "DDL_ESCL", components.size(), nodes.size(), "nodes");
+  if (weights.size() != 1) require_same_count(keywords, "COEF_ESCL", weights.size(), nodes.size(), "nodes");
+  std::vector<solver::AverageNode> leaders;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    leaders.push_back({nodes[i], component_mask(keywords, components[components.size() == 1 ? 0 : i]), weights[weights.size() == 1 ? 0 : i]});
+  }
+  return solver::weighted_average(target.mesh, target.dofs, follower, following, leaders, origin);
+}
+
+Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const auto hosts = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""});
+  const auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""});
+  const double farthest = keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
+  return solver::embedding_relations(target.mesh, target.dofs, solver::embed(target.mesh, nodes, hosts, farthest), origin);
+}
+
+struct RelationKeyword {
+  const char* name;
+  Relations (*relations)(const Keywords&, const LoadedModel&, const solver::Origin&);
+};
+
+constexpr RelationKeyword relation_keywords[] = {
+    {"LIAISON_DDL", between_terms},   {"LIAISON_GROUP", between_facing_nodes}, {"LIAISON_UNIF", uniform_displacement},
+    {"LIAISON_SOLIDE", rigid_body},   {"LIAISON_ELEM", beam_on_section},       {"LIAISON_RBE3", mean_motion},
+    {"LIAISON_MAIL", glued_nodes}};
+
+}  // namespace
+
+void add_relations(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  for (const RelationKeyword& keyword : relation_keywords) {
+    for (const Keywords& occurrence : call.factors(keyword.name)) {
+      append(load.relations, keyword.relations(occurrence, target, origin_of(occurrence, keyword.name)));
+    }
+  }
+}
+
+}  // namespace comma::commands

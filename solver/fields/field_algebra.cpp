@@ -1,0 +1,311 @@
+#include "solver/fields/field_algebra.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "solver/elements/quadrature.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+const std::vector<std::string>& components_of(const Field& field) {
+  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+}
+std::vector<std::string>& components_of(Field& field) {
+  return std::visit([](auto& values) -> std::vector<std::string>& { return values.components; }, field);
+}
+const std::vector<double>& values_of(const Field& field) {
+  return std::visit([](const auto& values) -> const std::vector<double>& { return values.values; }, field);
+}
+std::vector<double>& values_of(Field& field) {
+  return std::visit([](auto& values) -> std::vector<double>& { return values.values; }, field);
+}
+std::string& quantity_of(Field& field) {
+  return std::visit([](auto& values) -> std::string& { return values.quantity; }, field);
+}
+int component_of(const Field& field, std::string_view name) {
+  return std::visit([&](const auto& values) { return values.component(name); }, field);
+}
+
+/// The rows of a field: place p has those from starts()[p] to starts()[p + 1].
+class Rows {
+ public:
+  explicit Rows(const Field& field) {
+    if (const auto* element = std::get_if<ElementField>(&field)) {
+      starts_ = element->starts;
+      return;
+    }
+    const auto& nodal = std::get<NodalField>(field);
+    starts_.resize(nodal.values.size() / nodal.components.size() + 1);
+    std::iota(starts_.begin(), starts_.end(), 0);
+  }
+  int place_count() const { return static_cast<int>(starts_.size()) - 1; }
+  int begin(int place) const { return starts_[place]; }
+  int end(int place) const { return starts_[place + 1]; }
+  int count(int place) const { return end(place) - begin(place); }
+  int total() const { return starts_.back(); }
+
+ private:
+  std::vector<int> starts_;
+};
+
+bool same_kind(const Field& a, const Field& b) {
+  if (a.index() != b.index()) return false;
+  const auto* element = std::get_if<ElementField>(&a);
+  return element == nullptr || element->support == std::get<ElementField>(b).support;
+}
+
+void check_places(const Field& a, const Field& b) {
+  if (same_kind(a, b) && Rows(a).place_count() == Rows(b).place_count()) return;
+  throw Error("incompatible-field", "the fields do not lie at the same places",
+              "give fields of one mesh, all at its nodes, or at nodes of cells, Gauss points, cells alike");
+}
+
+template <class Visit>
+void each_place(int count, const std::vector<int>* places, Visit&& visit) {
+  if (places != nullptr) {
+    for (const int place : *places) visit(place);
+  } else {
+    for (int place = 0; place < count; ++place) visit(place);
+  }
+}
+
+int point_count(const Model& model, int cell, Support support, bool skin) {
+  const Formulation formulation = model.formulations[cell];
+  const bool is_skin = model.is_skin(cell);
+  if (formulation == Formulation::none || (is_skin && !skin)) return 0;
+  const CellType type = model.mesh->cell_types[cell];
+  if (support == Support::cell) return 1;
+  if (support == Support::element_node) return node_count(type);
+  if (is_skin) return static_cast<int>(quadrature(type, boundary_family(type)).size());
+  if (continuum_dimension(formulation) > 0) {
+    return static_cast<int>(quadrature(type, stiffness_family(type, formulation)).size());
+  }
+  const bool beam = formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+  return beam ? 2 : 1;
+}
+
+}  // namespace
+
+ElementField empty_element_field(const Model& model, std::string quantity, Support support,
+                                 std::vector<std::string> components, bool skin) {
+  ElementField field{std::move(quantity), support, std::move(components), {0}, {}};
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    field.starts.push_back(field.starts.back() + point_count(model, cell, support, skin));
+  }
+  field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
+  return field;
+}
+
+ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components) {
+  ElementField field{std::move(quantity), Support::cell, std::move(components), {}, {}};
+  field.starts.resize(mesh.cell_types.size() + 1);
+  std::iota(field.starts.begin(), field.starts.end(), 0);
+  field.values.assign(mesh.cell_types.size() * field.components.size(), absent);
+  return field;
+}
+
+NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components) {
+  std::vector<double> values(mesh.nodes.size() * components.size(), absent);
+  return {std::move(quantity), std::move(components), std::move(values)};
+}
+
+NodalField node_coordinates(const Mesh& mesh) {
+  NodalField field = empty_nodal_field(mesh, "GEOM_R", {"X", "Y", "Z"});
+  auto target = field.values.begin();
+  for (const Point& at : mesh.nodes) target = std::copy(at.begin(), at.end(), target);
+  return field;
+}
+
+Field uniform_like(const Field& other, std::string component, double value) {
+  Field field = other;
+  values_of(field).assign(static_cast<std::size_t>(Rows(other).total()), value);
+  components_of(field) = {std::move(component)};
+  return field;
+}
+
+void assign(Field& field, int component, double value, const std::vector<int>* places) {
+  const Rows rows(field);
+  const std::size_t width = components_of(field).size();
+  auto& values = values_of(field);
+  each_place(rows.place_count(), places, [&](int place) {
+    for (int row = rows.begin(place); row < rows.end(place); ++row) {
+      values[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(component)] = value;
+    }
+  });
+}
+
+void fill_absent(Field& field, double value) {
+  for (double& each : values_of(field)) {
+    if (std::isnan(each)) each = value;
+  }
+}
+
+void drop_empty_cells(ElementField& field) {
+  const auto cell_count = static_cast<int>(field.starts.size()) - 1;
+  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
+  std::vector<int> starts = {0};
+  std::vector<double> values;
+  for (int cell = 0; cell < cell_count; ++cell) {
+    const auto begin = field.values.begin() + field.starts[cell] * width;
+    const auto end = field.values.begin() + field.starts[cell + 1] * width;
+    const bool carries = std::any_of(begin, end, [](double value) { return !std::isnan(value); });
+    if (carries) values.insert(values.end(), begin, end);
+    starts.push_back(starts.back() + (carries ? field.points(cell) : 0));
+  }
+  field.starts = std::move(starts);
+  field.values = std::move(values);
+}
+
+ElementField on_cells(const ElementField& field, std::span<const int> cells) {
+  std::vector<bool> chosen(field.starts.size() - 1, false);
+  for (const int cell : cells) chosen[static_cast<std::size_t>(cell)] = true;
+  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
+  ElementField part{field.quantity, field.support, field.components, {0}, {}};
+  for (int cell = 0; cell < static_cast<int>(chosen.size()); ++cell) {
+    if (chosen[static_cast<std::size_t>(cell)]) {
+      part.values.insert(part.values.end(), field.values.begin() + field.starts[cell] * width,
+                         field.values.begin() + field.starts[cell + 1] * width);
+    }
+    part.starts.push_back(static_cast<int>(static_cast<std::ptrdiff_t>(part.values.size()) / width));
+  }
+  return part;
+}
+
+void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places) {
+  check_places(target, *piece.field);
+  const Rows to_rows(target), from_rows(*piece.field);
+  const auto& from = piece.from.empty() ? components_of(*piece.field) : piece.from;
+  const auto& to = piece.to.empty() ? from : piece.to;
+  const std::size_t from_width = components_of(*piece.field).size(), to_width = components_of(target).size();
+  const auto& given = values_of(*piece.field);
+  auto& values = values_of(target);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const int source = component_of(*piece.field, from[i]), sink = component_of(target, to[i]);
+    if (source < 0 || sink < 0) {
+      throw Error("unknown-component", fmt::format("the field has no component {}", source < 0 ? from[i] : to[i]));
+    }
+    each_place(to_rows.place_count(), places, [&](int place) {
+      if (from_rows.count(place) == 0 || to_rows.count(place) == 0) return;
+      if (from_rows.count(place) != to_rows.count(place)) {
+        throw Error("incompatible-field", fmt::format("a cell has {} points in one field and {} in the other",
+                                                      from_rows.count(place), to_rows.count(place)));
+      }
+      for (int point = 0; point < to_rows.count(place); ++point) {
+        const double value = given[static_cast<std::size_t>(from_rows.begin(place) + point) * from_width +
+                                   static_cast<std::size_t>(source)];
+        if (std::isnan(value)) continue;
+        double& slot = values[static_cast<std::size_t>(to_rows.begin(place) + point) * to_width + static_cast<std::size_t>(sink)];
+        const double base = piece.adds && !std::isnan(slot) ? slot : 0.0;
+        slot = base + piece.factor * value;
+      }
+    });
+  }
+}
+
+namespace {
+
+/// Room wherever one of the terms has it.
+std::vector<int> united_starts(std::span<const FieldTerm> terms) {
+  std::vector<Rows> rows;
+  for (const FieldTerm& term : terms) rows.emplace_back(*term.field);
+  std::vector<int> starts = {0};
+  for (int place = 0; place < rows.front().place_count(); ++place) {
+    int points = 0;
+    for (const Rows& own : rows) points = std::max(points, own.count(place));
+    starts.push_back(starts.back() + points);
+  }
+  return starts;
+}
+
+}  // namespace
+
+Field linear_combination(std::span<const FieldTerm> terms) {
+  // The components and the room of all terms together.
+  std::vector<std::string> components;
+  for (const FieldTerm& term : terms) {
+    check_places(*terms.front().field, *term.field);
+    for (const std::string& name : components_of(*term.field)) {
+      if (std::find(components.begin(), components.end(), name) == components.end()) components.push_back(name);
+    }
+  }
+  const auto starts = united_starts(terms);
+  Field sum = *terms.front().field;
+  if (auto* element = std::get_if<ElementField>(&sum)) element->starts = starts;
+  values_of(sum).assign(static_cast<std::size_t>(starts.back()) * components.size(), absent);
+  components_of(sum) = std::move(components);
+  for (const FieldTerm& term : terms) put_piece(sum, {term.field, {}, {}, term.factor, true});
+  return sum;
+}
+
+namespace {
+
+/// Where a parameter of a function stands among the arguments.
+struct ArgumentPlace {
+  std::size_t argument;
+  int component;
+};
+
+std::vector<ArgumentPlace> argument_places(const ValueFunction& function, std::span<const Field* const> arguments) {
+  std::vector<ArgumentPlace> places;
+  for (const std::string& parameter : function.parameters) {
+    std::size_t argument = 0;
+    while (argument < arguments.size() && component_of(*arguments[argument], parameter) < 0) ++argument;
+    if (argument == arguments.size()) {
+      throw Error("missing-variable", fmt::format("a function depends on {}, which is a component of none of the fields", parameter));
+    }
+    places.push_back({argument, component_of(*arguments[argument], parameter)});
+  }
+  return places;
+}
+
+}  // namespace
+
+Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
+               std::string quantity) {
+  const Rows rows(which);
+  std::vector<Rows> argument_rows;
+  for (const Field* argument : arguments) {
+    check_places(which, *argument);
+    argument_rows.emplace_back(*argument);
+  }
+  std::vector<std::vector<ArgumentPlace>> places;
+  for (const ValueFunction& function : functions) places.push_back(argument_places(function, arguments));
+  Field result = which;
+  quantity_of(result) = std::move(quantity);
+  const std::size_t width = components_of(result).size();
+  std::vector<double> at;
+  const auto value_at = [&](int place, int point, std::size_t index) {
+    at.clear();
+    for (const ArgumentPlace& source : places[index]) {
+      const Rows& source_rows = argument_rows[source.argument];
+      const bool carried = point < source_rows.count(place);
+      const std::size_t source_width = components_of(*arguments[source.argument]).size();
+      const double value = carried ? values_of(*arguments[source.argument])[static_cast<std::size_t>(source_rows.begin(place) + point) * source_width +
+                                                                            static_cast<std::size_t>(source.component)]
+                                   : absent;
+      if (std::isnan(value)) {
+        throw Error("missing-variable", fmt::format("a function depends on {}, which has no value at one of its points",
+                                                    functions[index].parameters[at.size()]));
+      }
+      at.push_back(value);
+    }
+    return functions[index].value(at);
+  };
+  for (int place = 0; place < rows.place_count(); ++place) {
+    for (int point = 0; point < rows.count(place); ++point) {
+      for (std::size_t c = 0; c < width; ++c) {
+        double& value = values_of(result)[static_cast<std::size_t>(rows.begin(place) + point) * width + c];
+        if (!std::isnan(value)) value = value_at(place, point, static_cast<std::size_t>(value));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace comma::solver

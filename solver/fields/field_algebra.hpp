@@ -1,0 +1,72 @@
+// Making fields out of fields: sums, pieces put together, functions of values (CREA_CHAMP, U4.72.04).
+//
+// A place is a node of a nodal field or a cell of a field on elements; it has one point or several, and a row of values at each.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+/// An element field of a model with room for values, all absent: one point a cell, one a node of the cell, or the Gauss
+/// points of its element's stresses (of a skin cell: those of its pressure). Without skin, only cells that carry
+/// stiffness have room.
+ElementField empty_element_field(const Model& model, std::string quantity, Support support,
+                                 std::vector<std::string> components, bool skin);
+/// The same with one value a cell of the mesh.
+ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
+NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
+
+/// Components X Y Z.
+NodalField node_coordinates(const Mesh& mesh);
+/// One component with the same value wherever the other field has points.
+Field uniform_like(const Field& other, std::string component, double value);
+
+/// Gives a component one value at all points of the places (all that there are without `places`).
+void assign(Field& field, int component, double value, const std::vector<int>* places = nullptr);
+
+/// Absent values become `value`.
+void fill_absent(Field& field, double value);
+
+/// Takes away the room of cells that have no value at all.
+void drop_empty_cells(ElementField& field);
+
+/// The part of a field on some cells.
+ElementField on_cells(const ElementField& field, std::span<const int> cells);
+
+struct FieldTerm {
+  const Field* field = nullptr;
+  double factor = 1.0;
+};
+/// The sum of factor times field. A component that a term lacks somewhere adds nothing there; what all lack stays absent.
+/// Throws Error `incompatible-field` for fields that do not lie at the same points.
+Field linear_combination(std::span<const FieldTerm> terms);
+
+/// Components `from` of a field, called `to` in the field that receives them; all under their own names when empty.
+struct FieldPiece {
+  const Field* field = nullptr;
+  std::vector<std::string> from;
+  std::vector<std::string> to;
+  double factor = 1.0;
+  bool adds = false;  ///< to what is there, which counts as 0 where absent; else replaces it
+};
+/// Puts a piece into a field at the places (all without `places`). Places that the piece does not carry keep what they
+/// have. Throws Error `incompatible-field` (another kind of place, another number of points), `unknown-component`.
+void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places = nullptr);
+
+/// A function of named values.
+struct ValueFunction {
+  std::vector<std::string> parameters;
+  std::function<double(std::span<const double>)> value;
+};
+/// At each point the value of the function whose index in `functions` the field `which` has there, its parameters being
+/// the components of `arguments` at that point. Throws Error `incompatible-field` (other places), `missing-variable`
+/// naming a parameter that no argument has there.
+Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
+               std::string quantity);
+
+}  // namespace comma::solver

@@ -1,0 +1,226 @@
+#include "solver/fields/field_computation.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/fields/beam_forces.hpp"
+#include "solver/fields/beam_stresses.hpp"
+#include "solver/fields/energies.hpp"
+#include "solver/fields/equivalent.hpp"
+#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/nodal_forces.hpp"
+#include "solver/fields/strains.hpp"
+#include "solver/fields/surface_stresses.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// A criterion and the field that it judges, both at the nodes of cells or both at Gauss points.
+const std::map<std::string, std::string, std::less<>>& strain_criteria() {
+  static const std::map<std::string, std::string, std::less<>> table = {
+      {"EPEQ", "EPSI"}, {"EPMQ", "EPME"}, {"EPGQ", "EPSG"}};
+  return table;
+}
+
+std::string quantity_of(std::string_view name) {
+  return std::string(name.substr(0, name.rfind('_')));
+}
+
+std::vector<int> skin_cells(const Model& model) {
+  std::vector<int> cells;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (model.is_skin(cell)) cells.push_back(cell);
+  }
+  return cells;
+}
+
+bool ends(std::string_view name, std::string_view place) {
+  return name.ends_with(place);
+}
+
+}  // namespace
+
+FieldComputation::FieldComputation(const StaticProblem& problem, const Result& result)
+    : problem_(problem),
+      result_(result),
+      dofs_(*problem.model),
+      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_) {}
+
+const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputation::rules() {
+  using F = FieldComputation;
+  static const std::map<std::string, Rule, std::less<>> table = {
+      {"SIEF_ELGA", &F::stresses},
+      {"SIGM_ELGA", &F::continuum_stress_field},
+      {"EFGE_ELGA", &F::section_force_field},
+      {"EFGE_ELNO", &F::end_forces},
+      {"SIPO_ELNO", &F::fibre_stresses},
+      {"SIPM_ELNO", &F::largest_stresses},
+      {"DEGE_ELNO", &F::section_strains},
+      {"EPSI_ELGA", &F::total_strains},
+      {"EPME_ELGA", &F::mechanical_strains},
+      {"EPSG_ELGA", &F::green_strains},
+      {"SIEQ_ELGA", &F::stress_criteria_at_points},
+      {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
+      {"ENEL_ELGA", &F::elastic_energy},
+      {"ENEL_ELEM", &F::elastic_energy_of_cells},
+      {"EPOT_ELEM", &F::potential_energy_of_cells},
+      {"ETOT_ELGA", &F::total_energy},
+      {"ETOT_ELEM", &F::total_energy_of_cells},
+      {"FORC_NODA", &F::internal_forces},
+      {"REAC_NODA", &F::reactions},
+  };
+  return table;
+}
+
+bool FieldComputation::knows(std::string_view name) {
+  if (name == "SIRO_ELEM" || rules().contains(name)) return true;
+  const std::string quantity = quantity_of(name);
+  if (strain_criteria().contains(quantity)) return ends(name, "_ELGA") || ends(name, "_ELNO") || ends(name, "_NOEU");
+  if (ends(name, "_ELNO")) return rules().contains(quantity + "_ELGA");
+  if (ends(name, "_NOEU")) return knows(quantity + "_ELNO");
+  return false;
+}
+
+Field FieldComputation::compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells) {
+  if (!knows(name)) throw Error("unsupported", fmt::format("the field {} is not known how to compute", name));
+  const std::string quantity = quantity_of(name);
+  move_to(step);
+  if (const auto found = known_.find(Key(step, name)); found != known_.end() && !cells) return found->second;
+  if (name == "SIRO_ELEM") {
+    const auto skin = cells ? std::vector<int>(cells->begin(), cells->end()) : skin_cells(*problem_.model);
+    return surface_stresses(result_.mesh(), element_field("SIGM_ELNO", step), skin);
+  }
+  if (ends(name, "_NOEU")) return nodal_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
+  Field field;
+  if (const auto rule = rules().find(name); rule != rules().end()) {
+    field = (this->*rule->second)(step);
+  } else if (const auto judged = strain_criteria().find(quantity); judged != strain_criteria().end()) {
+    field = equivalent_strains(element_field(judged->second + std::string(name.substr(4)), step));
+  } else {
+    field = to_element_nodes(*problem_.model, element_field(quantity + "_ELGA", step));
+  }
+  if (cells && std::holds_alternative<ElementField>(field)) return on_cells(std::get<ElementField>(field), *cells);
+  return field;
+}
+
+const Field& FieldComputation::needed(const std::string& name, std::size_t step) {
+  const auto& held = result_.steps[step].fields;
+  if (const auto found = held.find(name); found != held.end()) return found->second;
+  const Key key(step, name);
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  if (!knows(name)) {
+    throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}", result_.steps[step].instant, name));
+  }
+  Field field = compute(name, step);
+  return known_.emplace(key, std::move(field)).first->second;
+}
+
+const ElementField& FieldComputation::element_field(const std::string& name, std::size_t step) {
+  return std::get<ElementField>(needed(name, step));
+}
+
+const NodalField& FieldComputation::displacement(std::size_t step) {
+  return std::get<NodalField>(needed("DEPL", step));
+}
+
+// What is known of a step serves it and the next one.
+void FieldComputation::move_to(std::size_t step) {
+  if (step_ == step) return;
+  step_ = step;
+  std::erase_if(known_, [&](const auto& item) { return item.first.first + 1 < step; });
+  assembler_.set_time(result_.steps[step].instant);
+}
+
+FieldInput FieldComputation::input() const {
+  return {*problem_.model, *problem_.materials, *problem_.properties, assembler_.state()};
+}
+
+Field FieldComputation::stresses(std::size_t step) {
+  return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
+}
+
+Field FieldComputation::continuum_stress_field(std::size_t step) {
+  return continuum_stresses(element_field("SIEF_ELGA", step));
+}
+
+Field FieldComputation::section_force_field(std::size_t step) {
+  return section_forces(element_field("SIEF_ELGA", step));
+}
+
+Field FieldComputation::end_forces(std::size_t step) {
+  const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
+  return end_section_forces(forces, element_field("SIEF_ELGA", step), problem_.loads, result_.steps[step].instant);
+}
+
+Field FieldComputation::fibre_stresses(std::size_t step) {
+  return force_stresses(input(), element_field("EFGE_ELNO", step));
+}
+
+Field FieldComputation::largest_stresses(std::size_t step) {
+  return extreme_stresses(input(), element_field("EFGE_ELNO", step));
+}
+
+Field FieldComputation::section_strains(std::size_t step) {
+  return generalised_strains(input(), section_forces(element_field("SIEF_ELNO", step)));
+}
+
+Field FieldComputation::total_strains(std::size_t step) {
+  return strains(input(), displacement(step), StrainKind::total);
+}
+
+Field FieldComputation::mechanical_strains(std::size_t step) {
+  return strains(input(), displacement(step), StrainKind::mechanical);
+}
+
+Field FieldComputation::green_strains(std::size_t step) {
+  return strains(input(), displacement(step), StrainKind::green);
+}
+
+Field FieldComputation::stress_criteria_at_points(std::size_t step) {
+  return equivalent_stresses(element_field("SIGM_ELGA", step));
+}
+
+Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
+  return equivalent_stresses(element_field("SIGM_ELNO", step));
+}
+
+Field FieldComputation::elastic_energy(std::size_t step) {
+  return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
+}
+
+Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
+  return integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
+}
+
+Field FieldComputation::potential_energy_of_cells(std::size_t step) {
+  return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
+}
+
+// The work of stresses adds up from step to step.
+Field FieldComputation::total_energy(std::size_t step) {
+  const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
+  if (step > 0) {
+    stress_before = &element_field("SIEF_ELGA", step - 1);
+    strain_before = &element_field("EPSI_ELGA", step - 1);
+    before = &element_field("ETOT_ELGA", step - 1);
+    move_to(step);
+  }
+  return total_energy_density(element_field("SIEF_ELGA", step), element_field("EPSI_ELGA", step), stress_before,
+                              strain_before, before);
+}
+
+Field FieldComputation::total_energy_of_cells(std::size_t step) {
+  return integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+}
+
+Field FieldComputation::internal_forces(std::size_t step) {
+  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+}
+
+Field FieldComputation::reactions(std::size_t step) {
+  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,75 @@
+// Further fields of a result, each from those that it needs (CALC_CHAMP, U4.81.04).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "solver/elements/assembler.hpp"
+#include "solver/fields/continuum_points.hpp"
+#include "solver/fields/field.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::solver {
+
+/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, DEGE; criteria
+/// SIEQ, EPEQ, EPMQ, EPGQ; energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
+/// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
+/// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
+///
+/// Keeps references to its arguments.
+class FieldComputation {
+ public:
+  /// Throws what Assembler does.
+  FieldComputation(const StaticProblem& problem, const Result& result);
+
+  static bool knows(std::string_view name);
+
+  /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given. SIRO_ELEM lies on skin
+  /// cells, all of the model's without `cells`. Throws Error `unsupported` for another name, `unknown-field` naming one that the step lacks,
+  /// and what the functions of solver/fields throw.
+  Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+
+ private:
+  using Key = std::pair<std::size_t, std::string>;
+  using Rule = Field (FieldComputation::*)(std::size_t);
+  static const std::map<std::string, Rule, std::less<>>& rules();
+
+  const Field& needed(const std::string& name, std::size_t step);
+  const ElementField& element_field(const std::string& name, std::size_t step);
+  const NodalField& displacement(std::size_t step);
+  void move_to(std::size_t step);
+  FieldInput input() const;
+
+  Field stresses(std::size_t step);
+  Field continuum_stress_field(std::size_t step);
+  Field section_force_field(std::size_t step);
+  Field end_forces(std::size_t step);
+  Field fibre_stresses(std::size_t step);
+  Field largest_stresses(std::size_t step);
+  Field section_strains(std::size_t step);
+  Field total_strains(std::size_t step);
+  Field mechanical_strains(std::size_t step);
+  Field green_strains(std::size_t step);
+  Field stress_criteria_at_points(std::size_t step);
+  Field stress_criteria_at_nodes(std::size_t step);
+  Field elastic_energy(std::size_t step);
+  Field elastic_energy_of_cells(std::size_t step);
+  Field potential_energy_of_cells(std::size_t step);
+  Field total_energy(std::size_t step);
+  Field total_energy_of_cells(std::size_t step);
+  Field internal_forces(std::size_t step);
+  Field reactions(std::size_t step);
+
+  const StaticProblem& problem_;
+  const Result& result_;
+  DofMap dofs_;
+  Assembler assembler_;
+  std::optional<std::size_t> step_;
+  std::map<Key, Field> known_;
+};
+
+}  // namespace comma::solver

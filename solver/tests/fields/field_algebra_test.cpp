@@ -1,0 +1,93 @@
+#include "solver/fields/field_algebra.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// Two triangles and one of their edges.
+Model square_of_triangles() {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh->add_cell(CellType::tria6, std::array{0, 1, 2, 0, 1, 2});
+  mesh->add_cell(CellType::tria3, std::array{0, 2, 3});
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  return {mesh, std::vector<Formulation>(3, Formulation::plane_strain)};
+}
+
+NodalField nodal(std::vector<std::string> components, std::vector<double> values) {
+  return {"NEUT_R", std::move(components), std::move(values)};
+}
+
+}  // namespace
+
+TEST_CASE("an element field has room at the points of its elements", "[fields]") {
+  const Model model = square_of_triangles();
+  const ElementField at_points = empty_element_field(model, "SIEF_R", Support::gauss_point, {"SIXX"}, false);
+  CHECK(at_points.points(0) == 3);
+  CHECK(at_points.points(1) == 1);
+  CHECK(at_points.points(2) == 0);
+  const ElementField at_nodes = empty_element_field(model, "NEUT_R", Support::element_node, {"X1"}, true);
+  CHECK(at_nodes.points(0) == 6);
+  CHECK(at_nodes.points(2) == 2);
+}
+
+TEST_CASE("a combination adds components where terms have them", "[fields]") {
+  const Field first = nodal({"X1", "X2"}, {1, absent, 2, 5});
+  const Field second = nodal({"X1"}, {10, absent});
+  const Field sum = linear_combination(std::vector<FieldTerm>{{&first, 2.0}, {&second, 1.0}});
+  const auto& values = std::get<NodalField>(sum);
+  CHECK(values.at(0, 0) == 12);
+  CHECK(std::isnan(values.at(0, 1)));
+  CHECK(values.at(1, 0) == 4);
+  CHECK(values.at(1, 1) == 10);
+}
+
+TEST_CASE("fields at different places do not combine", "[fields]") {
+  const Field nodes = nodal({"X1"}, {1, 2});
+  const Field cells = empty_cell_field(*square_of_triangles().mesh, "NEUT_R", {"X1"});
+  CHECK_THROWS_WITH(linear_combination(std::vector<FieldTerm>{{&nodes, 1.0}, {&cells, 1.0}}), Catch::Contains("same places"));
+}
+
+TEST_CASE("a piece replaces or adds, under other names, at its places alone", "[fields]") {
+  const Field source = nodal({"DX"}, {1, 2, 3});
+  Field target = nodal({"X1"}, {10, 20, absent});
+  const std::vector<int> places = {1, 2};
+  put_piece(target, {&source, {"DX"}, {"X1"}, 2.0, true}, &places);
+  const auto& values = std::get<NodalField>(target);
+  CHECK(values.at(0, 0) == 10);
+  CHECK(values.at(1, 0) == 24);
+  CHECK(values.at(2, 0) == 6);
+}
+
+TEST_CASE("functions are evaluated with the components of their arguments at each point", "[fields]") {
+  const std::vector<ValueFunction> functions = {
+      {{"X", "T"}, [](std::span<const double> at) { return at[0] * at[1]; }},
+      {{}, [](std::span<const double>) { return 7.0; }},
+  };
+  const Field which = nodal({"X1"}, {0, 1, absent});
+  const Field places = nodal({"X"}, {3, absent, absent});
+  const Field time = uniform_like(places, "T", 5.0);
+  const std::vector<const Field*> arguments = {&places, &time};
+  const auto result = std::get<NodalField>(evaluate(which, functions, arguments, "NEUT_R"));
+  CHECK(result.at(0, 0) == 15);
+  CHECK(result.at(1, 0) == 7);
+  CHECK(std::isnan(result.at(2, 0)));
+  const Field needy = nodal({"X1"}, {0, 0, absent});
+  CHECK_THROWS_WITH(evaluate(needy, functions, arguments, "NEUT_R"), Catch::Contains("depends on X"));
+}
+
+TEST_CASE("cells without values give their room back", "[fields]") {
+  ElementField field = empty_cell_field(*square_of_triangles().mesh, "TEMP_R", {"TEMP"});
+  field.values = {absent, 4.0, absent};
+  drop_empty_cells(field);
+  CHECK(field.points(0) == 0);
+  CHECK(field.at(1, 0, 0) == 4.0);
+  CHECK(field.values.size() == 1);
+}
