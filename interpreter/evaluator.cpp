@@ -63,6 +63,7 @@ void Evaluator::run(const Ast& ast) {
 
 void Evaluator::include(const Ast& ast) {
   check_stack();
+  const Meter::Resume own_work(meter_);
   struct Return {
     Evaluator& self;
     std::shared_ptr<const SourceFile> file;
