@@ -371,7 +371,7 @@ TEST_CASE("Where further keywords may be given that are not known, none is missi
   CommandCall call = written_call("LOAD", {{"PRES", Value(-1.0)}, {"PHASE", Value(1.0)}, {"SPOT", factor({{"UNIT_X", Value(1.0)}})}});
   call.open = true;
   const CheckedCall checked =
-      check_call(call, checker.little.catalogue->page("LOAD"), *checker.little.catalogue, checker.diagnostics);
+      check_call(call, checker.little.catalogue->page("LOAD"), *checker.little.catalogue, checker.diagnostics, Severity::error);
   std::vector<std::string> codes;
   for (const Diagnostic& item : checker.diagnostics.items()) codes.push_back(item.code);
   CHECK(codes == std::vector<std::string>{"out-of-bounds", "missing-one-of", "requires-keyword"});
