@@ -90,6 +90,8 @@ class Parser {
   StatementPtr parse_assignment(NodePtr first);
   StatementPtr parse_annotated(NodePtr target);
   StatementPtr parse_if();
+  template <class Loop>
+  void parse_loop_blocks(Loop& statement, std::string_view word);
   StatementPtr parse_while();
   StatementPtr parse_for();
   StatementPtr parse_function();

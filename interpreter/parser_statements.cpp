@@ -211,21 +211,27 @@ StatementPtr Parser::parse_if() {
   return statement;
 }
 
-StatementPtr Parser::parse_while() {
-  auto statement = std::make_unique<WhileStatement>(StatementKind::while_, now_.begin, now_.end);
-  advance();
-  statement->condition = parse_expression();
-  expect_colon("the condition");
+/// What follows the header of a `while` or a `for`.
+template <class Loop>
+void Parser::parse_loop_blocks(Loop& statement, std::string_view word) {
   ++loops_;
-  statement->body = parse_block("'while'", statement->begin);
+  statement.body = parse_block(word, statement.begin);
   --loops_;
   if (at("else")) {
     const std::uint32_t header = now_.begin;
     advance();
     expect_colon("'else'");
-    statement->otherwise = parse_block("'else'", header);
+    statement.otherwise = parse_block("'else'", header);
   }
-  statement->end = previous_end_;
+  statement.end = previous_end_;
+}
+
+StatementPtr Parser::parse_while() {
+  auto statement = std::make_unique<WhileStatement>(StatementKind::while_, now_.begin, now_.end);
+  advance();
+  statement->condition = parse_expression();
+  expect_colon("the condition");
+  parse_loop_blocks(*statement, "'while'");
   return statement;
 }
 
@@ -236,16 +242,7 @@ StatementPtr Parser::parse_for() {
   if (!accept("in")) fail_here("'in'");
   statement->iterable = parse_expression_list();
   expect_colon("what 'for' runs over");
-  ++loops_;
-  statement->body = parse_block("'for'", statement->begin);
-  --loops_;
-  if (at("else")) {
-    const std::uint32_t header = now_.begin;
-    advance();
-    expect_colon("'else'");
-    statement->otherwise = parse_block("'else'", header);
-  }
-  statement->end = previous_end_;
+  parse_loop_blocks(*statement, "'for'");
   return statement;
 }
 
