@@ -231,11 +231,12 @@ class NameCheck {
     check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);
   }
 
-  /// Only where it is certain whose fields are meant: those of a mechanical result.
+  /// Where it is not certain that fields of a mechanical result are meant, only a word that is nearly one is a mistake.
   void check_fields(const Site& site) {
-    if (!reads_a(site.reach, {"evol_noli", "evol_elas"})) return;
+    const bool certain = reads_a(site.reach, {"evol_noli", "evol_elas"});
+    const auto exists = [&](const std::string& name) { return is_field_name(name) || (!certain && nearest(name, field_names()).empty()); };
     const auto hint = [](const std::string& name) { return hint_for(name, field_names(), "field"); };
-    check_each(site, "unknown-field", "there is no field", is_field_name, hint);
+    check_each(site, "unknown-field", "there is no field", exists, hint);
   }
 
   void check_parameters(const Site& site) {

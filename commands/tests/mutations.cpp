@@ -117,6 +117,10 @@ class Planter {
     if (statement.kind == StatementKind::expression) call = command_of(static_cast<const ValueStatement&>(statement).value);
     if (call == nullptr || !catalogue_.has(callee_of(*call))) return;
     plant_in_statement(statement, *call);
+    // A component is wrong with respect to a field: that of NOM_CHAM, or displacements.
+    const std::string written_call = written(*call);
+    component_is_judged_ = written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
+                           (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
     const CommandPage& page = catalogue_.page(callee_of(*call));
     visit_level(*call, {&page.inside}, line_of(call->begin));
   }
@@ -299,7 +303,9 @@ class Planter {
       case Kind::node_group:
       case Kind::cell_group: return add("unknown group", node.begin, node.end, wrong, "unknown-group", line, hint);
       case Kind::field: return add("unknown field", node.begin, node.end, wrong, "unknown-field", line, hint);
-      case Kind::component: return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, "DX");
+      case Kind::component:
+        if (!component_is_judged_) return;
+        return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, "DX");
       default: return;
     }
   }
@@ -332,6 +338,7 @@ class Planter {
   std::vector<Mutant> mutants_;
   int statement_ = 0;
   bool after_block_ = false;
+  bool component_is_judged_ = false;
 };
 
 /// The sound text with two of its parts replaced.
@@ -339,6 +346,11 @@ std::string with_both(const std::string& text, const Mutant& a, const Mutant& b)
   const auto& [first, second] = std::minmax(a, b, [](const Mutant& x, const Mutant& y) { return x.begin < y.begin; });
   return text.substr(0, first.begin) + first.replacement + text.substr(first.end, second.begin - first.end) + second.replacement +
          text.substr(second.end);
+}
+
+bool moves_lines(const std::string& text, const Mutant& mutant) {
+  const auto replaced = text.substr(mutant.begin, mutant.end - mutant.begin);
+  return std::ranges::count(replaced, '\n') != std::ranges::count(mutant.replacement, '\n');
 }
 
 bool hangs_on_names(const Mutant& mutant) {
@@ -361,6 +373,7 @@ std::vector<Pair> plant_pairs(const std::string& text, const Catalogue& catalogu
       const Mutant& other = mutants[turn++ % mutants.size()];
       const bool behind = other.statement > broken.statement;
       if (!other.readable || other.statement == broken.statement || (behind && hangs_on_names(other))) continue;
+      if (moves_lines(text, broken) || moves_lines(text, other)) continue;
       // An open bracket may hide what follows it.
       if (behind && broken.code == "unclosed-bracket") continue;
       pairs.push_back({broken, other, with_both(text, broken, other)});
