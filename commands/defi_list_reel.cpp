@@ -13,16 +13,22 @@ using interpreter::DiagnosticError;
 
 // A last step shorter or longer than PAS by less than this share of it is rounding of JUSQU_A, not a step (U4.34.01).
 constexpr double step_rounding = 1e-3;
+// Far more than anything could be computed at; a slip of the pen would fill the memory before that is noticed.
+constexpr double most_steps = 1e7;
 
 int steps_of(const Keywords& interval, double length) {
-  if (interval.has("NOMBRE")) return static_cast<int>(interval.integer("NOMBRE"));
-  const double exact = length / interval.real("PAS");
-  const int steps = static_cast<int>(std::lround(exact));
-  if (steps < 1 || std::abs(exact - steps) > step_rounding) {
+  const bool counted = interval.has("NOMBRE");
+  const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
+  if (!(exact <= most_steps)) {
+    throw DiagnosticError("too-many-steps", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_steps),
+                          interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
+  }
+  const double steps = std::round(exact);
+  if (steps < 1.0 || std::abs(exact - steps) > step_rounding) {
     throw DiagnosticError("wrong-step", fmt::format("DEFI_LIST_REEL: {} steps of PAS fill the interval; it must be a whole number", exact),
                           interval.span, "change PAS or JUSQU_A, or give NOMBRE");
   }
-  return steps;
+  return static_cast<int>(steps);
 }
 
 std::vector<double> by_intervals(const Call& call) {

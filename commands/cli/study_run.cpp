@@ -11,6 +11,7 @@
 #include "commands/name_check.hpp"
 #include "commands/registry.hpp"
 #include "interpreter/evaluator.hpp"
+#include "interpreter/exception.hpp"
 #include "interpreter/parser.hpp"
 
 namespace comma::commands {
@@ -83,6 +84,12 @@ void StudyRun::include(const interpreter::Call& call) {
   if (include_depth_ >= deepest) {
     throw interpreter::DiagnosticError("include-depth", fmt::format("files include one another more than {} times deep", deepest),
                                        call.span, "look for a file that includes itself");
+  }
+  // Files that include one another twice each are soon millions, whatever the depth.
+  constexpr std::size_t most = 1000;
+  if (trees_.size() == most) {
+    throw interpreter::LimitReached("limit-files", fmt::format("this includes more than {} files: the run is stopped", most), call.span,
+                                    "look for files that include one another");
   }
   const bool by_unit = call.given("UNITE");
   const Span where = call.span_of(by_unit ? "UNITE" : "DONNEE");

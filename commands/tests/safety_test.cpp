@@ -2,6 +2,7 @@
 // take the machine for ever. Files that go on from one another, and files that include others.
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +76,24 @@ TEST_CASE("INCLUDE reads what lies in the folder, by name or by unit, and nothin
   CHECK(codes("INCLUDE(UNITE=92)\n") == Codes{"missing-file"});
   CHECK(codes("INCLUDE(DONNEE='study.comm')\n") == Codes{"include-depth"});
   CHECK(codes("INCLUDE(DONNEE='values.py', UNITE=91)\n") == Codes{"exclusive-keywords"});
+}
+
+TEST_CASE("Files that include one another many times over come to an end") {
+  const Folder folder;
+  const std::string twice = "INCLUDE(DONNEE='study.comm')\nINCLUDE(DONNEE='study.comm')\n";
+  const Codes codes = codes_of(folder.write("study.comm", twice));
+  CHECK(std::ranges::count(codes, "limit-files") == 1);
+}
+
+TEST_CASE("A list with more steps than a run could take is refused before it is made") {
+  const Folder folder;
+  const auto codes = [&](const std::string& interval) {
+    return codes_of(folder.write("list.comm", "L = DEFI_LIST_REEL(DEBUT=0.0, INTERVALLE=_F(JUSQU_A=1.0, " + interval + "))\n"));
+  };
+  CHECK(codes("NOMBRE=10") == Codes{});
+  CHECK(codes("NOMBRE=2000000000") == Codes{"too-many-steps"});
+  CHECK(codes("NOMBRE=5000000000") == Codes{"too-many-steps"});
+  CHECK(codes("PAS=1e-300") == Codes{"too-many-steps"});
 }
 
 TEST_CASE("What is wrong in an included file is told at its line there") {

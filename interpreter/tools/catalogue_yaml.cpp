@@ -117,7 +117,8 @@ class PageBuilder {
         json, "category",
         {"mesh", "model", "material", "loads", "contact", "solve", "post-process", "verify", "functions", "session"});
     if (json.contains("reuse")) check_reuse(json["reuse"]);
-    return level(std::move(json), json.value("command", ""));
+    const std::string name = json.value("command", "");
+    return level(std::move(json), name);
   }
 
  private:
@@ -160,7 +161,8 @@ class PageBuilder {
       for (Json& block : json["blocks"]) {
         allow(block, where + " block", {"when", "keywords", "unsupported", "rules", "blocks", "use"});
         demand(block, where + " block", {"when"});
-        block = level(std::move(block), fmt::format("{} (when {})", where, block["when"].get<std::string>()));
+        const std::string inside = fmt::format("{} (when {})", where, block["when"].get<std::string>());
+        block = level(std::move(block), inside);
       }
     return json;
   }

@@ -91,8 +91,7 @@ std::vector<int> Mesh::nodes_of_cells(std::span<const int> cells) const {
     result.insert(result.end(), cell_nodes.begin(), cell_nodes.end());
   }
   std::ranges::sort(result);
-  const auto repeated = std::ranges::unique(result);
-  result.erase(repeated.begin(), repeated.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
