@@ -1,46 +1,55 @@
+#include <algorithm>
+#include <numbers>
+
 #include "commands/commands.hpp"
+#include "commands/discrete_building.hpp"
+#include "commands/section_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/axes.hpp"
 
 namespace comma::commands {
 
 namespace {
 
 using interpreter::DiagnosticError;
-using solver::CellType;
-using solver::Formulation;
 
-bool is_discrete(Formulation formulation) {
-  return formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ||
-         formulation == Formulation::spring_3d || formulation == Formulation::spring_rotation_3d;
+constexpr double degree = std::numbers::pi / 180.0;
+
+// Angles in radians; those left out are 0.
+Eigen::Vector3d angles_of(const Keywords& frame, const std::string& keyword) {
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();
+  const auto values = frame.reals(keyword);
+  std::copy(values.begin(), values.end(), angles.begin());
+  return angles * degree;
 }
 
-// CARA names the support by its last letter (U4.42.01): ..._L lies on a segment, ..._N on a point.
-void check_support(const Keywords& assignment, const solver::Model& model, int cell) {
-  const std::string kind = assignment.texts("CARA").front();
-  const bool segment = kind.back() == 'L';
-  if (!is_discrete(model.formulations[cell])) {
-    throw DiagnosticError("not-discrete", "DISCRET_2D: cell " + model.mesh->cell_name(cell) + " carries no discrete element",
-                          assignment.span, "give it MODELISATION=\"2D_DIS_T\" in AFFE_MODELE");
-  }
-  if (segment != (model.mesh->cell_types[cell] == CellType::seg2)) {
-    throw DiagnosticError("wrong-support", "DISCRET_2D: " + kind + " stands on a " + (segment ? "segment" : "point") + ", but cell " +
-                                               model.mesh->cell_name(cell) + " is a " +
-                                               std::string(solver::name_of(model.mesh->cell_types[cell])),
-                          assignment.span_of("CARA"), segment ? "use K_T_D_N on points" : "use K_T_D_L on segments");
-  }
+// ORIG_AXE: round an axis through a point; alone, in the plane, the axis is Z.
+Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Mesh& mesh, int cell) {
+  const Eigen::Vector3d along_z(0.0, -90.0 * degree, 0.0);
+  const Eigen::Vector3d angles = frame.has("ANGL_AXE") ? angles_of(frame, "ANGL_AXE") : along_z;
+  const auto values = frame.reals("ORIG_AXE");
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::copy(values.begin(), values.end(), origin.begin());
+  return solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(mesh, cell));
 }
 
-void assign(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
-  const auto frame = assignment.text("REPERE") == "LOCAL" ? solver::DiscreteFrame::local : solver::DiscreteFrame::global;
-  const auto values = assignment.reals("VALE");
-  for (const int cell : selected_cells(assignment, *model.mesh)) {
-    check_support(assignment, model, cell);
+// The axes of an anisotropic material in a cell.
+Eigen::Matrix3d material_axes(const Keywords& frame, const solver::Mesh& mesh, int cell) {
+  if (frame.has("ORIG_AXE")) return axes_round(frame, mesh, cell);
+  const bool euler = frame.has("ANGL_EULER");
+  const Eigen::Vector3d angles = angles_of(frame, euler ? "ANGL_EULER" : "ANGL_REP");
+  return (euler ? solver::euler_axes : solver::nautical_axes)(angles[0], angles[1], angles[2]);
+}
+
+void add_material_axes(const Keywords& frame, const solver::Model& model, solver::ElementProperties& properties) {
+  for (const int cell : selected_cells(frame, *model.mesh)) {
+    if (solver::continuum_dimension(model.formulations[cell]) == 0) continue;
     try {
-      properties.discrete[cell] = solver::diagonal_stiffness(*model.mesh, cell, model.formulations[cell], values, frame);
+      properties.material_axes[cell] = material_axes(frame, *model.mesh, cell);
     } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), std::string("DISCRET_2D: ") + error.what(), assignment.span_of("VALE"), error.hint());
+      throw DiagnosticError(error.code(), std::string("MASSIF: ") + error.what(), frame.span, error.hint());
     }
   }
 }
@@ -50,7 +59,17 @@ void assign(const Keywords& assignment, const solver::Model& model, solver::Elem
 Product affe_cara_elem(const Call& call, Context&) {
   const solver::Model& model = *call.data<ModelConcept>("MODELE").model;
   auto properties = std::make_shared<solver::ElementProperties>();
-  for (const Keywords& assignment : call.factors("DISCRET_2D")) assign(assignment, model, *properties);
+  Orientations orientations;
+  for (const Keywords& assignment : call.factors("ORIENTATION")) add_orientations(assignment, model, orientations);
+  for (const Keywords& assignment : call.factors("POUTRE")) add_beam_sections(assignment, model, *properties);
+  for (auto& [cell, section] : properties->sections) {
+    if (const auto turned = orientations.find(cell); turned != orientations.end()) section.roll = turned->second.roll;
+  }
+  for (const Keywords& assignment : call.factors("BARRE")) add_bar_sections(assignment, model, *properties);
+  for (const char* name : {"DISCRET", "DISCRET_2D"}) {
+    for (const Keywords& assignment : call.factors(name)) add_discrete_matrices(assignment, name, model, orientations, *properties);
+  }
+  for (const Keywords& frame : call.factors("MASSIF")) add_material_axes(frame, model, *properties);
   auto product = std::make_shared<PropertiesConcept>();
   product->properties = std::move(properties);
   return product;

@@ -10,9 +10,12 @@ namespace comma::solver {
 
 namespace {
 
+/// Directions (in radians) closer than this are the same but for rounding.
+constexpr double smallest_angle = 1e-12;
+
 void check_count(std::size_t given, std::size_t expected, const Mesh& mesh, int cell) {
   if (given == expected) return;
-  throw Error("wrong-size", fmt::format("the stiffness of the discrete element on {} takes {} values, not {}",
+  throw Error("wrong-size", fmt::format("the matrix of the discrete element on {} takes {} values, not {}",
                                         mesh.cell_name(cell), expected, given));
 }
 
@@ -30,20 +33,42 @@ Eigen::MatrixXd node_rotation(Formulation formulation, const Eigen::Matrix3d& ax
   return rotation;
 }
 
-DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame) {
-  DiscreteStiffness result{std::move(matrix)};
-  if (frame == DiscreteFrame::global) return result;
-  result.axes = own_axes(mesh, cell);
-  if (result.axes.isIdentity(0.0)) return result;
-  const Eigen::MatrixXd rotation = node_rotation(formulation, result.axes);
+/// A matrix of the element, given in its own axes, in global ones.
+Eigen::MatrixXd to_global(Formulation formulation, const Eigen::Matrix3d& axes, Eigen::MatrixXd matrix) {
+  if (axes.isIdentity(0.0)) return matrix;
+  const Eigen::MatrixXd rotation = node_rotation(formulation, axes);
   const auto k = rotation.rows();
-  for (Eigen::Index i = 0; i < result.matrix.rows(); i += k) {
-    for (Eigen::Index j = 0; j < result.matrix.cols(); j += k) {
-      result.matrix.block(i, j, k, k) = (rotation.transpose() * result.matrix.block(i, j, k, k) * rotation).eval();
+  for (Eigen::Index i = 0; i < matrix.rows(); i += k) {
+    for (Eigen::Index j = 0; j < matrix.cols(); j += k) {
+      matrix.block(i, j, k, k) = (rotation.transpose() * matrix.block(i, j, k, k) * rotation).eval();
     }
   }
-  result.matrix = (0.5 * (result.matrix + result.matrix.transpose())).eval();
+  return 0.5 * (matrix + matrix.transpose());
+}
+
+DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame,
+                         const Orientation& orientation) {
+  DiscreteStiffness result{.matrix = {}, .axes = discrete_axes(mesh, cell, orientation)};
+  result.matrix = frame == DiscreteFrame::local ? to_global(formulation, result.axes, std::move(matrix)) : std::move(matrix);
   return result;
+}
+
+/// The symmetric matrix whose upper triangle is given column by column.
+Eigen::MatrixXd from_upper_triangle(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values) {
+  const int size = matrix_size(mesh, cell, formulation);
+  check_count(values.size(), static_cast<std::size_t>(size * (size + 1) / 2), mesh, cell);
+  Eigen::MatrixXd matrix(size, size);
+  auto value = values.begin();
+  for (int j = 0; j < size; ++j) {
+    for (int i = 0; i <= j; ++i) matrix(i, j) = matrix(j, i) = *value++;
+  }
+  return matrix;
+}
+
+Eigen::Vector3d along_segment(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[1]].data()) -
+         Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[0]].data());
 }
 
 }  // namespace
@@ -52,8 +77,7 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
   const auto nodes = mesh.cell(cell);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (nodes.size() > 1) {
-    const Eigen::Vector3d along = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[1]].data()) -
-                                  Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[0]].data());
+    const Eigen::Vector3d along = along_segment(mesh, cell);
     const double length = along.norm();
     if (!(length > 0.0)) {
       throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
@@ -68,6 +92,33 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
   return (Eigen::AngleAxisd(roll, axes.row(0).transpose()).toRotationMatrix() * axes.transpose()).transpose();
 }
 
+bool has_direction(const Mesh& mesh, int cell) {
+  return mesh.cell(cell).size() > 1 && !along_segment(mesh, cell).isZero(0.0);
+}
+
+Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& orientation) {
+  return has_direction(mesh, cell) ? own_axes(mesh, cell, orientation.roll) : orientation.point_axes;
+}
+
+double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {
+  const Eigen::Vector3d wanted = own_axes(mesh, cell) * y;  // in the axes without roll
+  if (!(std::hypot(wanted[1], wanted[2]) > smallest_angle * wanted.norm())) {
+    throw Error("zero-vector", fmt::format("the direction of the second axis of {} lies along the cell, or is zero", mesh.cell_name(cell)),
+                "give a direction across the cell");
+  }
+  return std::atan2(wanted[2], wanted[1]);
+}
+
+Eigen::Matrix3d axes_along(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  const Eigen::Vector3d z = x.cross(y);
+  if (!(z.norm() > smallest_angle * x.norm() * y.norm())) {
+    throw Error("zero-vector", "the two directions of a frame lie along each other, or one is zero", "give two different directions");
+  }
+  Eigen::Matrix3d axes;
+  axes << x.normalized().transpose(), z.cross(x).normalized().transpose(), z.normalized().transpose();
+  return axes;
+}
+
 int discrete_components(Formulation formulation) {
   switch (formulation) {
     case Formulation::spring_2d: return 2;
@@ -79,7 +130,7 @@ int discrete_components(Formulation formulation) {
 }
 
 DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                     DiscreteFrame frame) {
+                                     DiscreteFrame frame, const Orientation& orientation) {
   const int k = discrete_components(formulation);
   check_count(values.size(), static_cast<std::size_t>(k), mesh, cell);
   const int size = matrix_size(mesh, cell, formulation);
@@ -87,23 +138,23 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
   for (int i = 0; i < size; ++i) {
     for (int j = i % k; j < size; j += k) matrix(i, j) = i == j ? values[i % k] : -values[i % k];
   }
-  return finish(mesh, cell, formulation, std::move(matrix), frame);
+  return finish(mesh, cell, formulation, std::move(matrix), frame, orientation);
 }
 
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                      DiscreteFrame frame) {
-  const int size = matrix_size(mesh, cell, formulation);
-  check_count(values.size(), static_cast<std::size_t>(size * (size + 1) / 2), mesh, cell);
-  Eigen::MatrixXd matrix(size, size);
-  auto value = values.begin();
-  for (int j = 0; j < size; ++j) {
-    for (int i = 0; i <= j; ++i) matrix(i, j) = matrix(j, i) = *value++;
-  }
-  return finish(mesh, cell, formulation, std::move(matrix), frame);
+                                      DiscreteFrame frame, const Orientation& orientation) {
+  return finish(mesh, cell, formulation, from_upper_triangle(mesh, cell, formulation, values), frame, orientation);
+}
+
+DiscreteMass symmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                            DiscreteFrame frame, const Orientation& orientation) {
+  Eigen::MatrixXd matrix = from_upper_triangle(mesh, cell, formulation, values);
+  if (frame == DiscreteFrame::global) return matrix;
+  return to_global(formulation, discrete_axes(mesh, cell, orientation), std::move(matrix));
 }
 
 DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, const DiscreteInertia& inertia,
-                        DiscreteFrame frame) {
+                        DiscreteFrame frame, const Orientation& orientation) {
   const int k = discrete_components(formulation);
   const bool segment = mesh.cell(cell).size() == 2;
   const bool turns = formulation == Formulation::spring_rotation_3d || formulation == Formulation::spring_rotation_2d;
@@ -111,7 +162,7 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
     throw Error("unsupported", fmt::format("the mass on {} has an offset, which only a point with rotations can have",
                                            mesh.cell_name(cell)));
   }
-  const Eigen::Matrix3d axes = frame == DiscreteFrame::local ? own_axes(mesh, cell) : Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d axes = frame == DiscreteFrame::local ? discrete_axes(mesh, cell, orientation) : Eigen::Matrix3d::Identity();
   const Eigen::Vector3d e = axes.transpose() * inertia.offset;
   Eigen::Matrix3d lever;  // lever * a = e x a
   lever << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;

@@ -14,7 +14,7 @@ namespace comma::solver {
 /// The stiffness of a discrete element, in global axes already: on a point k x k, on a segment 2k x 2k, k components a node.
 struct DiscreteStiffness {
   Eigen::MatrixXd matrix;
-  /// Rows: the element's own axes, in which its forces N, VY, VZ ... are given.
+  /// Rows: the element's own axes, in which its forces N, VY, VZ ... are given whatever the frame of its stiffness.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
@@ -27,18 +27,38 @@ enum class DiscreteFrame : std::uint8_t { global, local };
 /// Throws Error `distorted-cell` for a segment without length.
 Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll = 0.0);
 
+/// How the axes of an element are turned (AFFE_CARA_ELEM ORIENTATION of U4.42.01).
+struct Orientation {
+  double roll = 0.0;  ///< of a segment, in radians: see own_axes
+  Eigen::Matrix3d point_axes = Eigen::Matrix3d::Identity();  ///< axes (rows) of a point, and of a segment without length
+};
+
+/// Whether the cell has an own first axis: whether it is a segment with a length.
+bool has_direction(const Mesh& mesh, int cell);
+
+/// The axes (rows) of the discrete element on a cell: own_axes() of a segment, the orientation's of a cell without direction.
+Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& orientation);
+
+/// The roll that turns the second own axis of a segment towards `y`, as far as the first axis lets it. Throws Error
+/// `zero-vector` if `y` lies along the segment, or is zero; `distorted-cell` as own_axes.
+double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y);
+
+/// Axes (rows) whose first is along `x` and whose second lies in the plane of `x` and `y`, on the side of `y` (VECT_X_Y).
+/// Throws Error `zero-vector` if the two do not span a plane.
+Eigen::Matrix3d axes_along(const Eigen::Vector3d& x, const Eigen::Vector3d& y);
+
 /// Components that the element of a discrete formulation has at each node.
 int discrete_components(Formulation formulation);
 
 /// From one value a component: on a point diag(values); on a segment [D -D; -D D] with D = diag(values) (U4.42.01, K_T_D_N,
 /// K_TR_D_N, K_T_D_L, K_TR_D_L). Throws Error `wrong-size` unless there is one value for each component of the formulation.
 DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                     DiscreteFrame frame);
+                                     DiscreteFrame frame, const Orientation& orientation = {});
 
 /// From the upper triangle of the symmetric matrix, column by column, k (k+1) / 2 values with k the number of components on a
 /// point, twice that on a segment (U4.42.01, K_T_N, K_TR_N, K_T_L, K_TR_L).
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                      DiscreteFrame frame);
+                                      DiscreteFrame frame, const Orientation& orientation = {});
 
 /// What is known of a section's outline: enough to say where its axial stress is largest.
 enum class SectionShape : std::uint8_t { general, rectangle, circle };
@@ -51,6 +71,8 @@ struct BeamSection {
   double torsion = 0.0;    ///< torsion constant
   double shear_y = 1.0;    ///< A over the reduced section along y, >= 1 (A_Y of U4.42.01); used by Timoshenko beams
   double shear_z = 1.0;
+  double centre_y = 0.0;   ///< from the centroid to the centre of torsion, along y
+  double centre_z = 0.0;
   double roll = 0.0;       ///< see own_axes
   SectionShape shape = SectionShape::general;
   double reach_y = 1.0;        ///< distance from the axis to the outermost fibre along y (RY of U4.42.01)
@@ -71,7 +93,11 @@ struct DiscreteInertia {
 
 /// Throws Error `unsupported` for an offset on a segment or on an element without rotations.
 DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, const DiscreteInertia& inertia,
-                        DiscreteFrame frame);
+                        DiscreteFrame frame, const Orientation& orientation = {});
+
+/// From the upper triangle of the symmetric matrix, as symmetric_stiffness (M_T_N, M_TR_N, M_T_L, M_TR_L).
+DiscreteMass symmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                            DiscreteFrame frame, const Orientation& orientation = {});
 
 /// Characteristics by cell index. Discrete elements without an entry in `masses` have none.
 struct ElementProperties {

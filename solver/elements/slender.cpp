@@ -69,6 +69,17 @@ void add_spring(BeamMatrix& k, double stiffness, int first, int second) {
   k(second, first) -= stiffness;
 }
 
+/// The transverse displacements that bend a beam are those of its centre of torsion: they are the centroid's plus what the
+/// torsion of the section adds (R3.08.01, eccentric centre of torsion).
+BeamMatrix from_centre_to_centroid(const BeamMatrix& k, const BeamSection& section) {
+  BeamMatrix shift = BeamMatrix::Identity();
+  for (const int node : {0, 6}) {
+    shift(node + 1, node + 3) = -section.centre_z;
+    shift(node + 2, node + 3) = section.centre_y;
+  }
+  return shift.transpose() * k * shift;
+}
+
 BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
   const double shear_scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
@@ -77,7 +88,8 @@ BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& materia
   add_spring(k, shear_modulus * section.torsion / length, 3, 9);
   add_bending(k, material.young * section.inertia_z, length, shear_scale * section.inertia_z * section.shear_y, {1, 5, 7, 11}, 1.0);
   add_bending(k, material.young * section.inertia_y, length, shear_scale * section.inertia_y * section.shear_z, {2, 4, 8, 10}, -1.0);
-  return k;
+  const bool eccentric = section.centre_y != 0.0 || section.centre_z != 0.0;
+  return eccentric ? from_centre_to_centroid(k, section) : k;
 }
 
 /// What the stiffness of one element is made from.

@@ -13,6 +13,22 @@ Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll) {
   return turn.transpose();
 }
 
+Eigen::Matrix3d euler_axes(double precession, double nutation, double rotation) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  const Eigen::Matrix3d turn = (AngleAxisd(precession, Vector3d::UnitZ()) * AngleAxisd(nutation, Vector3d::UnitX()) *
+                                AngleAxisd(rotation, Vector3d::UnitZ()))
+                                   .toRotationMatrix();
+  return turn.transpose();
+}
+
+Eigen::Vector3d centre_of(const Mesh& mesh, int cell) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto nodes = mesh.cell(cell);
+  for (const int node : nodes) sum += Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
+  return sum / static_cast<double>(nodes.size());
+}
+
 Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d& origin, const Eigen::Vector3d& at) {
   const Eigen::Vector3d along = nautical_axes(yaw, pitch, 0.0).row(0);
   const Eigen::Vector3d from_origin = at - origin;

@@ -3,11 +3,19 @@
 
 #include <Eigen/Dense>
 
+#include "solver/mesh/mesh.hpp"
+
 namespace comma::solver {
 
 /// Axes (rows) of nautical angles in radians: turned by `yaw` about Z, then by `pitch` about the new Y, then by `roll`
 /// about the new X (U4.42.01, ANGL_REP, ANGL_NAUT). The first goes down for a positive pitch.
 Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll);
+
+/// Axes (rows) of Euler's angles in radians: turned about Z, then about the new X, then about the new Z (U4.42.01, ANGL_EULER).
+Eigen::Matrix3d euler_axes(double precession, double nutation, double rotation);
+
+/// The mean of a cell's nodes.
+Eigen::Vector3d centre_of(const Mesh& mesh, int cell);
 
 /// Axes (rows) at `at` in a body made round an axis through `origin` with the nautical angles `yaw` and `pitch`: L away
 /// from the axis, N along it, T = N x L round it (U4.42.01, ANGL_AXE, ORIG_AXE). Throws Error `distorted-cell` for a

@@ -81,3 +81,43 @@ TEST_CASE("a wrong number of values says how many there should be", "[elements]"
   CHECK_THROWS_WITH(diagonal_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::local),
                     Catch::Contains("takes 2 values, not 3"));
 }
+
+TEST_CASE("the roll towards a direction turns the second own axis to its side", "[elements]") {
+  const auto mesh = segment({0, 0, 0}, {1, 2, 3});
+  const Eigen::Vector3d wanted(0.3, -1.0, 0.2);
+  const Eigen::Matrix3d axes = own_axes(*mesh, 0, roll_towards(*mesh, 0, wanted));
+  CHECK(axes.row(1).dot(wanted) > 0.0);
+  CHECK(axes.row(2).dot(wanted) == Approx(0.0).margin(1e-15));
+  CHECK_THROWS_AS(roll_towards(*mesh, 0, {2, 4, 6}), Error);
+  CHECK_THROWS_AS(axes_along({1, 0, 0}, {-2, 0, 0}), Error);
+  CHECK((axes_along({0, 2, 0}, {-1, 1, 0}) - (Eigen::Matrix3d() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished()).norm() == 0.0);
+}
+
+TEST_CASE("points and segments without length take the axes that they are given", "[elements]") {
+  auto point = std::make_shared<Mesh>();
+  point->nodes = {{0, 0, 0}};
+  point->add_cell(CellType::poi1, std::array{0});
+  const Orientation quarter{.roll = 0.0, .point_axes = axes_along({0, 1, 0}, {-1, 0, 0})};
+  for (const auto& mesh : {point, segment({1, 1, 1}, {1, 1, 1})}) {
+    CHECK_FALSE(has_direction(*mesh, 0));
+    const auto k = diagonal_stiffness(*mesh, 0, Formulation::spring_3d, std::array{5.0, 7.0, 9.0}, DiscreteFrame::local, quarter);
+    CHECK((k.matrix.topLeftCorner<3, 3>() - Eigen::Vector3d(7, 5, 9).asDiagonal().toDenseMatrix()).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("forces come in own axes whatever the frame of the stiffness", "[elements]") {
+  const Body body = spring(segment({0, 0, 0}, {3, 4, 0}), Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
+  const ElementField force = body.assembler->stresses(Eigen::Vector4d(0, 0, 0.6, 0.8));
+  CHECK(force.at(0, 0, 0) == Approx(10.0));
+  CHECK(force.at(0, 0, 1) == Approx(0.0).margin(1e-14));
+}
+
+TEST_CASE("a full mass is read as a full stiffness is", "[elements]") {
+  const auto mesh = segment({0, 0, 0}, {1, 2, 2});
+  std::vector<double> values(21);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1.0 + static_cast<double>(i);
+  for (const auto frame : {DiscreteFrame::local, DiscreteFrame::global}) {
+    CHECK(symmetric_mass(*mesh, 0, Formulation::spring_3d, values, frame) ==
+          symmetric_stiffness(*mesh, 0, Formulation::spring_3d, values, frame).matrix);
+  }
+}

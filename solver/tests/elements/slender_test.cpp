@@ -115,3 +115,20 @@ TEST_CASE("a roll of 90 degrees swaps the two bending planes", "[elements]") {
 TEST_CASE("a bar without a cross-section is named", "[elements]") {
   CHECK_THROWS_WITH(chain({1, 0, 0}, 1.0, 1, Formulation::bar, {}), Catch::Contains("M1") && Catch::Contains("area"));
 }
+
+TEST_CASE("a force through the centre of torsion bends a beam without twisting it", "[elements]") {
+  BeamSection channel = section;
+  channel.centre_y = 0.02;
+  channel.centre_z = -0.03;
+  const Body eccentric = chain({1, 0, 0}, 1.0, 2, Formulation::timoshenko_beam, channel);
+  const Body centred = chain({1, 0, 0}, 1.0, 2, Formulation::timoshenko_beam, section);
+  const double fy = 700.0;
+  const double fz = 500.0;
+  Eigen::VectorXd tip(6);
+  tip << 0, fy, fz, channel.centre_y * fz - channel.centre_z * fy, 0, 0;  // moved to the centroid
+  const Eigen::VectorXd u = clamped(eccentric, tip).tail(6);
+  tip[3] = 0.0;
+  const Eigen::VectorXd expected = clamped(centred, tip).tail(6);
+  CHECK(std::abs(u[3]) < 1e-12 * std::abs(u[5]));
+  CHECK((u - expected).norm() < 1e-10 * expected.norm());
+}

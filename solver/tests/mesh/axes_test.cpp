@@ -15,3 +15,13 @@ TEST_CASE("cylindrical axes point away from the axis, round it and along it", "[
   CHECK((axes.row(2) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-14);
   CHECK_THROWS_AS(cylindrical_axes(0.0, -std::acos(0.0), {1, 2, 3}, {1, 2, 50}), Error);
 }
+
+TEST_CASE("Euler's angles turn about Z, the new X and the new Z", "[mesh]") {
+  const double right = std::acos(0.0);
+  CHECK((euler_axes(0.3, 0.0, 0.4) - nautical_axes(0.7, 0.0, 0.0)).norm() < 1e-15);
+  // X goes to Y, Z goes round the new X (= Y) to X; the last turn brings the first axis to the second's place.
+  const Eigen::Matrix3d axes = euler_axes(right, right, right);
+  CHECK((axes.row(2) - Eigen::RowVector3d(1, 0, 0)).norm() < 1e-15);
+  CHECK((axes.row(0) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-15);
+  CHECK((axes.row(1) - Eigen::RowVector3d(0, -1, 0)).norm() < 1e-15);
+}

@@ -1,0 +1,170 @@
+#include "commands/section_building.hpp"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <map>
+
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/elements/section_shapes.hpp"
+#include "solver/error.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+using solver::BeamSection;
+using solver::Formulation;
+
+namespace {
+
+// The values of VALE by the names of CARA.
+class Characteristics {
+ public:
+  explicit Characteristics(const Keywords& assignment) : assignment_(assignment) {
+    const auto names = assignment.texts("CARA");
+    const auto values = assignment.reals("VALE");
+    if (names.size() != values.size()) {
+      throw DiagnosticError("wrong-count", fmt::format("VALE gives {} values to the {} names of CARA", values.size(), names.size()),
+                            assignment.span_of("VALE"), "give one value a name");
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (values_.emplace(names[i], values[i]).second) continue;
+      throw DiagnosticError("duplicate-characteristic", "CARA names " + names[i] + " twice", assignment.span_of("CARA"));
+    }
+  }
+
+  bool has(const std::string& name) const { return values_.contains(name); }
+  double get(const std::string& name, double otherwise) const { return has(name) ? values_.at(name) : otherwise; }
+
+  // All of these names, or an error that lists those that lack.
+  void require(std::initializer_list<const char*> names) const {
+    std::vector<std::string> missing;
+    for (const char* name : names) {
+      if (!has(name)) missing.emplace_back(name);
+    }
+    if (missing.empty()) return;
+    throw DiagnosticError("missing-characteristic", fmt::format("the section lacks {}", fmt::join(missing, ", ")),
+                          assignment_.span_of("CARA"), fmt::format("name {} in CARA and give the value in VALE", missing.front()));
+  }
+
+  void exclude(const std::string& name, std::initializer_list<const char*> others) const {
+    if (!has(name)) return;
+    for (const char* other : others) {
+      if (!has(other)) continue;
+      throw DiagnosticError("excluded-characteristic", fmt::format("CARA names both {} and {}", name, other), assignment_.span_of("CARA"),
+                            fmt::format("{} stands for the sizes along y and z alike", name));
+    }
+  }
+
+ private:
+  const Keywords& assignment_;
+  std::map<std::string, double> values_;
+};
+
+bool is_beam(Formulation formulation) {
+  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+}
+
+bool is_bar(Formulation formulation) { return formulation == Formulation::bar || formulation == Formulation::bar_2d; }
+
+BeamSection general_section(const Characteristics& given, bool bends) {
+  given.require({"A"});
+  if (bends) given.require({"IY", "IZ", "JX"});
+  BeamSection section;
+  section.area = given.get("A", 0.0);
+  section.inertia_y = given.get("IY", 0.0);
+  section.inertia_z = given.get("IZ", 0.0);
+  section.torsion = given.get("JX", 0.0);
+  section.shear_y = given.get("AY", section.shear_y);
+  section.shear_z = given.get("AZ", section.shear_z);
+  section.centre_y = given.get("EY", 0.0);
+  section.centre_z = given.get("EZ", 0.0);
+  section.reach_y = given.get("RY", section.reach_y);
+  section.reach_z = given.get("RZ", section.reach_z);
+  section.torsion_reach = given.get("RT", section.torsion_reach);
+  return section;
+}
+
+BeamSection rectangle_of(const Characteristics& given) {
+  given.exclude("H", {"HY", "HZ"});
+  given.exclude("EP", {"EPY", "EPZ"});
+  if (!given.has("H")) given.require({"HY", "HZ"});
+  const double side = given.get("H", 0.0);
+  const double wall = given.get("EP", 0.0);
+  return solver::rectangular_section({given.get("HY", side), given.get("HZ", side), given.get("EPY", wall), given.get("EPZ", wall)});
+}
+
+BeamSection circle_of(const Characteristics& given) {
+  given.require({"R"});
+  const double radius = given.get("R", 0.0);
+  return solver::circular_section(radius, given.get("EP", radius));
+}
+
+BeamSection section_of(const Keywords& assignment, bool bends) {
+  const Characteristics given(assignment);
+  const std::string& shape = assignment.text("SECTION");
+  try {
+    return shape == "GENERALE" ? general_section(given, bends) : shape == "RECTANGLE" ? rectangle_of(given) : circle_of(given);
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), error.what(), assignment.span_of("VALE"), error.hint());
+  }
+}
+
+// Shear deforms Timoshenko's beams: without shear factors they would silently be Euler's.
+void check_shear(const Keywords& assignment, const BeamSection& section) {
+  if (assignment.text("SECTION") == "GENERALE") return Characteristics(assignment).require({"AY", "AZ"});
+  if (section.shear_y > 0.0) return;
+  throw DiagnosticError("unsupported", "a hollow rectangle has no shear factors that comma knows, and POU_D_T needs them", assignment.span,
+                        "give the section as SECTION=\"GENERALE\" with AY and AZ, or use POU_D_E");
+}
+
+// The cells named that carry an element of the kind; at least one must.
+std::vector<int> carriers(const Keywords& assignment, const solver::Model& model, bool (*carries)(Formulation), const char* kind,
+                          const char* hint) {
+  std::vector<int> cells;
+  for (const int cell : selected_cells(assignment, *model.mesh)) {
+    if (carries(model.formulations[cell])) cells.push_back(cell);
+  }
+  if (cells.empty()) {
+    throw DiagnosticError("no-element", fmt::format("none of these cells is a {}", kind), assignment.span, hint);
+  }
+  return cells;
+}
+
+// COUDE alone: a factor for each plane of bending, or one for both.
+void soften_elbows(const Keywords& elbow, const std::vector<int>& cells, solver::ElementProperties& properties) {
+  const double both = elbow.has("COEF_FLEX") ? elbow.real("COEF_FLEX") : 1.0;
+  const double xy = elbow.has("COEF_FLEX_XY") ? elbow.real("COEF_FLEX_XY") : both;
+  const double xz = elbow.has("COEF_FLEX_XZ") ? elbow.real("COEF_FLEX_XZ") : both;
+  for (const int cell : cells) {
+    const auto found = properties.sections.find(cell);
+    if (found == properties.sections.end()) {
+      throw DiagnosticError("missing-characteristic", "an elbow (COUDE) stands on beams that have no section yet", elbow.span,
+                            "give the section of the pipe first, by another POUTRE on the same cells");
+    }
+    found->second = solver::softened(found->second, xy, xz);
+  }
+}
+
+}  // namespace
+
+void add_beam_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
+  const auto cells = carriers(assignment, model, is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
+  if (assignment.text("SECTION") == "COUDE") return soften_elbows(assignment, cells, properties);
+  const BeamSection section = section_of(assignment, true);
+  for (const int cell : cells) {
+    if (model.formulations[cell] == Formulation::timoshenko_beam) check_shear(assignment, section);
+    properties.sections[cell] = section;
+  }
+}
+
+void add_bar_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
+  const BeamSection section = section_of(assignment, false);
+  for (const int cell : carriers(assignment, model, is_bar, "bar", "give them MODELISATION=\"BARRE\" in AFFE_MODELE")) {
+    properties.sections[cell] = section;
+  }
+}
+
+}  // namespace comma::commands

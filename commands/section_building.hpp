@@ -1,0 +1,17 @@
+// Cross-sections of bars and beams from the names and values of AFFE_CARA_ELEM.
+#pragma once
+
+#include "interpreter/call.hpp"
+#include "solver/elements/section.hpp"
+
+namespace comma::commands {
+
+/// POUTRE: assigns a section to the beams among the cells named, or softens those that have one (SECTION="COUDE"). Throws
+/// DiagnosticError `no-element` when none of the cells is a beam, `wrong-count` when CARA and VALE do not agree,
+/// `missing-characteristic`, `duplicate-characteristic`, `excluded-characteristic`, `invalid-section`.
+void add_beam_sections(const interpreter::Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties);
+
+/// BARRE: the same for bars.
+void add_bar_sections(const interpreter::Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties);
+
+}  // namespace comma::commands
