@@ -186,6 +186,27 @@ Quadrature pyramid5() {
   return {{{0.5, 0, low}, w}, {{0, 0.5, low}, w}, {{-0.5, 0, low}, w}, {{0, -0.5, low}, w}, {{0, 0, high}, w}};
 }
 
+/// The one symmetric rule of degree 4 with 10 points inside and positive weights (Witherden, Vincent, "On the identification
+/// of symmetric quadrature rules for finite element methods", Comput. Math. Appl. 69, 2015): two points on the axis, four
+/// towards the lateral faces, four towards the lateral edges.
+Quadrature pyramid10() {
+  const double lower = 0.1251369531087467, lower_weight = 0.13792226839303498;
+  const double upper = 0.67723278888613725, upper_weight = 0.07582792211376134;
+  const double face = 0.65058155639823279, face_z = 0.32238414957821382, face_weight = 0.07088305859288356;
+  const double edge = 0.65796699712168982, edge_z = 0.039248283898815378, edge_weight = 0.04234606044708402;
+  const double half = 0.5 * face;
+  return {{{0, 0, lower}, lower_weight},
+          {{0, 0, upper}, upper_weight},
+          {{half, half, face_z}, face_weight},
+          {{-half, half, face_z}, face_weight},
+          {{-half, -half, face_z}, face_weight},
+          {{half, -half, face_z}, face_weight},
+          {{edge, 0, edge_z}, edge_weight},
+          {{0, edge, edge_z}, edge_weight},
+          {{-edge, 0, edge_z}, edge_weight},
+          {{0, -edge, edge_z}, edge_weight}};
+}
+
 /// Gauss points of the cube, collapsed on the apex and turned by 45 degrees; the height has the Gauss-Jacobi weight (1-z)^2.
 Quadrature pyramid27() {
   const std::array<std::array<double, 2>, 3> heights = {{{0.07299402407314973, 0.15713636106488667},
@@ -229,7 +250,7 @@ constexpr Rule quadrangle_rules[] = {{"FPG1", 1, quadrangle1}, {"FPG4", 3, quadr
 constexpr Rule tetrahedron_rules[] = {
     {"FPG1", 1, tetrahedron1}, {"FPG4", 2, tetrahedron4}, {"FPG5", 3, tetrahedron5}, {"FPG15", 5, tetrahedron15}};
 constexpr Rule pentahedron_rules[] = {{"FPG6", 2, pentahedron6}, {"FPG8", 3, pentahedron8}, {"FPG21", 5, pentahedron21}};
-constexpr Rule pyramid_rules[] = {{"FPG5", 2, pyramid5}, {"FPG27", 5, pyramid27}};
+constexpr Rule pyramid_rules[] = {{"FPG5", 2, pyramid5}, {"FPG10", 4, pyramid10}, {"FPG27", 5, pyramid27}};
 constexpr Rule hexahedron_rules[] = {{"FPG1", 1, hexahedron1}, {"FPG8", 3, hexahedron8}, {"FPG27", 5, hexahedron27}};
 
 std::span<const Rule> rules(CellType type) {
@@ -309,6 +330,7 @@ std::string_view full_family(CellType type) {
     case CellType::penta18:
       return "FPG21";
     case CellType::pyram13:
+      return "FPG10";
     case CellType::hexa20:
     case CellType::hexa27:
       return "FPG27";
@@ -332,6 +354,8 @@ Quadrature quadrature(CellType type, std::string_view name) {
 int quadrature_degree(CellType type, std::string_view name) { return name == "NOEU" ? -1 : rule_named(type, name).degree; }
 
 std::string_view stiffness_family(CellType type, Formulation formulation) {
+  // The radius raises the degree by one; on quadrangles the full family has it to spare.
+  if (is_axisymmetric(formulation) && type == CellType::tria6) return "FPG6";
   if (!is_reduced(formulation)) return full_family(type);
   // Reduced integration exists on these cells alone (U3.14.01, U3.13.01); others keep their full family.
   if (type == CellType::tetra10 || type == CellType::quad8 || type == CellType::quad9) return "FPG4";

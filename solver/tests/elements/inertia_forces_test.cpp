@@ -127,7 +127,7 @@ TEST_CASE("bars and beams weigh, and fly apart, along their length", "[loads]") 
     mesh->nodes = {{1, 2, 0}, {4, 6, mesh->dimension == 2 ? 0.0 : 12.0}};
     mesh->add_cell(CellType::seg2, std::array{0, 1});
     ElementProperties properties;
-    properties.sections[0] = {0.5, 0.02, 0.03, 0.01, 1.2, 1.3, 0.4};
+    properties.sections[0] = {.area = 0.5, .inertia_y = 0.02, .inertia_z = 0.03, .torsion = 0.01, .shear_y = 1.2, .shear_z = 1.3, .roll = 0.4};
     const Body body(mesh, std::vector{formulation}, dense(100.0, 0.25, 8.0), properties);
     const Eigen::Vector3d x1(mesh->nodes[0].data()), x2(mesh->nodes[1].data()), g(1.0, -2.0, 3.0);
     const double line = 8.0 * 0.5;

@@ -102,3 +102,12 @@ TEST_CASE("points of the usual families come in the documented order", "[element
   CHECK((hexa[1].at[0] < 0 && hexa[1].at[1] < 0 && hexa[1].at[2] > 0));
   CHECK(quadrature(CellType::seg2, "FPG2")[0].at[0] > 0);
 }
+
+TEST_CASE("stiffness families leave room for the radius of axisymmetric triangles and keep pyramids to ten points") {
+  CHECK(stiffness_family(CellType::tria6, Formulation::plane_strain) == "FPG3");
+  CHECK(stiffness_family(CellType::tria6, Formulation::axisymmetric) == "FPG6");
+  CHECK(stiffness_family(CellType::pyram13, Formulation::solid) == "FPG10");
+  // Strain energy of a quadratic field in a straight cell is of degree 2, times the radius 3.
+  CHECK(quadrature_degree(CellType::tria6, "FPG6") >= 3);
+  CHECK(quadrature_degree(CellType::pyram13, "FPG10") == 4);
+}
