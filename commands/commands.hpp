@@ -20,6 +20,7 @@ Product affe_materiau(const Call& call, Context& context);
 Product affe_modele(const Call& call, Context& context);
 Product calc_champ(const Call& call, Context& context);
 Product calc_fonc_interp(const Call& call, Context& context);
+Product calc_fonction(const Call& call, Context& context);
 Product calc_table(const Call& call, Context& context);
 Product crea_champ(const Call& call, Context& context);
 Product crea_resu(const Call& call, Context& context);

@@ -20,6 +20,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"AFFE_MODELE", affe_modele},
     {"CALC_CHAMP", calc_champ},
     {"CALC_FONC_INTERP", calc_fonc_interp},
+    {"CALC_FONCTION", calc_fonction},
     {"CALC_TABLE", calc_table},
     {"CREA_CHAMP", crea_champ},
     {"CREA_RESU", crea_resu},
