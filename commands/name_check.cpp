@@ -201,7 +201,8 @@ class NameCheck {
   }
 
   void check_components(const Site& site) {
-    if (site.fields.empty()) return;
+    // The moment of a resultant exists where nodes have forces alone.
+    if (site.fields.empty() || site.keyword.name == "MOMENT") return;
     const auto models = models_of(site.reach);
     std::vector<std::string> known;
     for (const solver::Model* model : models) {
@@ -214,6 +215,8 @@ class NameCheck {
     if (known.empty()) return;
     std::ranges::sort(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
+    // Relations also speak of displacements along the normal.
+    if (site.label.find("/LIAISON_") != std::string::npos) known.emplace_back("DNOR");
     const auto exists = [&](const std::string& name) { return has_component(known, name); };
     const auto hint = [&](const std::string& name) { return hint_for(name, known, "component"); };
     check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);
