@@ -1,29 +1,12 @@
-#include <fmt/format.h>
-
 #include "commands/commands.hpp"
+#include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
-#include "interpreter/diagnostic.hpp"
 #include "solver/fields/field_computation.hpp"
 
 namespace comma::commands {
 
 namespace {
-
-using interpreter::DiagnosticError;
-
-// What the result was computed with, but for what the call gives in its place.
-solver::StaticProblem problem_of(const Call& call, const ResultConcept& source) {
-  solver::StaticProblem problem = source.problem;
-  if (call.has("MODELE")) problem.model = call.data<ModelConcept>("MODELE").model;
-  if (call.has("CHAM_MATER")) problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
-  if (call.has("CARA_ELEM")) problem.properties = call.data<PropertiesConcept>("CARA_ELEM").properties;
-  if (!problem.model || !problem.materials) {
-    throw DiagnosticError("missing-keyword", fmt::format("CALC_CHAMP: {} keeps no {}", call.concept_of("RESULTAT")->name, problem.model ? "materials" : "model"),
-                          call.span_of("RESULTAT"), problem.model ? "give CHAM_MATER" : "give MODELE and CHAM_MATER");
-  }
-  return problem;
-}
 
 std::vector<std::string> wanted_fields(const Call& call) {
   std::vector<std::string> names;
@@ -34,7 +17,7 @@ std::vector<std::string> wanted_fields(const Call& call) {
 }
 
 void add_fields(const Call& call, ResultConcept& data) {
-  const solver::StaticProblem problem = problem_of(call, data);
+  const solver::StaticProblem problem = problem_of_result(call, data);
   solver::FieldComputation computation(problem, data.result);
   std::optional<std::vector<int>> cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "commands/commands.hpp"
+#include "commands/field_reading.hpp"
+#include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -51,12 +55,71 @@ void add_function(Table& table, const Keywords& source) {
   }
 }
 
+using Row = std::vector<std::pair<std::string, Cell>>;
+
+const std::vector<std::string>& components_of(const solver::Field& field) {
+  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+}
+
+// One row for values that are not all absent.
+template <class ValueAt>
+void add_values(Table& table, Row row, const solver::Field& field, const std::vector<int>& components, ValueAt value_at) {
+  bool carried = false;
+  for (const int component : components) {
+    const double value = value_at(component);
+    carried |= !std::isnan(value);
+    row.emplace_back(components_of(field)[static_cast<std::size_t>(component)], std::isnan(value) ? Cell() : Cell(value));
+  }
+  if (carried) table.add_row(row);
+}
+
+void add_nodes(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
+  const auto& field = std::get<solver::NodalField>(from.field);
+  for (const int node : selected_nodes(source, from.mesh)) {
+    Row row = from.columns;
+    const solver::Point& at = from.mesh.nodes[node];
+    row.insert(row.end(), {{"NOEUD", from.mesh.node_name(node)}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
+    add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(node, component); });
+  }
+}
+
+void add_cells(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
+  const auto& field = std::get<solver::ElementField>(from.field);
+  for (const char* keyword : {"GROUP_NO", "NOEUD"}) {
+    if (!source.given(keyword)) continue;
+    throw DiagnosticError("wrong-place", fmt::format("CREA_TABLE: {} names nodes, and the field lies on cells", keyword), source.span_of(keyword),
+                          "name cells by TOUT, GROUP_MA or MAILLE");
+  }
+  for (const int cell : selected_cells(source, from.mesh)) {
+    for (int point = 0; point < field.points(cell); ++point) {
+      Row row = from.columns;
+      row.emplace_back("MAILLE", from.mesh.cell_name(cell));
+      if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", from.mesh.node_name(from.mesh.cell(cell)[point]));
+      if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
+      add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, point, component); });
+    }
+  }
+}
+
+// One row a node, or a point of a cell, that carries any of the components (U4.33.02).
+void add_field(Table& table, const Keywords& source) {
+  for (const FieldSource& from : field_sources(source)) {
+    const auto components = chosen_components(source, components_of(from.field));
+    if (std::holds_alternative<solver::NodalField>(from.field)) {
+      add_nodes(table, source, from, components);
+    } else {
+      add_cells(table, source, from, components);
+    }
+  }
+}
+
 }  // namespace
 
 Product crea_table(const Call& call, Context&) {
   auto product = std::make_shared<TableConcept>();
   for (const Keywords& list : call.factors("LISTE")) add_list(product->table, list);
   for (const Keywords& source : call.factors("FONCTION")) add_function(product->table, source);
+  for (const Keywords& source : call.factors("RESU")) add_field(product->table, source);
   if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
   return product;
 }

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "commands/commands.hpp"
+#include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/statistics.hpp"
+#include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/med_file.hpp"
 
 namespace comma::commands {
@@ -16,9 +20,61 @@ using interpreter::DiagnosticError;
 
 constexpr int med_unit = 80;
 constexpr int text_unit = 8;
+constexpr int mesh_unit = 30;
 
-// The part of a result that NOM_CHAM and the step keywords choose.
-solver::Result chosen_part(const Keywords& print, const solver::Result& result) {
+const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
+const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+
+// What one occurrence of RESU writes: the chosen part of a result, or of a field as a result of one step whose field has no name
+// of its own. Without a result, the mesh alone.
+struct Part {
+  const solver::Mesh& mesh;
+  std::string name;
+  solver::Result result;
+  bool mesh_alone = false;
+};
+
+// --- the part that the keywords choose --------------------------------------------------------------------------------------
+
+// Only the components of NOM_CMP that the field has; false if it has none of them.
+bool choose_components(const Keywords& print, solver::Field& field) {
+  if (!print.given("NOM_CMP")) return true;
+  const auto& known = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+  std::vector<int> chosen;
+  for (const std::string& name : print.texts("NOM_CMP")) {
+    const auto found = std::ranges::find(known, name);
+    if (found != known.end()) chosen.push_back(static_cast<int>(found - known.begin()));
+  }
+  if (!chosen.empty()) field = solver::with_components(field, chosen);
+  return !chosen.empty();
+}
+
+// The values of cells at other nodes than these become absent.
+void keep_nodes_of_cells(solver::ElementField& field, const solver::Mesh& mesh, const std::vector<int>& nodes) {
+  const std::size_t width = field.components.size();
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    for (int point = 0; point < field.points(cell); ++point) {
+      if (std::ranges::find(nodes, mesh.cell(cell)[static_cast<std::size_t>(point)]) != nodes.end()) continue;
+      std::fill_n(field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell] + point) * width), width, solver::absent);
+    }
+  }
+}
+
+void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, solver::Field& field) {
+  if (auto* nodal = std::get_if<solver::NodalField>(&field)) {
+    if (names_a_place(print)) *nodal = solver::on_nodes(*nodal, selected_nodes(print, mesh));
+    return;
+  }
+  auto& element = std::get<solver::ElementField>(field);
+  if (names_a_place(print, cell_places)) element = solver::on_cells(element, selected_cells(print, mesh, cell_places));
+  if (!names_a_place(print, node_places)) return;
+  if (med || element.support != solver::Support::element_node) {
+    throw DiagnosticError("unsupported", "IMPR_RESU: nodes choose nothing of a field on cells", print.span, "name cells by GROUP_MA");
+  }
+  keep_nodes_of_cells(element, mesh, selected_nodes(print, mesh, node_places));
+}
+
+solver::Result chosen_steps(const Keywords& print, const solver::Result& result) {
   solver::Result part;
   part.model = result.model;
   part.bare_mesh = result.bare_mesh;
@@ -26,21 +82,62 @@ solver::Result chosen_part(const Keywords& print, const solver::Result& result) 
     solver::ResultStep& copy = part.steps.emplace_back(*step);
     if (!print.given("NOM_CHAM")) continue;
     const auto names = print.texts("NOM_CHAM");
-    std::erase_if(copy.fields, [&](const auto& item) { return std::find(names.begin(), names.end(), item.first) == names.end(); });
+    std::erase_if(copy.fields, [&](const auto& item) { return std::ranges::find(names, item.first) == names.end(); });
   }
   return part;
 }
 
-void write_med(const Keywords& print, const std::string& path) {
-  if (print.has("RESULTAT")) {
-    const auto& handle = print.concept_of("RESULTAT");
-    const auto& data = interpreter::data_of<ResultConcept>(handle, "RESULTAT");
-    solver::write_med_result(path, data.result.mesh(), "MAIL", chosen_part(print, data.result), handle->name);
-    return;
-  }
-  const auto& handle = print.concept_of("MAILLAGE");
-  solver::write_med_mesh(path, *interpreter::data_of<MeshConcept>(handle, "MAILLAGE").mesh, handle->name);
+solver::Result result_of_field(const Keywords& print) {
+  const FieldConcept& data = number_field(print.concept_of("CHAM_GD"), print, "CHAM_GD");
+  solver::Result result;
+  result.model = data.model;
+  result.bare_mesh = data.mesh;
+  result.steps.emplace_back().fields.emplace("", data.field);
+  return result;
 }
+
+Part part_of(const Keywords& print, bool med) {
+  if (!print.has("RESULTAT") && !print.has("CHAM_GD")) {
+    const auto& handle = print.concept_of("MAILLAGE");
+    return {*interpreter::data_of<MeshConcept>(handle, "MAILLAGE").mesh, handle->name, {}, true};
+  }
+  const bool whole_result = print.has("RESULTAT");
+  const auto& handle = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
+  const solver::Mesh& mesh = whole_result ? interpreter::data_of<ResultConcept>(handle, "RESULTAT").result.mesh()
+                                          : *interpreter::data_of<FieldConcept>(handle, "CHAM_GD").mesh;
+  Part part{mesh, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
+  for (solver::ResultStep& step : part.result.steps) {
+    for (auto item = step.fields.begin(); item != step.fields.end();) {
+      const bool kept = choose_components(print, item->second);
+      if (kept) choose_places(print, mesh, med, item->second);
+      item = kept ? std::next(item) : step.fields.erase(item);
+    }
+  }
+  return part;
+}
+
+// --- MED --------------------------------------------------------------------------------------------------------------------
+
+void write_med(const Call& call, const std::string& path) {
+  std::vector<Part> parts;
+  for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, true));
+  std::vector<solver::NamedResult> results;
+  std::string mesh_name = "MAIL";
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (&parts[i].mesh != &parts.front().mesh) {
+      throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
+                            "write them by several IMPR_RESU, each to a UNITE of its own");
+    }
+    if (parts[i].mesh_alone) {
+      mesh_name = parts[i].name;
+    } else {
+      results.push_back({std::move(parts[i].result), parts[i].name});
+    }
+  }
+  solver::write_med_results(path, parts.front().mesh, mesh_name, results);
+}
+
+// --- text -------------------------------------------------------------------------------------------------------------------
 
 std::string row(const std::string& place, const std::vector<double>& values) {
   std::string text = fmt::format(" {:<10}", place);
@@ -58,25 +155,41 @@ bool all_absent(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
 }
 
-std::string listing(const solver::NodalField& field, const solver::Mesh& mesh) {
-  std::string text = header("NOEUD", field.components);
-  const std::size_t width = field.components.size();
-  for (int node = 0; node < mesh.node_count(); ++node) {
-    const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(node * width);
-    const std::vector<double> values(begin, begin + static_cast<std::ptrdiff_t>(width));
-    if (!all_absent(values)) text += row(mesh.node_name(node), values);
+std::string place_name(const solver::Field& field, const solver::Mesh& mesh, int place, int point) {
+  if (std::holds_alternative<solver::NodalField>(field)) return mesh.node_name(place);
+  return fmt::format("{} {}", mesh.cell_name(place), point + 1);
+}
+
+std::string listing(const solver::Field& field, const solver::Mesh& mesh) {
+  const auto* nodal = std::get_if<solver::NodalField>(&field);
+  const auto& components = nodal ? nodal->components : std::get<solver::ElementField>(field).components;
+  const int places = nodal ? mesh.node_count() : mesh.cell_count();
+  std::string text = header(nodal ? "NOEUD" : "MAILLE", components);
+  for (int place = 0; place < places; ++place) {
+    const int points = nodal ? 1 : std::get<solver::ElementField>(field).points(place);
+    for (int point = 0; point < points; ++point) {
+      std::vector<double> values;
+      for (int c = 0; c < static_cast<int>(components.size()); ++c) {
+        values.push_back(nodal ? nodal->at(place, c) : std::get<solver::ElementField>(field).at(place, point, c));
+      }
+      if (!all_absent(values)) text += row(place_name(field, mesh, place, point), values);
+    }
   }
   return text;
 }
 
-std::string listing(const solver::ElementField& field, const solver::Mesh& mesh) {
-  std::string text = header("MAILLE", field.components);
-  const std::size_t width = field.components.size();
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    for (int point = 0; point < field.points(cell); ++point) {
-      const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>((field.starts[cell] + point) * width);
-      text += row(fmt::format("{} {}", mesh.cell_name(cell), point + 1), {begin, begin + static_cast<std::ptrdiff_t>(width)});
-    }
+// VALE_MAX, VALE_MIN: for each component the extreme value and where it is, in place of all values.
+std::string extreme_listing(const Keywords& print, const solver::Field& field, const solver::Mesh& mesh) {
+  const auto& components = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+  std::string text;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const auto found = solver::extremes(field, static_cast<int>(c));
+    if (!found) continue;
+    const auto line = [&](const char* what, const solver::Extreme& extreme) {
+      return fmt::format(" {:<10} {} {:14.6E} at {}\n", components[c], what, extreme.value, place_name(field, mesh, extreme.place, extreme.point));
+    };
+    if (print.has("VALE_MAX")) text += line("largest ", found->greatest);
+    if (print.has("VALE_MIN")) text += line("smallest", found->least);
   }
   return text;
 }
@@ -91,38 +204,50 @@ std::string listing(const solver::Mesh& mesh) {
 }
 
 std::string text_of(const Keywords& print) {
-  if (!print.has("RESULTAT")) return listing(*interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh);
-  const auto& handle = print.concept_of("RESULTAT");
-  const auto& data = interpreter::data_of<ResultConcept>(handle, "RESULTAT");
-  const solver::Mesh& mesh = data.result.mesh();
+  const Part part = part_of(print, false);
+  if (part.mesh_alone) return listing(part.mesh);
+  const bool extremes_alone = print.has("VALE_MAX") || print.has("VALE_MIN");
   std::string text;
-  for (const solver::ResultStep& step : chosen_part(print, data.result).steps) {
+  for (const solver::ResultStep& step : part.result.steps) {
     for (const auto& [name, field] : step.fields) {
-      text += fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", handle->name, name, step.order, step.instant);
-      text += std::visit([&](const auto& values) { return listing(values, mesh); }, field);
+      text += name.empty() ? fmt::format("\n {}\n", part.name)
+                           : fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", part.name, name, step.order, step.instant);
+      text += extremes_alone ? extreme_listing(print, field, part.mesh) : listing(field, part.mesh);
     }
   }
   return text;
 }
 
+std::string mesh_text(const Keywords& print) {
+  const Part part = part_of(print, false);
+  if (part.mesh_alone) return solver::format_aster_mesh(part.mesh);
+  throw DiagnosticError("unsupported", "IMPR_RESU: FORMAT='ASTER' holds a mesh, no fields", print.span, "give MAILLAGE alone, or another FORMAT");
+}
+
+struct Format {
+  int unit;
+  const char* extension;
+};
+
+Format format_named(const std::string& word) {
+  if (word == "MED") return {med_unit, "rmed"};
+  if (word == "ASTER") return {mesh_unit, "mail"};
+  return {text_unit, "resu"};
+}
+
 }  // namespace
 
 Product impr_resu(const Call& call, Context& context) {
-  const bool med = call.text("FORMAT") == "MED";
-  const int default_unit = med ? med_unit : text_unit;
-  const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : default_unit;
-  const auto path = context.files.output(unit, med ? "rmed" : "resu", default_unit);
-  for (const Keywords& print : call.factors("RESU")) {
-    if (!print.has("RESULTAT") && !print.has("MAILLAGE")) {
-      throw DiagnosticError("missing-one-of", "IMPR_RESU: RESU names neither a RESULTAT nor a MAILLAGE", print.span);
-    }
-    if (med) {
-      write_med(print, path.string());
-      context.console.progress("  writes " + path.string());
-    } else {
-      context.write(path, text_of(print));
-    }
+  const std::string& word = call.text("FORMAT");
+  const Format format = format_named(word);
+  const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
+  const auto path = context.files.output(unit, format.extension, format.unit);
+  if (word == "MED") {
+    write_med(call, path.string());
+    context.console.progress("  writes " + path.string());
+    return nullptr;
   }
+  for (const Keywords& print : call.factors("RESU")) context.write(path, word == "ASTER" ? mesh_text(print) : text_of(print));
   return nullptr;
 }
 

@@ -11,6 +11,7 @@
 
 #include "commands/concepts.hpp"
 #include "commands/known_names.hpp"
+#include "interpreter/item_span.hpp"
 
 namespace comma::commands {
 
@@ -71,15 +72,26 @@ std::string hint_for(const std::string& name, const std::vector<std::string>& kn
   return fmt::format("there is {}", fmt::join(known, ", "));
 }
 
+struct PlacedText {
+  std::string text;
+  std::size_t index = 0, count = 1;  ///< which of how many values
+};
+
+std::vector<PlacedText> placed_texts_of(const Value& value) {
+  if (value.is_text()) return {{value.as_text(), 0, 1}};
+  std::vector<PlacedText> texts;
+  if (!value.is_sequence()) return texts;
+  const auto items = value.items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].is_text()) texts.push_back({items[i].as_text(), i, items.size()});
+  }
+  return texts;
+}
+
 /// The texts of a value, one or several.
 std::vector<std::string> texts_of(const Value& value) {
   std::vector<std::string> texts;
-  if (value.is_text()) texts.push_back(value.as_text());
-  if (value.is_sequence()) {
-    for (const Value& item : value.items()) {
-      if (item.is_text()) texts.push_back(item.as_text());
-    }
-  }
+  for (PlacedText& placed : placed_texts_of(value)) texts.push_back(std::move(placed.text));
   return texts;
 }
 
@@ -222,11 +234,12 @@ class NameCheck {
     check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);
   }
 
-  /// Only where it is certain whose fields are meant: those of a mechanical result.
+  /// Where it is not certain that fields of a mechanical result are meant, only a word that is nearly one is a mistake.
   void check_fields(const Site& site) {
-    if (!reads_a(site.reach, {"evol_noli", "evol_elas"})) return;
+    const bool certain = reads_a(site.reach, {"evol_noli", "evol_elas"});
+    const auto exists = [&](const std::string& name) { return is_field_name(name) || (!certain && nearest(name, field_names()).empty()); };
     const auto hint = [](const std::string& name) { return hint_for(name, field_names(), "field"); };
-    check_each(site, "unknown-field", "there is no field", is_field_name, hint);
+    check_each(site, "unknown-field", "there is no field", exists, hint);
   }
 
   void check_parameters(const Site& site) {
@@ -241,18 +254,18 @@ class NameCheck {
     check_each(site, "unknown-parameter", "a result has no parameter", exists, hint);
   }
 
-  /// Reports the first name of the value that does not exist, and how many more there are.
+  /// Reports each name of the value that does not exist, once, where it stands.
   void check_each(const Site& site, std::string_view code, const std::string& finding, const std::function<bool(const std::string&)>& exists,
                   const std::function<std::string(const std::string&)>& hint) {
-    std::vector<std::string> missing;
-    for (std::string& name : texts_of(site.keyword.value)) {
-      if (!exists(name) && std::ranges::find(missing, name) == missing.end()) missing.push_back(std::move(name));
+    std::set<std::string> missing;
+    for (const PlacedText& name : placed_texts_of(site.keyword.value)) {
+      if (exists(name.text) || !missing.insert(name.text).second) continue;
+      right_ = false;
+      // A single value that stands in brackets is one without them here.
+      const Span place = item_span(site.keyword.value_span, name.index, name.count);
+      if (is_reported(place)) continue;
+      diagnostics_.error(std::string(code), fmt::format("{}: {} {}", site.label, finding, name.text), place, hint(name.text));
     }
-    if (missing.empty()) return;
-    right_ = false;
-    if (is_reported(site.keyword.value_span)) return;
-    diagnostics_.error(std::string(code), fmt::format("{}: {} {}", site.label, finding, fmt::join(missing, ", ")),
-                       site.keyword.value_span, hint(missing.front()));
   }
 
   /// A value in a loop is one mistake however often it is met.

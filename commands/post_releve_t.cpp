@@ -1,84 +1,220 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "commands/commands.hpp"
-#include "commands/result_reading.hpp"
+#include "commands/field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/rotation.hpp"
+#include "solver/fields/statistics.hpp"
+#include "solver/mesh/axes.hpp"
 
 namespace comma::commands {
 
 namespace {
 
 using interpreter::DiagnosticError;
+using Row = std::vector<std::pair<std::string, Cell>>;
+
+const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
+const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+
+// The nodes of an action, and its values there in its frame.
+struct Reading {
+  Row head;  ///< the columns that say where the values come from
+  const solver::Mesh& mesh;
+  std::vector<int> nodes;
+  solver::NodalField field;
+};
 
 double distance(const solver::Point& a, const solver::Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// A row by column names; a column that is new to the table is empty in the rows before.
-void add_row(Table& table, const std::vector<std::pair<std::string, Cell>>& cells) {
-  std::vector<Cell> row(table.columns.size());
-  for (const auto& [name, cell] : cells) {
-    const auto column = static_cast<std::size_t>(table.add_column(name));
-    row.resize(table.columns.size());
-    row[column] = cell;
+std::vector<double> abscissas(const Reading& reading) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
+    const double step = i > 0 ? distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
+    values.push_back(i > 0 ? values.back() + step : 0.0);
   }
-  table.rows.push_back(std::move(row));
+  return values;
+}
+
+Eigen::Vector3d vector_of(const Keywords& action, const char* keyword) {
+  const auto values = action.reals(keyword);
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < values.size(); ++i) vector[static_cast<Eigen::Index>(i)] = values[i];
+  return vector;
+}
+
+Eigen::Matrix3d axes_by_angles(const Keywords& action) {
+  const Eigen::Vector3d angles = vector_of(action, "ANGL_NAUT") * (std::numbers::pi / 180.0);
+  return solver::nautical_axes(angles[0], angles[1], angles[2]);
+}
+
+solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
+  const std::string& frame = action.text("REPERE");
+  if (frame == "GLOBAL") return field;
+  if (frame == "UTILISATEUR") {
+    const Eigen::Matrix3d axes = axes_by_angles(action);
+    return solver::in_axes(field, nodes, [&](int) { return axes; });
+  }
+  return solver::in_axes(field, nodes, solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z")));
+}
+
+// Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give their nodes.
+Reading read(const Keywords& action, const FieldSource& source) {
+  const bool by_nodes = names_a_place(action, node_places);
+  auto nodes = selected_nodes(action, source.mesh, by_nodes ? node_places : PlaceKeywords());
+  if (!names_a_place(action)) {
+    throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA or MAILLE");
+  }
+  const auto cells = selected_cells(action, source.mesh, cell_places);
+  solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
+  Row head = {{"INTITULE", action.has("INTITULE") ? action.text("INTITULE") : ""}};
+  head.insert(head.end(), source.columns.begin(), source.columns.end());
+  // A resultant is turned as a whole.
+  if (!action.has("RESULTANTE")) field = in_frame(action, source.mesh, nodes, field);
+  return {std::move(head), source.mesh, std::move(nodes), std::move(field)};
+}
+
+std::vector<int> wanted_components(const Keywords& action, const solver::NodalField& field) {
+  return chosen_components(action, field.components);
 }
 
 // One row a node that carries any of the components, with the place, the curvilinear abscissa along the list of nodes and
 // the values (U4.81.21).
-void add_rows(Table& table, const Keywords& action, const std::vector<int>& nodes, const solver::Mesh& mesh,
-              const solver::ResultStep& step, const solver::NodalField& field, const std::vector<int>& components) {
-  const std::string title = action.has("INTITULE") ? action.text("INTITULE") : "";
-  double abscissa = 0.0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const solver::Point& at = mesh.nodes[nodes[i]];
-    if (i > 0) abscissa += distance(mesh.nodes[nodes[i - 1]], at);
-    std::vector<std::pair<std::string, Cell>> row = {{"INTITULE", title},
-                                                     {"NOEUD", mesh.node_name(nodes[i])},
-                                                     {"RESU", action.concept_of("RESULTAT")->name},
-                                                     {"NOM_CHAM", action.text("NOM_CHAM")},
-                                                     {"NUME_ORDRE", static_cast<std::int64_t>(step.order)},
-                                                     {"INST", step.instant},
-                                                     {"ABSC_CURV", abscissa},
-                                                     {"COOR_X", at[0]},
-                                                     {"COOR_Y", at[1]},
-                                                     {"COOR_Z", at[2]}};
+void extract(Table& table, const Keywords& action, const Reading& reading) {
+  const auto components = wanted_components(action, reading.field);
+  const auto along = abscissas(reading);
+  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
+    const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
+    Row row = reading.head;
+    row.insert(row.begin() + 1, {"NOEUD", reading.mesh.node_name(reading.nodes[i])});
+    row.insert(row.end(), {{"ABSC_CURV", along[i]}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
     bool carried = false;
     for (const int component : components) {
-      const double value = field.at(nodes[i], component);
+      const double value = reading.field.at(reading.nodes[i], component);
       carried |= !std::isnan(value);
-      row.emplace_back(field.components[component], std::isnan(value) ? Cell() : Cell(value));
+      row.emplace_back(reading.field.components[component], std::isnan(value) ? Cell() : Cell(value));
     }
-    if (carried) add_row(table, row);
+    if (carried) table.add_row(row);
   }
 }
 
-std::vector<int> wanted_components(const Keywords& action, const solver::NodalField& field) {
-  std::vector<int> components;
-  if (action.given("NOM_CMP")) {
-    for (const std::string& name : action.texts("NOM_CMP")) components.push_back(component_of(action, field.components, name));
-    return components;
+// The sum over the nodes; with MOMENT under the names of a torsor's parts.
+void sum(Table& table, const Keywords& action, const Reading& reading) {
+  if (action.text("REPERE") == "CYLINDRIQUE") {
+    throw DiagnosticError("unsupported", "POST_RELEVE_T: a resultant has no axes that change from node to node", action.span_of("REPERE"),
+                          "take it in REPERE='GLOBAL' or 'UTILISATEUR'");
   }
-  for (std::size_t i = 0; i < field.components.size(); ++i) components.push_back(static_cast<int>(i));
-  return components;
+  const Eigen::Matrix3d axes = action.text("REPERE") == "UTILISATEUR" ? axes_by_angles(action) : Eigen::Matrix3d::Identity();
+  Row row = reading.head;
+  if (action.has("MOMENT")) {
+    const solver::Resultant total = solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"));
+    const Eigen::Vector3d force = axes * total.force, moment = axes * total.moment;
+    for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("RESULT_{}", "XYZ"[i]), force[i]);
+    for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("MOMENT_{}", "XYZ"[i]), moment[i]);
+    table.add_row(row);
+    return;
+  }
+  const bool turned = action.text("REPERE") == "UTILISATEUR";
+  const auto& field = turned ? solver::in_axes(reading.field, reading.nodes, [&](int) { return axes; }) : reading.field;
+  for (const std::string& name : action.texts("RESULTANTE")) {
+    const int component = component_of(action, field.components, name, "RESULTANTE");
+    double total = 0.0;
+    for (const int node : reading.nodes) {
+      if (const double value = field.at(node, component); !std::isnan(value)) total += value;
+    }
+    row.emplace_back(name, total);
+  }
+  table.add_row(row);
 }
 
-void extract(Table& table, const Keywords& action) {
-  const auto& concept_data = interpreter::data_of<ResultConcept>(action.concept_of("RESULTAT"), "RESULTAT");
-  const solver::Mesh& mesh = concept_data.result.mesh();
-  const auto nodes = selected_nodes(action, mesh);
-  for (const solver::ResultStep* step : selected_steps(action, concept_data.result)) {
-    const auto* field = std::get_if<solver::NodalField>(&field_of(action, *step));
-    if (field == nullptr) {
-      throw DiagnosticError("unsupported", "POST_RELEVE_T: " + action.text("NOM_CHAM") + " is a field on elements, not on nodes",
-                            action.span_of("NOM_CHAM"), "give a field on nodes (..._NOEU, DEPL, FORC_NODA ...)");
+// The values of a component at the nodes that carry it, and their abscissas.
+struct Profile {
+  std::vector<double> abscissas, values;
+  std::vector<int> nodes;
+};
+
+Profile profile(const Reading& reading, int component) {
+  Profile result;
+  const auto along = abscissas(reading);
+  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
+    const double value = reading.field.at(reading.nodes[i], component);
+    if (std::isnan(value)) continue;
+    result.abscissas.push_back(along[i]);
+    result.values.push_back(value);
+    result.nodes.push_back(reading.nodes[i]);
+  }
+  if (result.values.empty()) {
+    throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no node there carries {}", reading.field.components[component]));
+  }
+  return result;
+}
+
+// One row a quantity: the mean along the line, the slope, the extremes and the ends of the straight line of the same mean and slope.
+void average(Table& table, const Keywords& action, const Reading& reading) {
+  const auto components = wanted_components(action, reading.field);
+  std::vector<solver::LineMean> means;
+  for (const int component : components) {
+    const Profile values = profile(reading, component);
+    means.push_back(solver::line_mean(values.abscissas, values.values));
+  }
+  const auto add = [&](const char* quantity, auto&& value_of) {
+    Row row = reading.head;
+    row.emplace_back("QUANTITE", quantity);
+    for (std::size_t i = 0; i < components.size(); ++i) row.emplace_back(reading.field.components[components[i]], value_of(means[i]));
+    table.add_row(row);
+  };
+  add("MOMENT_0", [](const auto& mean) { return mean.mean; });
+  add("MOMENT_1", [](const auto& mean) { return mean.slope; });
+  add("MINIMUM", [](const auto& mean) { return mean.least; });
+  add("MAXIMUM", [](const auto& mean) { return mean.greatest; });
+  add("MOYE_INT", [](const auto& mean) { return mean.first(); });
+  add("MOYE_EXT", [](const auto& mean) { return mean.last(); });
+}
+
+void average_of_nodes(Table& table, const Keywords& action, const Reading& reading) {
+  for (const int component : wanted_components(action, reading.field)) {
+    const auto values = profile(reading, component).values;
+    double total = 0.0;
+    for (const double value : values) total += value;
+    Row row = reading.head;
+    row.insert(row.end(), {{"CMP", reading.field.components[component]}, {"MOYENNE", total / static_cast<double>(values.size())}});
+    table.add_row(row);
+  }
+}
+
+void list_extremes(Table& table, const Keywords& action, const Reading& reading) {
+  for (const int component : wanted_components(action, reading.field)) {
+    const auto found = solver::extremes(reading.field, component, std::span<const int>(reading.nodes));
+    if (!found) continue;
+    for (const auto& [name, extreme] : {std::pair("MAX", found->greatest), std::pair("MIN", found->least),
+                                        std::pair("MAXI_ABS", found->greatest_magnitude), std::pair("MINI_ABS", found->least_magnitude)}) {
+      Row row = reading.head;
+      row.insert(row.end(), {{"EXTREMA", std::string(name)},
+                             {"NOEUD", reading.mesh.node_name(extreme.place)},
+                             {"CMP", reading.field.components[component]},
+                             {"VALE", extreme.value}});
+      table.add_row(row);
     }
-    const auto components = wanted_components(action, *field);
-    add_rows(table, action, nodes, mesh, *step, *field, components);
+  }
+}
+
+void act(Table& table, const Keywords& action) {
+  for (const FieldSource& source : field_sources(action)) {
+    const Reading reading = read(action, source);
+    for (const std::string& operation : action.texts("OPERATION")) {
+      if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
+      if (operation == "EXTRACTION" && !action.has("RESULTANTE")) extract(table, action, reading);
+      if (operation == "MOYENNE") average(table, action, reading);
+      if (operation == "MOYENNE_ARITH") average_of_nodes(table, action, reading);
+      if (operation == "EXTREMA") list_extremes(table, action, reading);
+    }
   }
 }
 
@@ -86,7 +222,7 @@ void extract(Table& table, const Keywords& action) {
 
 Product post_releve_t(const Call& call, Context&) {
   auto product = std::make_shared<TableConcept>();
-  for (const Keywords& action : call.factors("ACTION")) extract(product->table, action);
+  for (const Keywords& action : call.factors("ACTION")) act(product->table, action);
   return product;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/functions.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
 
@@ -53,6 +54,18 @@ solver::StaticProblem static_problem(const Call& call) {
                                              : std::make_shared<const solver::ElementProperties>();
   problem.loads = applied_loads(call);
   return problem;
+}
+
+solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source) {
+  solver::StaticProblem problem = source.problem;
+  if (call.has("MODELE")) problem.model = call.data<ModelConcept>("MODELE").model;
+  if (call.has("CHAM_MATER")) problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
+  if (call.has("CARA_ELEM")) problem.properties = call.data<PropertiesConcept>("CARA_ELEM").properties;
+  if (!problem.properties) problem.properties = std::make_shared<const solver::ElementProperties>();
+  if (problem.model && problem.materials) return problem;
+  const char* missing = problem.model ? "CHAM_MATER" : "MODELE";
+  throw interpreter::DiagnosticError("missing-keyword", call.command + ": it is not known which " + (problem.model ? "materials" : "model") + " is meant",
+                                     call.span, std::string("give ") + missing);
 }
 
 SolverChoice solver_choice(const Call& call) {

@@ -95,10 +95,11 @@ const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) 
                         fmt::format("it holds {}; CALC_CHAMP computes more", fmt::join(known, ", ")));
 }
 
-int component_of(const Keywords& keywords, const std::vector<std::string>& components, const std::string& name) {
+int component_of(const Keywords& keywords, const std::vector<std::string>& components, const std::string& name,
+                 const char* keyword) {
   const auto found = std::find(components.begin(), components.end(), name);
   if (found != components.end()) return static_cast<int>(found - components.begin());
-  throw DiagnosticError("unknown-component", "the field has no component " + name, keywords.span_of("NOM_CMP"),
+  throw DiagnosticError("unknown-component", "the field has no component " + name, keywords.span_of(keyword),
                         fmt::format("it has {}", fmt::join(components, ", ")));
 }
 

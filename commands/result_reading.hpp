@@ -23,7 +23,8 @@ const solver::ResultStep& only_step(const interpreter::Keywords& keywords, const
 /// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.
 const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
 
-/// Index of a component among a field's names. Throws DiagnosticError `unknown-component` at NOM_CMP with the nearest name.
-int component_of(const interpreter::Keywords& keywords, const std::vector<std::string>& components, const std::string& name);
+/// Index of a component among a field's names. Throws DiagnosticError `unknown-component` at the keyword, listing them.
+int component_of(const interpreter::Keywords& keywords, const std::vector<std::string>& components, const std::string& name,
+                 const char* keyword = "NOM_CMP");
 
 }  // namespace comma::commands

@@ -21,6 +21,16 @@ int Table::add_column(const std::string& name) {
   return static_cast<int>(columns.size()) - 1;
 }
 
+void Table::add_row(const std::vector<std::pair<std::string, Cell>>& cells) {
+  std::vector<Cell> row(columns.size());
+  for (const auto& [name, cell] : cells) {
+    const auto column = static_cast<std::size_t>(add_column(name));
+    row.resize(columns.size());
+    row[column] = cell;
+  }
+  rows.push_back(std::move(row));
+}
+
 namespace {
 
 std::string format_cell(const Cell& cell, const std::string& real_format) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Table {
   int column(std::string_view name) const;
   /// Index of a column, added (empty in every row) if there is none.
   int add_column(const std::string& name);
+  /// Adds a row given by column names; a column that is new is empty in the rows before.
+  void add_row(const std::vector<std::pair<std::string, Cell>>& cells);
 };
 
 /// The table as aligned text: the title behind the comment sign, the column names, a line a row; an empty cell is `separator`'s "-".

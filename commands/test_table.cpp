@@ -24,7 +24,12 @@ TestedValue reduced(const Call& call, const Table& table, int column) {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0, [](double sum, double value) { return sum + std::abs(value); });
 }
 
-TestedValue only_cell(const Call& call, const Table& table, int column) {
+// A row that has nothing in the column takes no part, unless it is the only one.
+TestedValue only_cell(const Call& call, const Table& all, int column) {
+  Table table = all;
+  if (all.rows.size() > 1) {
+    std::erase_if(table.rows, [&](const auto& row) { return std::holds_alternative<std::monostate>(row[static_cast<std::size_t>(column)]); });
+  }
   if (table.rows.size() != 1) {
     throw DiagnosticError("wrong-count", fmt::format("TEST_TABLE: {} rows are left; a value is tested in one", table.rows.size()),
                           call.span_of("FILTRE"), "make FILTRE stricter or looser, or give TYPE_TEST");

@@ -157,6 +157,7 @@ struct CallNode : Node {
     std::string name;
     std::uint32_t name_begin = 0, name_end = 0;
     NodePtr value;
+    bool repeated = false;  ///< an argument before it has the same name, which has been reported: this one does not count
   };
   NodePtr callee;
   std::vector<Item> arguments;
@@ -224,6 +225,7 @@ enum class StatementKind {
   raise,
   import,
   import_from,
+  broken,
 };
 
 struct Statement {
@@ -318,6 +320,13 @@ struct ImportStatement : Statement {
   std::string module;  ///< of `from module import ...`
   std::uint32_t module_begin = 0, module_end = 0;
   std::vector<Item> items;
+};
+
+/// What could not be read, and has been reported. What it would have bound is unknown from here on.
+struct BrokenStatement : Statement {
+  using Statement::Statement;
+  std::vector<NodePtr> names;   ///< NameNodes
+  bool loses_any_name = false;  ///< names that nobody can tell, too
 };
 
 /// A parameter takes the slot of its index. Defaults are matched by `default_index` into the list made at definition.

@@ -63,6 +63,7 @@ struct RulePage {
   enum class Kind { exactly_one, at_least_one, at_most_one, all_or_none, requires_all, requires_one, excludes };
   Kind kind = Kind::exactly_one;
   std::vector<std::string> keywords;  ///< for the last three kinds, the first is the one that asks
+  bool asks_for_more() const { return kind == Kind::all_or_none || kind == Kind::requires_all || kind == Kind::requires_one; }
 };
 
 std::string_view name_of(RulePage::Kind kind);

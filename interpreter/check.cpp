@@ -20,7 +20,9 @@ namespace {
 struct Scope {
   const Scope* outer = nullptr;
   std::map<std::string, Value, std::less<>> values;
+  bool open = false;  ///< there are further keywords that are not known
 
+  bool any_open() const { return open || (outer != nullptr && outer->any_open()); }
   std::optional<Value> lookup(std::string_view name) const {
     for (const Scope* scope = this; scope != nullptr; scope = scope->outer)
       if (const auto found = scope->values.find(name); found != scope->values.end()) return found->second;
@@ -34,7 +36,8 @@ Truth holds(const Expression& condition, const Scope& scope) {
   const auto lookup = [&](std::string_view name) -> std::optional<Value> {
     if (auto value = scope.lookup(name)) return value;
     const bool keyword = std::ranges::find(condition.variables(), name) != condition.variables().end();
-    return keyword ? std::optional(Value()) : std::nullopt;
+    if (!keyword) return std::nullopt;
+    return scope.any_open() ? Value::unknown() : Value();
   };
   try {
     if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
@@ -63,11 +66,12 @@ struct Pending {
 struct Occurrence {
   std::vector<Argument> arguments;
   Span span;
+  bool open = false;
 };
 
 /// A dict with text keys stands for _F(...) too.
 std::optional<Occurrence> occurrence_of_dict(const Dict& dict, const Span& span) {
-  Occurrence occurrence{{}, span};
+  Occurrence occurrence{{}, span, false};
   for (const Dict::Entry& entry : dict.entries()) {
     if (!entry.live) continue;
     if (!entry.key.is_text()) return std::nullopt;
@@ -80,7 +84,7 @@ std::optional<Occurrence> occurrence_of(const Value& value, const Span& otherwis
   if (value.is_dict()) return occurrence_of_dict(value.as_dict(), otherwise);
   if (!value.is_factor()) return std::nullopt;
   const Factor& factor = value.as_factor();
-  return Occurrence{factor.arguments, factor.span ? factor.span : otherwise};
+  return Occurrence{factor.arguments, factor.span ? factor.span : otherwise, factor.open};
 }
 
 /// A single _F(...) or dict, or a tuple or list of them; unknown ones are left out.
@@ -106,7 +110,10 @@ class LevelCheck {
     result_.span = span_;
   }
 
-  Keywords run(const std::vector<Argument>& arguments) {
+  /// `open`: besides the arguments there may be others.
+  Keywords run(const std::vector<Argument>& arguments, bool open) {
+    scope_.open = open;
+    context_.met_open = context_.met_open || open;
     resolve(arguments);
     guess_misspelt();
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
@@ -153,26 +160,20 @@ class LevelCheck {
         if (keyword.required) scope_.values[keyword.name] = Value::unknown();
         continue;
       }
-      Diagnostics nothing;
-      CheckContext context{context_.catalogue, nothing};
-      context.quiet = true;
-      if (!check_value(*pending->argument->value, keyword, label_, pending->argument->value_span, context)) {
-        scope_.values[keyword.name] = Value::unknown();
-      }
+      if (!fits(keyword, *pending->argument)) scope_.values[keyword.name] = Value::unknown();
     }
   }
 
   /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends on
   /// it is not known.
   void guess_misspelt() {
-    if (level_.further) return;
-    std::set<std::string, std::less<>> known;
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { known.insert(keyword.name); });
-    const std::vector<std::string> names(known.begin(), known.end());
+    std::vector<std::string> names;  // in the order of the page, where the likelier ones stand first
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { names.push_back(keyword.name); });
     for (const Pending& pending : pending_) {
-      if (known.contains(pending.name)) continue;
-      std::string meant = nearest(pending.name, names);
-      if (meant.empty()) meant = only_missing();
+      if (std::ranges::find(names, pending.name) != names.end()) continue;
+      // Where the user may choose names, only one that stands for what must be there is a mistake.
+      std::string meant = nearest(pending.name, level_.further ? missing() : names);
+      if (meant.empty() && !level_.further) meant = only_missing();
       if (meant.empty() || is_given(meant) || guessed(meant)) continue;
       given_.push_back({meant, pending.argument->name_span});
       scope_.values[meant] = Value::unknown();
@@ -180,7 +181,21 @@ class LevelCheck {
     }
   }
 
-  /// The one keyword that the level asks for and that is not there; empty when there is none, or more.
+  /// The keywords that the level asks for, by themselves or as one of several, and that are not there.
+  std::vector<std::string> missing() const {
+    std::vector<std::string> names;
+    const auto is_there = [&](const std::string& name) { return is_given(name) || guessed(name); };
+    for (const KeywordPage& keyword : level_.keywords) {
+      if (keyword.required && !is_there(keyword.name)) names.push_back(keyword.name);
+    }
+    for (const RulePage& rule : level_.rules) {
+      const bool asks = rule.kind == RulePage::Kind::exactly_one || rule.kind == RulePage::Kind::at_least_one;
+      if (asks && std::ranges::none_of(rule.keywords, is_there)) names.insert(names.end(), rule.keywords.begin(), rule.keywords.end());
+    }
+    return names;
+  }
+
+  /// The one compulsory keyword that is not there; empty when there is none, or more.
   std::string only_missing() const {
     std::string only;
     for (const KeywordPage& keyword : level_.keywords) {
@@ -203,12 +218,6 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
-    // A call that names it twice in so many letters was told so when it was read.
-    const auto told = [&](const Diagnostic& item) {
-      return item.code == "repeated-keyword" && item.span.file == pending.argument->name_span.file &&
-             item.span.begin == pending.argument->name_span.begin;
-    };
-    if (std::ranges::any_of(context_.diagnostics.items(), told)) return;
     const std::string also =
         pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
@@ -218,7 +227,7 @@ class LevelCheck {
   /// `certain` is false in a block whose condition depends on a value that is unknown: nothing is missing there.
   void activate(const LevelPage& level, bool certain) {
     for (const KeywordPage& keyword : level.keywords) take(keyword, certain);
-    if (certain) check_rules(level.rules, given_, label_, span_, context_.diagnostics);
+    if (certain && !scope_.open) check_rules(level.rules, given_, label_, span_, context_.diagnostics);
     for (const BlockPage& block : level.blocks) {
       const Truth truth = holds(*block.condition, scope_);
       if (truth != Truth::no) activate(block.inside, certain && truth == Truth::yes);
@@ -230,18 +239,39 @@ class LevelCheck {
     const auto pending = std::ranges::find(pending_, keyword.name, &Pending::name);
     if (pending != pending_.end()) {
       pending->used = true;
-      if (certain) {
+      if (certain || only_page(keyword) || fits_no_page(keyword.name, *pending->argument)) {
         take_given(keyword, *pending->argument);
       } else {
         take_unjudged(keyword, *pending->argument);
       }
     } else if (guessed(keyword.name)) {
       return;
-    } else if (certain) {
+    } else if (certain && !scope_.open) {
       take_default(keyword);
     } else {
-      scope_.values[keyword.name] = Value::unknown();  // its default would stand here if the block exists
+      scope_.values[keyword.name] = Value::unknown();  // it may be given, or its default would stand here if the block exists
     }
+  }
+
+  std::vector<const KeywordPage*> pages_of(const std::string& name) const {
+    std::vector<const KeywordPage*> pages;
+    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
+      if (keyword.name == name) pages.push_back(&keyword);
+    });
+    return pages;
+  }
+  bool only_page(const KeywordPage& keyword) const { return pages_of(keyword.name).size() == 1; }
+
+  /// Whether the value is wrong in whichever of the blocks the keyword may be meant.
+  bool fits_no_page(const std::string& name, const Argument& argument) const {
+    return std::ranges::none_of(pages_of(name), [&](const KeywordPage* page) { return page->is_factor() || fits(*page, argument); });
+  }
+
+  bool fits(const KeywordPage& page, const Argument& argument) const {
+    Diagnostics nothing;
+    CheckContext context{context_.catalogue, nothing};
+    context.quiet = true;
+    return check_value(*argument.value, page, label_, argument.value_span, context).has_value();
   }
 
   /// A keyword of a block that may not be the right one: other blocks may describe it otherwise.
@@ -252,7 +282,7 @@ class LevelCheck {
 
   /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
   void take_other(const Pending& pending) {
-    if (!level_.further) return report_stray(pending);
+    if (!level_.further || guesses_.contains(pending.name)) return report_stray(pending);
     KeywordPage keyword = *level_.further;
     keyword.name = pending.name;
     take_given(keyword, *pending.argument);
@@ -297,7 +327,7 @@ class LevelCheck {
     }
     check_occurrence_count(keyword, label, occurrences->size(), argument.value_span);
     for (const Occurrence& occurrence : *occurrences)
-      item.factors.push_back(check_occurrence(keyword, occurrence.arguments, label, occurrence.span));
+      item.factors.push_back(check_occurrence(keyword, occurrence, label));
     return true;
   }
 
@@ -312,9 +342,8 @@ class LevelCheck {
       context_.diagnostics.error("wrong-count", fmt::format("{} takes {}, not {}", label, wanted, count), span);
   }
 
-  Keywords check_occurrence(const KeywordPage& keyword, const std::vector<Argument>& arguments,
-                            const std::string& label, const Span& span) {
-    return LevelCheck(keyword.inside, label, span, &scope_, context_).run(arguments);
+  Keywords check_occurrence(const KeywordPage& keyword, const Occurrence& occurrence, const std::string& label) {
+    return LevelCheck(keyword.inside, label, occurrence.span, &scope_, context_).run(occurrence.arguments, occurrence.open);
   }
 
   void take_default(const KeywordPage& keyword) {
@@ -325,7 +354,7 @@ class LevelCheck {
     }
     Keyword item{keyword.name, Value(), {}, Span(), Span(), false};
     if (keyword.present_by_default) {
-      item.factors.push_back(check_occurrence(keyword, {}, label_ + "/" + keyword.name, span_));
+      item.factors.push_back(check_occurrence(keyword, {{}, span_, false}, label_ + "/" + keyword.name));
     } else if (keyword.default_value) {
       item.value = default_of(keyword);
       scope_.values[keyword.name] = item.value;
@@ -430,7 +459,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
   CheckedCall checked;
-  static_cast<Keywords&>(checked.call) = level.run(arguments);
+  static_cast<Keywords&>(checked.call) = level.run(arguments, written.open);
   checked.call.span = written.span;
   checked.call.command = page.name;
   checked.product_type = product_type(page, level.scope());
@@ -439,7 +468,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
 
   checked.sound = count_errors(diagnostics) == errors_before;
   const bool unknown_reuse = reused && reuse->value->is_unknown();
-  checked.complete = checked.sound && !context.met_unsupported && !unknown_reuse && !holds_unknown(checked.call);
+  checked.complete = checked.sound && !context.met_unsupported && !context.met_open && !unknown_reuse && !holds_unknown(checked.call);
   return checked;
 }
 

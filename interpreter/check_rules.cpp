@@ -94,6 +94,7 @@ class RuleCheck {
   }
 
   void report_required(const GivenKeyword& asking, const std::string& missing) {
+    if (blamed_.contains(asking.name)) return;
     diagnostics_.error("requires-keyword", fmt::format("{}/{} goes together with {}", label_, asking.name, missing),
                        asking.name_span, fmt::format("add {}", missing));
   }
@@ -118,7 +119,12 @@ class RuleCheck {
 void check_rules(const std::vector<RulePage>& rules, const std::vector<GivenKeyword>& given, const std::string& label,
                  const Span& span, Diagnostics& diagnostics) {
   std::set<std::string> blamed;
-  for (const RulePage& rule : rules) RuleCheck(rule, given, label, span, diagnostics, blamed).run();
+  const auto run = [&](const RulePage& rule) { RuleCheck(rule, given, label, span, diagnostics, blamed).run(); };
+  // First what is too much: a keyword that should not be there asks for no others.
+  for (const RulePage& rule : rules)
+    if (!rule.asks_for_more()) run(rule);
+  for (const RulePage& rule : rules)
+    if (rule.asks_for_more()) run(rule);
 }
 
 std::string describe_rule(const RulePage& rule) {

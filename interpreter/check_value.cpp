@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "interpreter/item_span.hpp"
+
 namespace comma::interpreter {
 namespace {
 
@@ -135,26 +137,36 @@ class ValueCheck {
       items.assign(value.items().begin(), value.items().end());
     else
       items.push_back(value);
+    written_as_several_ = several;
     if (!check_types(items)) return std::nullopt;
-    const bool right_count = check_count(items.size());
-    bool right = right_count;
-    for (const Value& item : items) right = check_word(item) && check_bounds(item) && right;
+    bool right = check_count(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Place place{i, items.size()};
+      right = check_word(items[i], place) && check_bounds(items[i], place) && right;
+    }
     if (!right) return std::nullopt;
     return page_.holds_many() ? Value::tuple(std::move(items)) : items.front();
   }
 
  private:
-  void error(std::string code, std::string message, std::string hint = {}) {
-    context_.diagnostics.error(std::move(code), std::move(message), span_, std::move(hint));
+  /// Which of how many values.
+  struct Place {
+    std::size_t index = 0, count = 1;
+  };
+  Span span_at(const Place& place) const { return written_as_several_ ? item_span(span_, place.index, place.count) : span_; }
+
+  void error(std::string code, std::string message, const Span& span, std::string hint = {}) {
+    context_.diagnostics.error(std::move(code), std::move(message), span, std::move(hint));
   }
 
   /// Converts in place; stops at the first element of a wrong type, for the others are likely to be wrong alike.
   bool check_types(std::vector<Value>& items) {
-    for (Value& item : items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      Value& item = items[i];
       if (item.is_unknown()) continue;
       const auto converted = convert_any(item);
       if (!converted) {
-        report_type(item);
+        report_type(item, {i, items.size()});
         return false;
       }
       item = *converted;
@@ -168,12 +180,12 @@ class ValueCheck {
     return std::nullopt;
   }
 
-  void report_type(const Value& item) {
+  void report_type(const Value& item, const Place& place) {
     const bool wrong_concept = item.is_concept() && admits(page_, Kind::concept_kind);
     error(wrong_concept ? "wrong-concept-type" : "wrong-type",
           fmt::format("{} wants {}, not {}", label_, describe_types(page_, context_.catalogue),
                       describe_value(item, context_.catalogue)),
-          type_hint(item));
+          span_at(place), type_hint(item));
   }
 
   std::string type_hint(const Value& item) const {
@@ -205,24 +217,24 @@ class ValueCheck {
     const bool fits = page_.max_count == unlimited || count <= static_cast<std::size_t>(page_.max_count);
     if (enough && fits) return true;
     error("wrong-count",
-          fmt::format("{} wants {}, not {}", label_, describe_count(page_.min_count, page_.max_count, "value"), count));
+          fmt::format("{} wants {}, not {}", label_, describe_count(page_.min_count, page_.max_count, "value"), count), span_);
     return false;
   }
 
-  bool check_word(const Value& item) {
+  bool check_word(const Value& item, const Place& place) {
     if (page_.words.empty() || item.is_unknown() || item.is_concept()) return true;
     const auto word =
         std::ranges::find_if(page_.words, [&](const WordPage& known) { return same_word(item, known.value); });
     if (word == page_.words.end()) {
-      report_word(item);
+      report_word(item, place);
       return false;
     }
     if (!word->supported)
-      context_.report_unsupported(fmt::format("comma does not support {}={} yet", label_, item.repr()), span_);
+      context_.report_unsupported(fmt::format("comma does not support {}={} yet", label_, item.repr()), span_at(place));
     return true;
   }
 
-  void report_word(const Value& item) {
+  void report_word(const Value& item, const Place& place) {
     constexpr std::size_t most_listed = 12;
     std::vector<std::string> known, shown;
     for (const WordPage& word : page_.words) {
@@ -238,12 +250,12 @@ class ValueCheck {
       if (cut) shown.resize(most_listed);
       hint = fmt::format("one of {}{}", fmt::join(shown, ", "), cut ? ", ..." : "");
     }
-    error("unknown-word", fmt::format("{} does not know {}", label_, item.repr()), hint);
+    error("unknown-word", fmt::format("{} does not know {}", label_, item.repr()), span_at(place), hint);
   }
 
-  bool check_bounds(const Value& item) {
+  bool check_bounds(const Value& item, const Place& place) {
     if (!item.is_number() || within(item.as_real(), page_.bounds)) return true;
-    error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()));
+    error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()), span_at(place));
     return false;
   }
 
@@ -251,6 +263,7 @@ class ValueCheck {
   const std::string& label_;
   const Span& span_;
   CheckContext& context_;
+  bool written_as_several_ = false;
 };
 
 }  // namespace

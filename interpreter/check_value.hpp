@@ -16,6 +16,7 @@ struct CheckContext {
   Diagnostics& diagnostics;
   Severity unsupported = Severity::error;
   bool met_unsupported = false;
+  bool met_open = false;  ///< a level has arguments that are not known
   bool quiet = false;  ///< inside a keyword that was itself reported as unsupported
 
   void report_unsupported(std::string message, const Span& span);

@@ -92,6 +92,13 @@ bool ordered(Operator op, const Value& a, const Value& b, int depth) {
   raise_not_ordered(op, a, b);
 }
 
+/// In the items of a list or tuple, or in theirs.
+bool holds_unknown(const Value& value, int depth = 0) {
+  if (value.is_unknown()) return true;
+  if (!value.is_sequence() || depth > deepest_compared) return false;
+  return std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth + 1); });
+}
+
 bool contains_text(const Value& container, const Value& item) {
   if (!item.is_text()) {
     raise(ErrorKind::type, "'in <string>' requires string as left operand, not " + item.type_name(),
@@ -167,8 +174,12 @@ Value compare(Operator op, const Value& a, const Value& b) {
   if (op == Operator::is) return a.is_unknown() || b.is_unknown() ? Value::unknown() : Value(identical(a, b));
   if (op == Operator::is_not) return a.is_unknown() || b.is_unknown() ? Value::unknown() : Value(!identical(a, b));
   if (a.is_unknown() || b.is_unknown()) return Value::unknown();
-  if (op == Operator::in) return contains(b, a);
-  if (op == Operator::not_in) return !contains(b, a);
+  if (op == Operator::in || op == Operator::not_in) {
+    const bool found = contains(b, a);
+    if (!found && (holds_unknown(a) || holds_unknown(b))) return Value::unknown();
+    return found == (op == Operator::in);
+  }
+  if (holds_unknown(a) || holds_unknown(b)) return Value::unknown();
   if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr) {
     Meter meter{Limits{}};
     return array_operation(op, a, b, meter);

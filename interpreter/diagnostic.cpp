@@ -82,6 +82,10 @@ std::string lower(std::string_view word) {
   return text;
 }
 
+std::size_t common_prefix(std::string_view a, std::string_view b) {
+  return static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+}
+
 /// No known word is longer; a longer one is no misspelling of any, and its distance table would be a waste.
 constexpr std::size_t longest_known_word = 64;
 
@@ -133,12 +137,17 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   const std::string folded = lower(word);
   std::string best;
   std::size_t best_distance = most + 1;
+  std::size_t best_prefix = 0;
   for (const std::string& candidate : known) {
     if (candidate.size() > word.size() + most || candidate.size() + most < word.size() || candidate == word) continue;
     // A word in the wrong case is one slip, however long it is.
     const std::size_t distance = std::min(edit_distance(word, candidate), edit_distance(folded, lower(candidate)) + 1);
-    if (distance >= best_distance) continue;
+    if (distance > most || distance > best_distance) continue;
+    // Of words as near, the one that begins like the written one, for a slip in the first letters is rare.
+    const std::size_t prefix = common_prefix(folded, lower(candidate));
+    if (distance == best_distance && prefix <= best_prefix) continue;
     best_distance = distance;
+    best_prefix = prefix;
     best = candidate;
   }
   return best;

@@ -63,6 +63,7 @@ void Evaluator::run(const Ast& ast) {
 
 void Evaluator::include(const Ast& ast) {
   check_stack();
+  const Meter::Resume own_work(meter_);
   struct Return {
     Evaluator& self;
     std::shared_ptr<const SourceFile> file;
@@ -166,6 +167,7 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   const auto& word = name.id;
   const bool like_a_command =
       called && std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; });
+  if (names_lost_ && !like_a_command) return Value::unknown();
   std::vector<std::string> known = global_names();
   const std::vector<std::string> commands = host_.command_names();
   const std::vector<std::string> builtins = builtin_names();

@@ -69,6 +69,7 @@ class Evaluator {
   Flow execute_for(const ForStatement& statement);
   Flow execute_try(const TryStatement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
+  Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);
   void execute_assign(const AssignStatement& statement);
   void execute_augmented(const AugmentedStatement& statement);
@@ -158,6 +159,7 @@ class Evaluator {
   std::shared_ptr<const FunctionCode> code_;  ///< of the function that runs; null in the file itself
   std::shared_ptr<int> run_token_;            ///< lives as long as the tree that runs
   std::uint64_t failures_ = 0;                ///< errors so far, here and in the host
+  bool names_lost_ = false;                   ///< an unknown name may be one that a broken statement would have bound
   std::size_t errors_seen_ = 0;               ///< how many diagnostics `failures_` has counted
   int tries_ = 0;
   int strict_ = 0;

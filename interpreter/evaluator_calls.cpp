@@ -84,6 +84,7 @@ Value Evaluator::evaluate_argument(const Node& node, bool tolerant) {
 CallArguments Evaluator::evaluate_arguments(const CallNode& node, bool tolerant) {
   CallArguments arguments;
   for (const CallNode::Item& item : node.arguments) {
+    if (item.repeated) continue;
     Value value = evaluate_argument(*item.value, tolerant);
     switch (item.kind) {
       case CallNode::Kind::positional:
@@ -113,8 +114,12 @@ void Evaluator::spread_mapping(CallArguments& arguments, const Value& mapping, c
       raise(ErrorKind::type, fmt::format("got multiple values for keyword argument '{}'", name));
     arguments.named.push_back({name, value, name_span, value_span});
   };
-  if (mapping.is_unknown()) return;
+  if (mapping.is_unknown()) {
+    arguments.open = true;
+    return;
+  }
   if (mapping.is_factor()) {
+    arguments.open = arguments.open || mapping.as_factor().open;
     for (const Argument& item : mapping.as_factor().arguments)
       add(item.name, *item.value, item.name_span, item.value_span);
     return;
@@ -203,6 +208,7 @@ Value Evaluator::make_factor(const CallArguments& arguments) {
   auto factor = std::make_shared<Factor>();
   factor->arguments = named_arguments(arguments, "_F");
   factor->span = arguments.span;
+  factor->open = arguments.open;
   return Value(std::shared_ptr<const Factor>(std::move(factor)));
 }
 
@@ -213,6 +219,7 @@ Value Evaluator::call_command(const std::string& name, const CallArguments& argu
   command.name_span = arguments.callee_span;
   command.span = arguments.span;
   command.arguments = named_arguments(arguments, name);
+  command.open = arguments.open;
   command.scope = [this](std::string_view word) { return visible(word); };
   return with_host([&] { return host_.call(command, !recovering()); });
 }
@@ -225,7 +232,8 @@ std::optional<Value> Evaluator::visible(std::string_view name) const {
     if (slot != code_->slots.end() && index < frame_->slots.size() && frame_->slots[index]) return frame_->slots[index];
   }
   const Value* value = global(name);
-  return value == nullptr ? std::nullopt : std::optional(*value);
+  if (value != nullptr) return *value;
+  return names_lost_ ? std::optional(Value::unknown()) : std::nullopt;
 }
 
 // Functions

@@ -81,6 +81,8 @@ Evaluator::Flow Evaluator::execute(const Statement& statement) {
       case StatementKind::import_from:
         execute_import_from(static_cast<const ImportStatement&>(statement));
         return Flow::next;
+      case StatementKind::broken:
+        return execute_broken(static_cast<const BrokenStatement&>(statement));
       default:
         return execute_compound(statement);
     }
@@ -115,6 +117,17 @@ void Evaluator::forget_bound(const Statement& statement) {
     if (!name->global || globals_.contains(name->id) || builtin_value(name->id) == nullptr)
       store(*name, Value::unknown());
   }
+}
+
+/// What could not be read is only forgotten. It ends a function, whose exit it may have been, and after this turn the loop
+/// around it: both might go on for ever without it.
+Evaluator::Flow Evaluator::execute_broken(const BrokenStatement& statement) {
+  ++failures_;
+  names_lost_ = names_lost_ || statement.loses_any_name;
+  forget_bound(statement);
+  if (calls_ == 0) return Flow::next;
+  returned_ = Value::unknown();
+  return Flow::return_;
 }
 
 /// Neither branch is taken, since nobody knows which: what either would bind is unknown.

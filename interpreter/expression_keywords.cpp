@@ -22,6 +22,17 @@ const Argument* find_argument(const CommandCall& call, const std::string& name) 
   return found == call.arguments.end() ? nullptr : &*found;
 }
 
+/// Whether the call says which variables its expressions have: without that, none of their names can be judged.
+bool names_variables(const CommandCall& call, const LevelPage& level) {
+  const auto is_text = [](const Value& value) { return value.is_text(); };
+  return std::ranges::any_of(level.keywords, [&](const KeywordPage& keyword) {
+    const Argument* argument = holds(keyword, Kind::parameter) ? find_argument(call, keyword.name) : nullptr;
+    if (argument == nullptr) return false;
+    const Value& value = *argument->value;
+    return value.is_sequence() ? std::ranges::all_of(value.items(), is_text) : value.is_text();
+  });
+}
+
 /// The names that need no binding: other arguments, and what the keywords of type `parameter` list.
 std::set<std::string, std::less<>> own_names(const CommandCall& call, const LevelPage& level) {
   std::set<std::string, std::less<>> names;
@@ -54,7 +65,10 @@ std::optional<Expression> read_expression(const Argument& argument, Diagnostics&
 class Binder {
  public:
   Binder(CommandCall& call, const CommandPage& page, Diagnostics& diagnostics)
-      : call_(call), diagnostics_(diagnostics), own_(own_names(call, page.inside)) {}
+      : call_(call),
+        diagnostics_(diagnostics),
+        own_(own_names(call, page.inside)),
+        judges_names_(names_variables(call, page.inside)) {}
 
   bool bind(const Argument& argument) {
     const auto expression = read_expression(argument, diagnostics_);
@@ -73,6 +87,7 @@ class Binder {
       return true;
     }
     if (builtin_value(name) != nullptr || math_value(name) != nullptr) return true;
+    if (!judges_names_) return true;  // that a keyword is missing or wrong is told by the syntax
     own_.insert(name);
     const std::string near = nearest(name, {own_.begin(), own_.end()});
     diagnostics_.error("unknown-name", fmt::format("{} uses {}, which is neither a parameter nor defined before this line", argument.name, name),
@@ -83,6 +98,7 @@ class Binder {
   CommandCall& call_;
   Diagnostics& diagnostics_;
   std::set<std::string, std::less<>> own_;
+  bool judges_names_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct CommandCall {
   Span name_span;
   Span span;
   std::vector<Argument> arguments;
+  bool open = false;  ///< there are further arguments that are not known (those of an unknown **mapping)
   /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be empty.
   std::function<std::optional<Value>(std::string_view)> scope = {};
 };

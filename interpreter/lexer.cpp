@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "interpreter/big_integer.hpp"
 #include "interpreter/utf8.hpp"
@@ -135,6 +136,28 @@ int Lexer::measure_indentation() {
   return column;
 }
 
+/// A line between two levels belongs to the inner block (indented by `inner`) if that goes on behind it, else to a block of
+/// its own in the outer one.
+void Lexer::fit_indentation(int column, int inner) {
+  error("bad-indentation", "this line is indented less than its block but more than the one around it", at_, at_ + 1,
+        fmt::format("indent it by {} or by {} blanks", indents_.back(), inner));
+  if (column_of_next_statement() >= inner) {
+    indents_.push_back(inner);
+    --pending_dedents_;
+  } else {
+    indents_.push_back(column);
+    pending_indent_ = true;
+  }
+}
+
+int Lexer::column_of_next_statement() const {
+  Diagnostics told_later;
+  Lexer rest(file_, told_later, at_, end_);
+  Token token = rest.next();
+  while (token.kind != TokenKind::newline && token.kind != TokenKind::end) token = rest.next();
+  return rest.next().column;
+}
+
 // Blank lines and comments have no indentation; any other line may open or close blocks.
 Token Lexer::lex_line_start() {
   while (true) {
@@ -155,16 +178,12 @@ Token Lexer::lex_line_start() {
       indents_.push_back(effective);
       return make(TokenKind::indent, at_);
     }
+    const std::vector<int> before = indents_;
     while (effective < indents_.back()) {
       indents_.pop_back();
       ++pending_dedents_;
     }
-    if (effective != indents_.back()) {
-      error("bad-indentation", "this line is indented less than its block but more than the one around it", at_,
-            at_ + 1, fmt::format("indent it by {} or by {} blanks", indents_.back(), effective));
-      indents_.push_back(effective);
-      --pending_dedents_;
-    }
+    if (effective != indents_.back()) fit_indentation(effective, before[indents_.size()]);
     if (pending_dedents_ > 0) {
       --pending_dedents_;
       return make(TokenKind::dedent, at_);
@@ -215,6 +234,11 @@ Token Lexer::next() {
   if (pending_dedents_ > 0) {
     --pending_dedents_;
     return make(TokenKind::dedent, at_);
+  }
+  if (std::exchange(pending_indent_, false)) {
+    Token token = make(TokenKind::indent, at_);
+    token.flawed = true;
+    return token;
   }
   if (line_start_) return lex_line_start();
   if (auto newline = skip_blanks()) return *newline;

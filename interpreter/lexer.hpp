@@ -29,6 +29,8 @@ class Lexer {
 
  private:
   Token lex_line_start();
+  void fit_indentation(int column, int inner);
+  int column_of_next_statement() const;
   Token make(TokenKind kind, std::uint32_t begin) const;
   Token lex_name();
   Token lex_number();
@@ -54,6 +56,7 @@ class Lexer {
   int depth_ = 0;
   int column_ = 0;
   int pending_dedents_ = 0;
+  bool pending_indent_ = false;  ///< of a block that nothing opens, which has been reported
   bool anything_on_line_ = false;
   std::vector<int> indents_{0};
 };

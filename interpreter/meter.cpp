@@ -78,15 +78,30 @@ void Meter::check_integer(std::uint64_t bits) const {
       "compute with float where the last digit does not matter");
 }
 
-Meter::Pause::Pause(Meter& meter) : meter_(meter), begun_(Clock::now()) {}
+Meter::Pause::Pause(Meter& meter) : meter_(meter), around_(std::exchange(meter.pause_, this)), begun_(Clock::now()) {}
 
 Meter::Pause::~Pause() {
+  meter_.pause_ = around_;
+  // What lies inside another pause is counted there.
+  if (around_ == nullptr) count_out();
+}
+
+void Meter::Pause::count_out() {
   // A shorter one (the cell of a table) cannot have taken much.
   constexpr auto worth_counting = std::chrono::milliseconds(1);
   const auto length = Clock::now() - begun_;
   if (meter_.started_ == Clock::time_point{} || length < worth_counting) return;
   meter_.started_ += length;
   meter_.others_worked_ = true;
+}
+
+Meter::Resume::Resume(Meter& meter) : meter_(meter), paused_(std::exchange(meter.pause_, nullptr)) {
+  if (paused_ != nullptr) paused_->count_out();
+}
+
+Meter::Resume::~Resume() {
+  meter_.pause_ = paused_;
+  if (paused_ != nullptr) paused_->begun_ = Clock::now();
 }
 
 }  // namespace comma::interpreter

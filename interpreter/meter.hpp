@@ -44,8 +44,25 @@ class Meter {
     Pause& operator=(const Pause&) = delete;
 
    private:
+    friend class Meter;
+    void count_out();
+
     Meter& meter_;
+    Pause* around_;
     std::chrono::steady_clock::time_point begun_;
+  };
+
+  /// While it lives, within a pause, the file's own work goes on (that of a file that it includes).
+  class Resume {
+   public:
+    explicit Resume(Meter& meter);
+    ~Resume();
+    Resume(const Resume&) = delete;
+    Resume& operator=(const Resume&) = delete;
+
+   private:
+    Meter& meter_;
+    Pause* paused_;
   };
 
  private:
@@ -61,6 +78,7 @@ class Meter {
   std::uint64_t growth_ = 0;    ///< of the memory, at the last look
   bool others_worked_ = false;  ///< since the last look: what the memory has grown by is theirs
   Clock::time_point started_{};
+  Pause* pause_ = nullptr;  ///< the innermost one; null while the file itself works
 };
 
 }  // namespace comma::interpreter

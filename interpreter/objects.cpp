@@ -13,7 +13,7 @@ const Value* CallArguments::find(std::string_view name) const {
 }
 
 bool CallArguments::any_unknown() const {
-  return std::any_of(positional.begin(), positional.end(), [](const Value& v) { return v.is_unknown(); }) ||
+  return open || std::any_of(positional.begin(), positional.end(), [](const Value& v) { return v.is_unknown(); }) ||
          std::any_of(named.begin(), named.end(), [](const Named& item) { return item.value.is_unknown(); });
 }
 

@@ -27,6 +27,7 @@ struct CallArguments {
   };
   std::vector<Value> positional;
   std::vector<Named> named;
+  bool open = false;  ///< there are further ones that are not known (those of an unknown **mapping)
   Span callee_span, span;
 
   CallArguments() = default;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <set>
 
 namespace comma::interpreter {
 
@@ -35,6 +36,28 @@ bool looks_like_command(std::string_view text) {
   const std::string_view name = text.substr(callee, at - callee);
   at = skip_blanks(text, at);
   return !name.empty() && name != "_F" && at < text.size() && text[at] == '(';
+}
+
+/// Behind NAME or NAME, NAME ...
+std::size_t skip_targets(std::string_view text) {
+  std::size_t at = skip_blanks(text, skip_word(text, 0));
+  while (at < text.size() && text[at] == ',') {
+    const std::size_t name = skip_blanks(text, at + 1);
+    if (skip_word(text, name) == name) break;
+    at = skip_blanks(text, skip_word(text, name));
+  }
+  return at;
+}
+
+bool is_compound_word(std::string_view word) {
+  return word == "if" || word == "for" || word == "else";
+}
+
+/// A comprehension, too, has `for` and `if` at the start of a line; only a header ends its line with a colon.
+bool line_ends_with_colon(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n#"));
+  const std::size_t last = line.find_last_not_of(" \t");
+  return last != std::string_view::npos && line[last] == ':';
 }
 
 std::string_view closing_of(std::string_view opening) {
@@ -81,17 +104,26 @@ void Parser::advance() {
     broken_ = false;
   }
   if (now_.end > previous_end_ && now_.kind != TokenKind::newline) previous_end_ = now_.end;
+  const bool part_of_statement = now_.kind != TokenKind::indent && now_.kind != TokenKind::dedent;
+  flawed_ = flawed_ || (now_.flawed && part_of_statement);
   if (ahead_) {
     now_ = std::move(*ahead_);
     ahead_.reset();
   } else {
-    now_ = lexer_.next();
+    now_ = lex();
   }
   broken_ = broken_ || now_.kind == TokenKind::broken;
 }
 
+Token Parser::lex() {
+  const std::size_t findings = diagnostics_.items().size();
+  Token token = lexer_.next();
+  token.flawed = token.flawed || diagnostics_.items().size() != findings;
+  return token;
+}
+
 const Token& Parser::ahead() {
-  if (!ahead_) ahead_ = lexer_.next();
+  if (!ahead_) ahead_ = lex();
   return *ahead_;
 }
 
@@ -117,7 +149,14 @@ void Parser::fail(std::string code, std::string message, Span span, std::string 
   throw Failure{std::move(finding), now_.begin};
 }
 
+/// An error after which the statement is read on for its other errors, and then left out.
 void Parser::report(std::string code, std::string message, Span span, std::string hint) {
+  flawed_ = true;
+  report_mended(std::move(code), std::move(message), std::move(span), std::move(hint));
+}
+
+/// An error that leaves no doubt about what was meant: the statement counts as if it had been written so.
+void Parser::report_mended(std::string code, std::string message, Span span, std::string hint) {
   if (broken_) return;
   ++errors_;
   diagnostics_.error(std::move(code), std::move(message), std::move(span), std::move(hint));
@@ -168,7 +207,7 @@ void Parser::expect_colon(std::string_view after) {
   if (accept(":")) return;
   if (at("=")) fail("syntax", "'=' assigns, it does not compare", span_of(now_), "write '=='");
   if (now_.kind != TokenKind::newline) fail_here(fmt::format("':' after {}", after));
-  report("missing-colon", fmt::format("':' is missing after {}", after), span_of(now_), "end the line with ':'");
+  report_mended("missing-colon", fmt::format("':' is missing after {}", after), span_of(now_), "end the line with ':'");
 }
 
 /// After an item of a bracket: true when another one may follow. A missing comma is reported and taken as written.
@@ -194,13 +233,14 @@ bool Parser::starts_line_outside(const Token& token) const {
 /// Whether a line inside brackets is rather the next statement, the brackets having been left open.
 bool Parser::starts_statement(const Token& token) const {
   if (!starts_line_outside(token)) return false;
+  const std::string_view rest = file_->text().substr(token.begin);
   if (token.kind == TokenKind::keyword) {
-    return std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
+    const bool only_there = std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
+    return only_there || (is_compound_word(token.text) && line_ends_with_colon(rest));
   }
   if (token.kind != TokenKind::name) return false;
-  const std::string_view rest = file_->text().substr(token.begin);
   if (looks_like_command(rest)) return true;
-  const std::size_t next = skip_blanks(rest, skip_word(rest, 0));
+  const std::size_t next = skip_targets(rest);
   const bool call_or_assignment = next < rest.size() && (rest[next] == '(' || rest[next] == '=');
   const char before = file_->text().substr(0, previous_end_).back();
   return call_or_assignment && std::string_view(",([{=+-*/%:").find(before) == std::string_view::npos;
@@ -227,7 +267,7 @@ void Parser::recover(Failure failure, const Token& start) {
     failure.finding = {Severity::error, "unclosed-bracket", fmt::format("this '{}' is never closed", left_open->text),
                        fmt::format("add '{}'", closing_of(left_open->text)), span_of(*left_open)};
   }
-  const bool is_news = !failure.finding.message.empty() && (never_closed || !follows_from_broken);
+  const bool is_news = !failure.finding.message.empty() && !follows_from_broken;
   if (is_news) {
     ++errors_;
     diagnostics_.add(std::move(failure.finding));
@@ -283,6 +323,7 @@ Block Parser::parse_file() {
     if (errors_ >= most_errors) {
       diagnostics_.error("too-many-errors", fmt::format("{} errors: the rest of the file is not read", errors_),
                          span_of(now_));
+      leave_out_rest(block);
       break;
     }
     // Only a dedent that the lexer made of a wrong indentation ends the statements before the file does.
@@ -306,11 +347,30 @@ NodePtr Parser::parse_only_expression() {
   }
 }
 
+namespace {
+
+/// A quote that is missing turns texts into code and code into texts to the end of its line: whatever else is found there
+/// follows from it.
+void move_findings(Diagnostics& found, Diagnostics& told) {
+  std::set<int> misread;
+  const auto line_of = [](const Diagnostic& item) { return item.span.file->position(item.span.begin).line; };
+  for (const Diagnostic& item : found.items()) {
+    if (item.code == "unterminated-string") misread.insert(line_of(item));
+  }
+  for (const Diagnostic& item : found.items()) {
+    if (item.code == "unterminated-string" || !misread.contains(line_of(item))) told.add(item);
+  }
+}
+
+}  // namespace
+
 Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics) {
-  Parser parser(file, diagnostics);
+  Diagnostics findings;
+  Parser parser(file, findings);
   Ast ast;
   ast.file = file;
   ast.statements = parser.parse_file();
+  move_findings(findings, diagnostics);
   return ast;
 }
 

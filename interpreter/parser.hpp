@@ -15,7 +15,8 @@
 
 namespace comma::interpreter {
 
-/// Reads a whole file. Errors go to `diagnostics`; the tree then holds the sound statements only.
+/// Reads a whole file. Errors go to `diagnostics`; the tree then holds the sound statements, and a BrokenStatement in the
+/// place of each other one.
 Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics);
 
 /// Reads a text that is one expression, line breaks counting as blanks; null when it is none. `names` gets its free
@@ -63,18 +64,21 @@ class Parser {
   void expect_closing(std::string_view bracket);
   void expect_colon(std::string_view after);
   bool separate_items(std::string_view closing);
+  Token lex();
   Span span_of(const Token& token) const;
   Span span_of(const Node& node) const { return {file_, node.begin, node.end}; }
   [[noreturn]] void fail(std::string code, std::string message, Span span, std::string hint = {});
   [[noreturn]] void fail_here(std::string expected);
   void report(std::string code, std::string message, Span span, std::string hint = {});
+  void report_mended(std::string code, std::string message, Span span, std::string hint = {});
   bool starts_line_outside(const Token& token) const;
   bool starts_statement(const Token& token) const;
   void recover(Failure failure, const Token& start);
   void skip_orphan_blocks();
 
   // Statements (parser_statements.cpp).
-  void bind_broken(const Token& start, Block& block);
+  void leave_out(const Token& start, Block& block, std::size_t sound, ScopeStack::Checkpoint checkpoint);
+  void leave_out_rest(Block& block) const;
   void parse_line(Block& block);
   void parse_statements(Block& block);
   StatementPtr parse_compound();
@@ -86,11 +90,14 @@ class Parser {
   StatementPtr parse_assignment(NodePtr first);
   StatementPtr parse_annotated(NodePtr target);
   StatementPtr parse_if();
+  template <class Loop>
+  void parse_loop_blocks(Loop& statement, std::string_view word);
   StatementPtr parse_while();
   StatementPtr parse_for();
   StatementPtr parse_function();
   StatementPtr parse_try();
   TryStatement::Handler parse_handler();
+  void report_misplaced(std::string message, std::string hint);
   StatementPtr parse_return();
   StatementPtr parse_raise();
   StatementPtr parse_assert();
@@ -157,6 +164,7 @@ class Parser {
   int blocks_ = 0;
   int loops_ = 0;
   bool orphan_ = false;  ///< inside the block of a broken header: what it needs around it may be missing
+  bool flawed_ = false;  ///< something was reported about the statement: it cannot be trusted
   bool broken_ = false;  ///< the statement has a token that the lexer has reported: what follows from it is no news
   int errors_ = 0;
 };

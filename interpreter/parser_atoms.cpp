@@ -242,6 +242,7 @@ NodePtr Parser::parse_target_list(std::string_view until) {
 /// String literals side by side are one; an f-string among them makes the whole one.
 NodePtr Parser::parse_texts() {
   const std::uint32_t begin = now_.begin;
+  const std::size_t findings = diagnostics_.items().size();
   auto node = std::make_unique<FormattedNode>(NodeKind::formatted, begin, begin);
   bool formatted = false;
   std::string text;
@@ -258,6 +259,7 @@ NodePtr Parser::parse_texts() {
     }
     advance();
   }
+  flawed_ = flawed_ || diagnostics_.items().size() != findings;  // in escapes and in fields
   if (!formatted) return std::make_unique<ConstantNode>(Value(std::move(text)), begin, previous_end_);
   if (!text.empty()) node->pieces.emplace_back().text = std::move(text);
   node->end = previous_end_;

@@ -269,8 +269,10 @@ void Parser::parse_argument(CallNode& call) {
     item.name_end = now_.end;
     for (const CallNode::Item& other : call.arguments) {
       if (other.kind != CallNode::Kind::keyword || other.name != item.name) continue;
-      report("repeated-keyword", fmt::format("{} is given twice in this call", item.name), span_of(now_),
-             "keep one of them; several occurrences of a factor stand in a tuple: (_F(...), _F(...))");
+      item.repeated = true;
+      report_mended("repeated-keyword", fmt::format("{} is given twice in this call", item.name), span_of(now_),
+                    "keep one of them; several occurrences of a factor stand in a tuple: (_F(...), _F(...))");
+      break;
     }
     advance();
     advance();

@@ -1,8 +1,10 @@
 // Statements: simple ones on a line, compound ones with their blocks.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
+#include "interpreter/lost_names.hpp"
 #include "interpreter/parser.hpp"
 
 namespace comma::interpreter {
@@ -32,14 +34,18 @@ bool is_compound(const Token& token) {
 
 /// Statements up to the end of the block (or of the file). Each broken one is reported and left out.
 void Parser::parse_statements(Block& block) {
+  const bool around = flawed_;
   while (now_.kind != TokenKind::end && now_.kind != TokenKind::dedent && errors_ < most_errors) {
     const Token start = now_;
     const auto checkpoint = scopes_->checkpoint();
+    const std::size_t sound = block.size();
     const int nesting = nesting_;
     const int blocks = blocks_;
     const int loops = loops_;
+    flawed_ = false;
     try {
       parse_line(block);
+      if (flawed_) leave_out(start, block, sound, checkpoint);
     } catch (Failure& failure) {
       nesting_ = nesting;
       blocks_ = blocks;
@@ -47,28 +53,38 @@ void Parser::parse_statements(Block& block) {
       scopes_->roll_back(checkpoint);
       const bool header = is_compound(start) || (start.kind == TokenKind::keyword && start.text == "else");
       recover(std::move(failure), start);
-      bind_broken(start, block);
-      if (header || now_.kind == TokenKind::indent) {
-        skip_orphan_blocks();
-        scopes_->roll_back(checkpoint);
-      }
+      if (header || now_.kind == TokenKind::indent) skip_orphan_blocks();
+      leave_out(start, block, sound, checkpoint);
     }
   }
+  flawed_ = around;
 }
 
-/// What a broken assignment would have bound is unknown, not missing: its uses are no mistakes of their own.
-void Parser::bind_broken(const Token& start, Block& block) {
-  if (start.kind != TokenKind::name) return;
-  const std::string_view rest = file_->text().substr(start.end);
-  const std::size_t next = rest.find_first_not_of(" \t");
-  if (next == std::string_view::npos || rest[next] != '=' || rest.substr(next).starts_with("==")) return;
-  auto assignment = std::make_unique<AssignStatement>(StatementKind::assign, start.begin, start.end);
-  auto name = std::make_unique<NameNode>(std::string(start.text), start.begin, start.end);
-  scopes_->use(name.get());
-  scopes_->bind(*name);
-  assignment->targets.push_back(std::move(name));
-  assignment->value = std::make_unique<Node>(NodeKind::broken, start.begin, start.end);
-  block.push_back(std::move(assignment));
+/// Puts a broken statement in the place of all that was read since `start`: what it would have bound is unknown, not
+/// missing, and its uses are no mistakes of their own.
+void Parser::leave_out(const Token& start, Block& block, std::size_t sound, ScopeStack::Checkpoint checkpoint) {
+  scopes_->roll_back(checkpoint);
+  block.erase(block.begin() + static_cast<std::ptrdiff_t>(sound), block.end());
+  const std::uint32_t end = std::max(now_.begin, start.end);
+  auto statement = std::make_unique<BrokenStatement>(StatementKind::broken, start.begin, end);
+  const LostNames lost = lost_names(file_, start.begin, end, start.column);
+  for (const Span& place : lost.names) {
+    const std::string_view word = file_->text().substr(place.begin, place.end - place.begin);
+    auto name = std::make_unique<NameNode>(std::string(word), place.begin, place.end);
+    scopes_->use(name.get());
+    scopes_->bind(*name);
+    statement->names.push_back(std::move(name));
+  }
+  statement->loses_any_name = lost.any;
+  block.push_back(std::move(statement));
+}
+
+/// The rest of the file is not read: nobody knows what it binds.
+void Parser::leave_out_rest(Block& block) const {
+  const auto end = static_cast<std::uint32_t>(file_->text().size());
+  auto statement = std::make_unique<BrokenStatement>(StatementKind::broken, now_.begin, end);
+  statement->loses_any_name = true;
+  block.push_back(std::move(statement));
 }
 
 void Parser::parse_line(Block& block) {
@@ -83,8 +99,10 @@ void Parser::parse_line(Block& block) {
 }
 
 void Parser::parse_unexpected_block(Block& block) {
-  report("unexpected-indent", "this line is indented without need", {file_, now_.end, now_.end + 1},
-         "begin it in the column of the line before");
+  if (!now_.flawed) {
+    report_mended("unexpected-indent", "this line is indented without need", {file_, now_.end, now_.end + 1},
+                  "begin it in the column of the line before");
+  }
   advance();
   if (++blocks_ > deepest_block) fail("too-deep", "blocks are nested too deeply", span_of(now_), "use functions");
   parse_statements(block);
@@ -159,6 +177,7 @@ Block Parser::parse_block(std::string_view after, std::uint32_t header_begin) {
   if (now_.kind != TokenKind::indent) {
     report("missing-block", fmt::format("an indented block is missing after {}", after),
            {file_, header_begin, previous_end_}, "indent the lines that belong to it, or write 'pass'");
+    orphan_ = true;  // the lines that belong into the block may follow outside of it
     return block;
   }
   if (++blocks_ > deepest_block) fail("too-deep", "blocks are nested too deeply", span_of(now_), "use functions");
@@ -192,21 +211,27 @@ StatementPtr Parser::parse_if() {
   return statement;
 }
 
-StatementPtr Parser::parse_while() {
-  auto statement = std::make_unique<WhileStatement>(StatementKind::while_, now_.begin, now_.end);
-  advance();
-  statement->condition = parse_expression();
-  expect_colon("the condition");
+/// What follows the header of a `while` or a `for`.
+template <class Loop>
+void Parser::parse_loop_blocks(Loop& statement, std::string_view word) {
   ++loops_;
-  statement->body = parse_block("'while'", statement->begin);
+  statement.body = parse_block(word, statement.begin);
   --loops_;
   if (at("else")) {
     const std::uint32_t header = now_.begin;
     advance();
     expect_colon("'else'");
-    statement->otherwise = parse_block("'else'", header);
+    statement.otherwise = parse_block("'else'", header);
   }
-  statement->end = previous_end_;
+  statement.end = previous_end_;
+}
+
+StatementPtr Parser::parse_while() {
+  auto statement = std::make_unique<WhileStatement>(StatementKind::while_, now_.begin, now_.end);
+  advance();
+  statement->condition = parse_expression();
+  expect_colon("the condition");
+  parse_loop_blocks(*statement, "'while'");
   return statement;
 }
 
@@ -217,16 +242,7 @@ StatementPtr Parser::parse_for() {
   if (!accept("in")) fail_here("'in'");
   statement->iterable = parse_expression_list();
   expect_colon("what 'for' runs over");
-  ++loops_;
-  statement->body = parse_block("'for'", statement->begin);
-  --loops_;
-  if (at("else")) {
-    const std::uint32_t header = now_.begin;
-    advance();
-    expect_colon("'else'");
-    statement->otherwise = parse_block("'else'", header);
-  }
-  statement->end = previous_end_;
+  parse_loop_blocks(*statement, "'for'");
   return statement;
 }
 
@@ -279,11 +295,16 @@ TryStatement::Handler Parser::parse_handler() {
   return handler;
 }
 
+/// The block around it may be what is broken; then it is left out without a word.
+void Parser::report_misplaced(std::string message, std::string hint) {
+  flawed_ = true;
+  if (!orphan_) report("misplaced-statement", std::move(message), span_of(now_), std::move(hint));
+}
+
 StatementPtr Parser::parse_return() {
   auto statement = std::make_unique<ValueStatement>(StatementKind::return_, now_.begin, now_.end);
-  if (!scopes_->in_function() && !orphan_) {
-    report("misplaced-statement", "'return' stands outside a function", span_of(now_),
-           "remove it, or put it into a 'def'");
+  if (!scopes_->in_function()) {
+    report_misplaced("'return' stands outside a function", "remove it, or put it into a 'def'");
   }
   advance();
   if (now_.kind != TokenKind::newline && now_.kind != TokenKind::end && !at(";"))
@@ -314,9 +335,8 @@ StatementPtr Parser::parse_assert() {
 
 StatementPtr Parser::parse_loop_exit() {
   const bool leaves = at("break");
-  if (loops_ == 0 && !orphan_) {
-    report("misplaced-statement", fmt::format("'{}' stands outside a loop", now_.text), span_of(now_),
-           "it belongs into a 'for' or a 'while'");
+  if (loops_ == 0) {
+    report_misplaced(fmt::format("'{}' stands outside a loop", now_.text), "it belongs into a 'for' or a 'while'");
   }
   auto statement =
       std::make_unique<PlainStatement>(leaves ? StatementKind::break_ : StatementKind::continue_, now_.begin, now_.end);

@@ -90,6 +90,9 @@ void collect(const Statement& statement, Names& names) {
     case StatementKind::expression:
       add_changed_object(*static_cast<const ValueStatement&>(statement).value, names);
       break;
+    case StatementKind::broken:
+      for (const NodePtr& name : static_cast<const BrokenStatement&>(statement).names) add_target(name.get(), names);
+      break;
     case StatementKind::import:
     case StatementKind::import_from:
       for (const auto& item : static_cast<const ImportStatement&>(statement).items) add_target(item.name.get(), names);

@@ -29,6 +29,7 @@ struct Token {
   std::string_view text;  ///< as written
   Value value;            ///< of a number or a text
   bool starts_line = false;
+  bool flawed = false;  ///< the lexer has reported something about it
   int column = 0;  ///< indentation of its line, tabs counted to multiples of 8
 };
 

@@ -44,6 +44,7 @@ struct Argument {
 struct Factor {
   std::vector<Argument> arguments;
   Span span;
+  bool open = false;  ///< there are further arguments that are not known
 };
 
 /// The items of a tuple or of a list.

@@ -57,25 +57,37 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
       commands_(make_command_table(context_)),
       catalogue_(catalogue_blobs()),
       session_(catalogue_, commands_, diagnostics_, options) {
-  session_.set_assertion_sink([this](const interpreter::Assertion& assertion) { context_.report(verdict_of(assertion)); });
+  session_.set_assertion_sink([this](const interpreter::Assertion& assertion) {
+    if (!unreadable_) context_.report(verdict_of(assertion));
+  });
   session_.set_call_check([this](const interpreter::CommandNode& node) {
     return check_names(node, session_.graph(), catalogue_, diagnostics_);
   });
   session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
   session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
   evaluator_ = std::make_unique<interpreter::Evaluator>(
-      session_, diagnostics_, [this](std::string_view text) { context_.console.print(text); }, limits_);
+      session_, diagnostics_,
+      [this](std::string_view text) {
+        if (!unreadable_) context_.console.print(text);
+      },
+      limits_);
 }
 
 void StudyRun::run() {
   for (const fs::path& file : study_.command_files) {
     ++files_begun_;
-    const auto tree = interpreter::parse(interpreter::SourceFile::read(file.string()), diagnostics_);
-    // What cannot be read is not evaluated: names whose lines are lost would be reported as unknown.
-    if (diagnostics_.has_errors()) return;
-    evaluator_->run(tree);
+    evaluator_->run(read(file));
   }
   session_.finish();
+}
+
+/// What can be read of a file is evaluated for its errors, even if the rest cannot.
+interpreter::Ast StudyRun::read(const fs::path& file) {
+  interpreter::Diagnostics findings;
+  interpreter::Ast tree = interpreter::parse(interpreter::SourceFile::read(file.string()), findings);
+  unreadable_ = unreadable_ || findings.has_errors();
+  for (const Diagnostic& finding : findings.items()) diagnostics_.add(finding);
+  return tree;
 }
 
 void StudyRun::include(const interpreter::Call& call) {
@@ -95,9 +107,7 @@ void StudyRun::include(const interpreter::Call& call) {
   const Span where = call.span_of(by_unit ? "UNITE" : "DONNEE");
   const fs::path path = by_unit ? context_.files.included(static_cast<int>(call.integer("UNITE")), where)
                                 : context_.files.included(call.text("DONNEE"), where);
-  const bool sound_before = !diagnostics_.has_errors();
-  trees_.push_back(interpreter::parse(interpreter::SourceFile::read(path.string()), diagnostics_));
-  if (sound_before && diagnostics_.has_errors()) return;
+  trees_.push_back(read(path));
   struct Depth {
     int& depth;
     explicit Depth(int& count) : depth(count) { ++depth; }

@@ -32,6 +32,7 @@ class StudyRun {
   const Context& context() const { return context_; }
 
  private:
+  interpreter::Ast read(const std::filesystem::path& file);
   /// INCLUDE: runs another file at its place.
   void include(const interpreter::Call& call);
   /// POURSUITE: has nothing to do, but something must be there to go on from.
@@ -48,6 +49,7 @@ class StudyRun {
   std::list<interpreter::Ast> trees_;  ///< of the included files: functions defined there refer to them
   std::size_t files_begun_ = 0;
   int include_depth_ = 0;
+  bool unreadable_ = false;  ///< a file has a syntax error: it is evaluated for its errors only, and says nothing
 };
 
 /// Prints the diagnostics, errors last so that they stay in sight. `alarms` false: errors only.

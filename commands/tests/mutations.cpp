@@ -54,6 +54,17 @@ std::string sample_value(const KeywordPage& page) {
   return holds_text(kind) ? "'SAMPLE'" : "";
 }
 
+bool has_block(const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::if_:
+    case StatementKind::while_:
+    case StatementKind::for_:
+    case StatementKind::function:
+    case StatementKind::try_: return true;
+    default: return false;
+  }
+}
+
 class Planter {
  public:
   Planter(const std::string& text, const Catalogue& catalogue)
@@ -65,8 +76,10 @@ class Planter {
   std::vector<Mutant> run() {
     for (const StatementPtr& statement : tree_.statements) learn(*statement);
     for (const StatementPtr& statement : tree_.statements) {
+      ++statement_;
       visit(*statement);
       if (statement->kind == StatementKind::assign) know(static_cast<const AssignStatement&>(*statement));
+      after_block_ = has_block(*statement);
     }
     return std::move(mutants_);
   }
@@ -104,6 +117,10 @@ class Planter {
     if (statement.kind == StatementKind::expression) call = command_of(static_cast<const ValueStatement&>(statement).value);
     if (call == nullptr || !catalogue_.has(callee_of(*call))) return;
     plant_in_statement(statement, *call);
+    // A component is wrong with respect to a field: that of NOM_CHAM, or displacements.
+    const std::string written_call = written(*call);
+    component_is_judged_ = written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
+                           (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
     const CommandPage& page = catalogue_.page(callee_of(*call));
     visit_level(*call, {&page.inside}, line_of(call->begin));
   }
@@ -111,8 +128,14 @@ class Planter {
   void plant_in_statement(const Statement& statement, const CallNode& call) {
     const std::string name = callee_of(call);
     add("misspelt command", call.callee->begin, call.callee->end, misspell(name), "unknown-command", line_of(call.begin), name);
-    add("unbalanced bracket", call.end - 1, call.end, "", "unclosed-bracket", line_of(call.callee->end));
-    if (statement.begin > 0) add("stray indentation", statement.begin, statement.begin, "  ", "unexpected-indent", line_of(statement.begin));
+    add_unreadable("unbalanced bracket", call.end - 1, call.end, "", "unclosed-bracket", line_of(call.callee->end));
+    const std::string_view stray = after_block_ ? "bad-indentation" : "unexpected-indent";
+    if (statement.begin > 0) add_unreadable("stray indentation", statement.begin, statement.begin, "  ", std::string(stray), line_of(statement.begin));
+    for (std::size_t i = 1; i < call.arguments.size(); ++i) {
+      const std::uint32_t comma = call.arguments[i - 1].value->end;
+      const bool plain = text_[comma] == ',' && call.arguments[i].kind == CallNode::Kind::keyword;
+      if (plain) add_unreadable("missing comma", comma, comma + 1, " ", "missing-comma", line_of(call.arguments[i].name_begin));
+    }
     if (statement.kind == StatementKind::assign) plant_late_definition(static_cast<const AssignStatement&>(statement));
   }
 
@@ -127,7 +150,7 @@ class Planter {
     const std::string statement = text_.substr(assign.begin, assign.end - assign.begin);
     moved += std::string(static_cast<std::size_t>(std::ranges::count(statement, '\n')), '\n');
     moved += text_.substr(assign.end) + "\n" + statement + "\n";
-    mutants_.push_back({"concept used before it exists", moved, line_of(*use), "unknown-name", ""});
+    mutants_.push_back({"concept used before it exists", moved, line_of(*use), "unknown-name", "", statement_, false, 0, 0, ""});
   }
 
   /// Where a whole word stands next outside comments and quotes; scenes are plain enough for that.
@@ -273,13 +296,16 @@ class Planter {
     const std::string wrong = "\"" + misspell(word) + "\"";
     const int line = line_of(item.value->begin);
     const std::string hint = word.size() > 3 ? word : "";
+    if (text_[node.end - 1] == '"') add_unreadable("string left open", node.end - 1, node.end, "", "unterminated-string", line_of(node.begin));
     if (!page.words.empty()) return add("misspelt word", node.begin, node.end, wrong, "unknown-word", line, hint);
     if (page.types.size() != 1) return;
     switch (page.types.front().kind) {
       case Kind::node_group:
       case Kind::cell_group: return add("unknown group", node.begin, node.end, wrong, "unknown-group", line, hint);
       case Kind::field: return add("unknown field", node.begin, node.end, wrong, "unknown-field", line, hint);
-      case Kind::component: return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, "DX");
+      case Kind::component:
+        if (!component_is_judged_) return;
+        return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, "DX");
       default: return;
     }
   }
@@ -295,7 +321,12 @@ class Planter {
 
   void add(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement, std::string code, int line,
            std::string hint = "") {
-    mutants_.push_back({std::move(kind), text_.substr(0, begin) + replacement + text_.substr(end), line, std::move(code), std::move(hint)});
+    const std::string mutant = text_.substr(0, begin) + replacement + text_.substr(end);
+    mutants_.push_back({std::move(kind), mutant, line, std::move(code), std::move(hint), statement_, true, begin, end, replacement});
+  }
+  void add_unreadable(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement, std::string code, int line) {
+    add(std::move(kind), begin, end, replacement, std::move(code), line);
+    mutants_.back().readable = false;
   }
 
   const std::string& text_;
@@ -305,10 +336,51 @@ class Planter {
   std::map<std::string, int> assignments_;
   std::map<std::string, std::string> known_;  ///< concepts defined so far, and their types
   std::vector<Mutant> mutants_;
+  int statement_ = 0;
+  bool after_block_ = false;
+  bool component_is_judged_ = false;
 };
+
+/// The sound text with two of its parts replaced.
+std::string with_both(const std::string& text, const Mutant& a, const Mutant& b) {
+  const auto& [first, second] = std::minmax(a, b, [](const Mutant& x, const Mutant& y) { return x.begin < y.begin; });
+  return text.substr(0, first.begin) + first.replacement + text.substr(first.end, second.begin - first.end) + second.replacement +
+         text.substr(second.end);
+}
+
+bool moves_lines(const std::string& text, const Mutant& mutant) {
+  const auto replaced = text.substr(mutant.begin, mutant.end - mutant.begin);
+  return std::ranges::count(replaced, '\n') != std::ranges::count(mutant.replacement, '\n');
+}
+
+bool hangs_on_names(const Mutant& mutant) {
+  return mutant.kind != "misspelt command" && mutant.kind != "misspelt keyword" && mutant.kind != "missing compulsory keyword";
+}
 
 }  // namespace
 
 std::vector<Mutant> plant_errors(const std::string& text, const Catalogue& catalogue) { return Planter(text, catalogue).run(); }
+
+std::vector<Pair> plant_pairs(const std::string& text, const Catalogue& catalogue) {
+  const std::vector<Mutant> mutants = plant_errors(text, catalogue);
+  std::vector<Pair> pairs;
+  std::size_t turn = 0;
+  for (const Mutant& broken : mutants) {
+    const bool replaces = broken.begin != broken.end || !broken.replacement.empty();
+    if (broken.readable || !replaces) continue;
+    // Each syntax error with another partner: all of them with all would be millions.
+    for (std::size_t tried = 0; tried < mutants.size(); ++tried) {
+      const Mutant& other = mutants[turn++ % mutants.size()];
+      const bool behind = other.statement > broken.statement;
+      if (!other.readable || other.statement == broken.statement || (behind && hangs_on_names(other))) continue;
+      if (moves_lines(text, broken) || moves_lines(text, other)) continue;
+      // An open bracket may hide what follows it.
+      if (behind && broken.code == "unclosed-bracket") continue;
+      pairs.push_back({broken, other, with_both(text, broken, other)});
+      break;
+    }
+  }
+  return pairs;
+}
 
 }  // namespace comma::commands::tests

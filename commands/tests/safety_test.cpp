@@ -132,6 +132,11 @@ TEST_CASE("The limits of the command line end in a diagnostic") {
   limits.memory = 64U << 20;
   CHECK(codes_of(folder.write("hoard.comm", "l = []\nwhile True:\n    l.append('x' * 100000 + str(len(l)))\n"), limits) == Codes{"limit-memory"});
   limits = {};
+  limits.seconds = 0.05;
+  // Each file is short; together they take too long.
+  folder.write("slow.comm", "x = sum(range(20000))\n");
+  CHECK(codes_of(folder.write("often.comm", "for i in range(10000000):\n    INCLUDE(DONNEE='slow.comm')\n"), limits) == Codes{"limit-time"});
+  limits = {};
   limits.call_depth = 10;
   CHECK(codes_of(folder.write("deep.comm", "def f(n):\n    return f(n + 1)\nf(0)\n"), limits).size() == 1);
 }

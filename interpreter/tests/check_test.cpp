@@ -359,3 +359,21 @@ TEST_CASE("reuse= goes with a keyword only where that keyword is given") {
   CHECK(checked.sound);
   CHECK(checked.call.result == result);
 }
+
+TEST_CASE("A keyword of a block that may not be there is judged as far as it is certain") {
+  Checker checker;
+  const auto only = checker.only({{"SPECIAL", Value::unknown()}, {"STRENGTH", Value("strong")}});
+  expect(only, "wrong-type", "LOAD/STRENGTH wants a real number, not the text 'strong'", "'strong'");
+}
+
+TEST_CASE("Where further keywords may be given that are not known, none is missing") {
+  Checker checker;
+  CommandCall call = written_call("LOAD", {{"PRES", Value(-1.0)}, {"PHASE", Value(1.0)}, {"SPOT", factor({{"UNIT_X", Value(1.0)}})}});
+  call.open = true;
+  const CheckedCall checked =
+      check_call(call, checker.little.catalogue->page("LOAD"), *checker.little.catalogue, checker.diagnostics, Severity::error);
+  std::vector<std::string> codes;
+  for (const Diagnostic& item : checker.diagnostics.items()) codes.push_back(item.code);
+  CHECK(codes == std::vector<std::string>{"out-of-bounds", "missing-one-of", "requires-keyword"});
+  CHECK_FALSE(checked.complete);
+}

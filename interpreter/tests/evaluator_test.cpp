@@ -46,6 +46,29 @@ TEST_CASE("A mistake is told once, with its code and its place", "[evaluator]") 
   }
 }
 
+TEST_CASE("A statement that cannot be read makes one error, and hides none", "[evaluator]") {
+  const std::vector<std::pair<std::string, Findings>> cases = {
+      {"MA = LIRE_MAILLAGE(\nx = MA\ny = unheard\n", {"unclosed-bracket 1:19", "unknown-name 3:5"}},
+      {"a, b = (1, 2]\nprint(a, b, c)\n", {"unmatched-bracket 1:13", "unknown-name 2:13"}},
+      {"l = []\nl.append(1 2)\nx = l[0]\n", {"missing-comma 2:12"}},
+      {"n = 0\nwhile n < 3:\n    n += = 1\n", {"syntax 3:10"}},
+      {"while True:\n    x = 1\n    if x == 1 break\n", {"syntax 3:15"}},
+      {"def f(n):\n    if n == 0 return 1\n    return n * f(n - 1)\nx = f(3) + 1\n", {"syntax 2:15"}},
+      {"def f(n):\n    m = (n\n    return m\nx = f(3) + [1][0]\n", {"unclosed-bracket 2:9"}},
+      {"from math import (gamma\nx = gamma(3)\n", {"unclosed-bracket 1:18"}},
+      {"from math import *)\nx = gamma(3) + erf(1)\n", {"unmatched-bracket 1:19"}},
+      {"def f(x):\ny = x + 1\nreturn y\nz = y\n", {"missing-block 1:1"}},
+      {"for i in (1 2):\n    x = i\nprint(x, i)\n", {"missing-comma 1:13"}},
+      {"s = {'a': 1 'b': 2}\nAFFE_MODELE(**s)\nassert [s] == [1]\n", {"missing-comma 1:13"}},
+      {"x = 08\nassert [x, 1] == [8, 2]\n", {"invalid-number 1:5"}},
+      {"if x\n    y = 1\nelse:\n    y = 2\n", {"missing-colon 1:5", "unknown-name 1:4"}},
+  };
+  for (const auto& [text, expected] : cases) {
+    INFO(text);
+    CHECK(Run(text).findings() == expected);
+  }
+}
+
 TEST_CASE("Hints name what was meant", "[evaluator]") {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"LIRE_MALLAGE()\n", "did you mean LIRE_MAILLAGE?"},

@@ -174,7 +174,7 @@ CommandCall written_call(const std::string& name, const Arguments& arguments) {
 
 Value factor(const Arguments& arguments) {
   const CommandCall call = written_call("_F", arguments);
-  return Value(std::make_shared<const Factor>(Factor{call.arguments, call.span}));
+  return Value(std::make_shared<const Factor>(Factor{call.arguments, call.span, false}));
 }
 
 ConceptPtr new_concept(const std::string& name, const std::string& type, int id) {

@@ -57,7 +57,7 @@ struct Run {
     ast = parse(file, diagnostics);
     evaluator = std::make_unique<Evaluator>(
         *host, diagnostics, [this](std::string_view part) { output += part; }, limits);
-    if (!diagnostics.has_errors()) evaluator->run(ast);
+    evaluator->run(ast);
   }
 
   /// "code line:column" of each finding.

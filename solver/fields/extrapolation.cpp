@@ -120,6 +120,28 @@ ElementField to_element_nodes(const Model& model, const ElementField& field) {
   return result;
 }
 
+ElementField to_element_nodes(const Model& model, const NodalField& field) {
+  const Mesh& mesh = *model.mesh;
+  const auto width = static_cast<int>(field.components.size());
+  const auto carries = [&](int node) {
+    for (int c = 0; c < width; ++c) {
+      if (!std::isnan(field.at(node, c))) return true;
+    }
+    return false;
+  };
+  ElementField result{field.quantity, Support::element_node, field.components, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto nodes = mesh.cell(cell);
+    const bool element = model.formulations[cell] != Formulation::none && !model.is_skin(cell);
+    const bool carried = element && std::all_of(nodes.begin(), nodes.end(), carries);
+    for (std::size_t a = 0; carried && a < nodes.size(); ++a) {
+      for (int c = 0; c < width; ++c) result.values.push_back(field.at(nodes[a], c));
+    }
+    result.starts.push_back(result.starts.back() + (carried ? static_cast<int>(nodes.size()) : 0));
+  }
+  return result;
+}
+
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
   const std::size_t width = field.components.size();
   NodalField result{field.quantity, field.components, std::vector<double>(mesh.nodes.size() * width, 0.0)};

@@ -22,6 +22,9 @@ Eigen::MatrixXd gauss_to_nodes(CellType type, std::string_view family);
 /// naming a cell with another number of points.
 ElementField to_element_nodes(const Model& model, const ElementField& field);
 
+/// A nodal field as one at the nodes of each element, skin excluded; cells with a node that carries nothing have none.
+ElementField to_element_nodes(const Model& model, const NodalField& field);
+
 /// The arithmetic mean at each node over the cells that give it a value (ELNO to NOEU, U4.81.04); NaN where none does.
 /// `cells` restricts the cells that count; none given: all.
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});

@@ -177,6 +177,30 @@ ElementField on_cells(const ElementField& field, std::span<const int> cells) {
   return part;
 }
 
+NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
+  const std::size_t width = field.components.size();
+  NodalField part{field.quantity, field.components, std::vector<double>(field.values.size(), absent)};
+  for (const int node : nodes) {
+    const auto begin = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width);
+    std::copy_n(field.values.begin() + begin, width, part.values.begin() + begin);
+  }
+  return part;
+}
+
+Field with_components(const Field& field, std::span<const int> components) {
+  const std::size_t width = components_of(field).size();
+  const auto rows = static_cast<std::size_t>(Rows(field).total());
+  Field part = field;
+  components_of(part).clear();
+  for (const int component : components) components_of(part).push_back(components_of(field)[static_cast<std::size_t>(component)]);
+  auto& values = values_of(part);
+  values.clear();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const int component : components) values.push_back(values_of(field)[row * width + static_cast<std::size_t>(component)]);
+  }
+  return part;
+}
+
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places) {
   check_places(target, *piece.field);
   const Rows to_rows(target), from_rows(*piece.field);

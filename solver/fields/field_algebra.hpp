@@ -35,8 +35,12 @@ void fill_absent(Field& field, double value);
 /// Takes away the room of cells that have no value at all.
 void drop_empty_cells(ElementField& field);
 
-/// The part of a field on some cells.
+/// The part of a field on some cells, at some nodes.
 ElementField on_cells(const ElementField& field, std::span<const int> cells);
+NodalField on_nodes(const NodalField& field, std::span<const int> nodes);
+
+/// The components at these indices, in this order.
+Field with_components(const Field& field, std::span<const int> components);
 
 struct FieldTerm {
   const Field* field = nullptr;

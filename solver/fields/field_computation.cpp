@@ -190,8 +190,12 @@ Field FieldComputation::elastic_energy(std::size_t step) {
   return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
 }
 
+// Of continua from their stresses; of springs, bars and beams from their displacements.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
-  return integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
+  Field energies = potential_energy_of_cells(step);
+  const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
+  put_piece(energies, {&continua, {}, {}, 1.0, false});
+  return energies;
 }
 
 Field FieldComputation::potential_energy_of_cells(std::size_t step) {

@@ -1,6 +1,7 @@
 // Meshes and results in MED files, through the MED library.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "solver/fields/field.hpp"
@@ -20,10 +21,19 @@ Mesh read_med_mesh(const std::string& path, const std::string& name = "");
 /// The order inside a group is not kept: MED knows groups as sets.
 void write_med_mesh(const std::string& path, const Mesh& mesh, const std::string& name);
 
-/// The mesh and all nodal and element fields of a result, one MED field per name ("RESU____DEPL" for the field DEPL of RESU,
+/// A result under the name that it has in the file; a field called "" has that name alone.
+struct NamedResult {
+  Result result;
+  std::string name;
+};
+
+/// The mesh and all nodal and element fields of results, one MED field per name ("RESU____DEPL" for the field DEPL of RESU,
 /// U7.05.21), one computation step per order. Nodes and cells that do not carry a field are left out by a profile; a component
 /// that a carrier lacks is written as 0. Fields at Gauss points come with the scheme of R3.01.01 that has their number of
 /// points; Error `unsupported` names a number that has none. Other errors as for write_med_mesh.
+void write_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name,
+                       std::span<const NamedResult> results);
+/// The same for one result.
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
                       const std::string& result_name);
 

@@ -190,21 +190,29 @@ void Writer::write(const std::string& name, const ResultStep& step, const Field&
 /// The result's name filled up to eight characters with underscores, then the field's (U7.05.21).
 std::string field_name(const std::string& result, std::string_view field) {
   std::string name = result;
+  if (field.empty()) return name;
   if (name.size() < 8) name.append(8 - name.size(), '_');
   return name.append(field);
 }
 
 }  // namespace
 
-void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
-                      const std::string& result_name) {
+void write_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name,
+                       std::span<const NamedResult> results) {
   check_writable(mesh, mesh_name);
   const MedFile file = MedFile::create(path);
   write_mesh(file, mesh, mesh_name);
   Writer writer(file, mesh, mesh_name);
-  for (const ResultStep& step : result.steps) {
-    for (const auto& [name, field] : step.fields) writer.write(field_name(result_name, name), step, field);
+  for (const NamedResult& each : results) {
+    for (const ResultStep& step : each.result.steps) {
+      for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);
+    }
   }
+}
+
+void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
+                      const std::string& result_name) {
+  write_med_results(path, mesh, mesh_name, std::vector<NamedResult>{{result, result_name}});
 }
 
 }  // namespace comma::solver

@@ -66,8 +66,20 @@ long long nodes_of_code(std::string_view code) {
 }
 
 struct Visit {
-  std::string damage;  ///< what is wrong, empty as long as nothing is
+  long long largest = 0;  ///< bytes that an array of this file can have
+  std::string damage;     ///< what is wrong, empty as long as nothing is
 };
+
+/// Compressed arrays unfold, but deflate makes nothing smaller than by this factor (zlib's technical details).
+constexpr long long most_unfolding = 1032;
+
+/// What HDF5 fills up with zeros was never written. Arrays that are larger than all that the file could hold would
+/// take the memory of the machine.
+long long largest_array(const MedFile& file) {
+  hsize_t bytes = 0;
+  if (H5Fget_filesize(file.id(), &bytes) < 0) return 0;
+  return static_cast<long long>(bytes) * most_unfolding;
+}
 
 /// The number of values that an array must have so that the MED library fills the caller's buffer exactly; -1: not
 /// checked.
@@ -108,8 +120,10 @@ void check_dataset(hid_t root, std::string_view path, Visit& visit) {
     return;
   }
   const long long expected = expected_values(root, path, dataset);
-  const long long values = size_of(dataset).values;
-  if (expected >= 0 && values != expected) {
+  const auto [values, bytes] = size_of(dataset);
+  if (bytes > visit.largest) {
+    visit.damage = fmt::format("array {} has {} values, which is more than the file can hold", path, values);
+  } else if (expected >= 0 && values != expected) {
     visit.damage = fmt::format("array {} has {} values instead of {}", path, values, expected);
   } else if (path.ends_with("/GRO/NOM") && !group_names_fit(root, path, dataset)) {
     visit.damage = fmt::format("the group names in {} do not fit their number", path);
@@ -129,7 +143,7 @@ void check_med_arrays(const MedFile& file) {
   for (const char* name : roots) {
     if (H5Lexists(file.id(), name, H5P_DEFAULT) <= 0) continue;
     const hid_t root = H5Oopen(file.id(), name, H5P_DEFAULT);
-    Visit visit;
+    Visit visit{.largest = largest_array(file), .damage = {}};
     const bool broken =
         root < 0 || H5Ovisit2(root, H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &visit, H5O_INFO_BASIC) < 0;
     if (root >= 0) H5Oclose(root);

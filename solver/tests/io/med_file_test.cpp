@@ -174,6 +174,47 @@ TEST_CASE("a MED file with changed bytes gives a mesh or an error, never worse")
   }
 }
 
+TEST_CASE("an array that claims more than its file can hold is an error, and takes no memory") {
+  const TemporaryFile file;
+  write_med_mesh(file.path(), small_mesh(), "M");
+  const hid_t id = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  REQUIRE(id >= 0);
+  // Two thousand million coordinates of which none is written: HDF5 would read zeros.
+  std::string place;
+  H5Ovisit2(
+      id, H5_INDEX_NAME, H5_ITER_NATIVE,
+      [](hid_t, const char* name, const H5O_info_t*, void* found) {
+        if (std::string_view(name).ends_with("/COO")) *static_cast<std::string*>(found) = name;
+        return herr_t{0};
+      },
+      &place, H5O_INFO_BASIC);
+  REQUIRE_FALSE(place.empty());
+  REQUIRE(H5Ldelete(id, place.c_str(), H5P_DEFAULT) >= 0);
+  const long long nodes = 1'000'000'000;
+  const hsize_t extent = 2 * nodes;
+  const hsize_t chunk = 1024;
+  const hid_t space = H5Screate_simple(1, &extent, nullptr);
+  const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(layout, 1, &chunk);
+  const hid_t array = H5Dcreate2(id, place.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+  const hid_t single = H5Screate(H5S_SCALAR);
+  const hid_t count = H5Acreate2(array, "NBR", H5T_NATIVE_LLONG, single, H5P_DEFAULT, H5P_DEFAULT);
+  REQUIRE(H5Awrite(count, H5T_NATIVE_LLONG, &nodes) >= 0);
+  H5Aclose(count);
+  H5Sclose(single);
+  H5Dclose(array);
+  H5Pclose(layout);
+  H5Sclose(space);
+  H5Fclose(id);
+  try {
+    read_med_mesh(file.path());
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.code() == "damaged-mesh");
+    CHECK_THAT(error.what(), Catch::Contains("more than the file can hold"));
+  }
+}
+
 TEST_CASE("results are written with profiles and localisations") {
   const auto mesh = small_mesh();
   NodalField displacement{"DEPL_R", {"DX", "DY"}, std::vector<double>(12, 1.0)};

@@ -1,0 +1,60 @@
+#include "commands/field_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "commands/field_types.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/fields/extrapolation.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+
+std::vector<FieldSource> field_sources(const Keywords& keywords) {
+  if (keywords.has("CHAM_GD")) {
+    const auto& handle = keywords.concept_of("CHAM_GD");
+    const FieldConcept& data = number_field(handle, keywords, "CHAM_GD");
+    return {{data.field, *data.mesh, data.model.get(), {{"CHAM_GD", handle->name}}}};
+  }
+  const auto& handle = keywords.concept_of("RESULTAT");
+  const solver::Result& result = interpreter::data_of<ResultConcept>(handle, "RESULTAT").result;
+  std::vector<FieldSource> sources;
+  for (const solver::ResultStep* step : selected_steps(keywords, result)) {
+    sources.push_back({field_of(keywords, *step),
+                       result.mesh(),
+                       result.model.get(),
+                       {{"RESU", handle->name},
+                        {"NOM_CHAM", keywords.text("NOM_CHAM")},
+                        {"NUME_ORDRE", static_cast<std::int64_t>(step->order)},
+                        {"INST", step->instant}}});
+  }
+  return sources;
+}
+
+solver::NodalField at_nodes(const Keywords& keywords, const FieldSource& source, const std::vector<int>* cells) {
+  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field)) return *nodal;
+  const auto& element = std::get<solver::ElementField>(source.field);
+  if (element.support == solver::Support::element_node) {
+    if (cells != nullptr) return solver::nodal_means(source.mesh, element, std::span<const int>(*cells));
+    return solver::nodal_means(source.mesh, element);
+  }
+  const char* keyword = keywords.has("CHAM_GD") ? "CHAM_GD" : "NOM_CHAM";
+  throw DiagnosticError("unsupported", fmt::format("{}: the field has its values {}, and values at nodes are needed", keyword, describe(place_of(source.field))),
+                        keywords.span_of(keyword), "give a field at nodes (..._NOEU, DEPL, FORC_NODA ...) or at the nodes of cells (..._ELNO)");
+}
+
+std::vector<int> chosen_components(const Keywords& keywords, const std::vector<std::string>& components) {
+  std::vector<int> chosen;
+  if (keywords.given("NOM_CMP")) {
+    for (const std::string& name : keywords.texts("NOM_CMP")) chosen.push_back(component_of(keywords, components, name));
+    return chosen;
+  }
+  chosen.resize(components.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  return chosen;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,33 @@
+// Reading fields by RESULTAT and NOM_CHAM or by CHAM_GD, step by step, as the commands that make tables do.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands/concepts.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/table.hpp"
+#include "interpreter/call.hpp"
+
+namespace comma::commands {
+
+/// A field, what it lies on, and the columns of a table that say where it comes from: RESU, NOM_CHAM, NUME_ORDRE, INST, or CHAM_GD.
+struct FieldSource {
+  const solver::Field& field;
+  const solver::Mesh& mesh;
+  const solver::Model* model;  ///< null for a field that knows its mesh alone
+  std::vector<std::pair<std::string, Cell>> columns;
+};
+
+/// One a selected step of RESULTAT, or the field CHAM_GD. Throws DiagnosticError `unknown-step`, `unknown-field`, `wrong-type`.
+std::vector<FieldSource> field_sources(const interpreter::Keywords& keywords);
+
+/// The field at nodes: as it is, or the mean over the cells (all when null) of a field at the nodes of cells. Throws
+/// DiagnosticError `unsupported` for one at other points.
+solver::NodalField at_nodes(const interpreter::Keywords& keywords, const FieldSource& source, const std::vector<int>* cells = nullptr);
+
+/// The indices of the components that NOM_CMP names, all when it is not given. Throws DiagnosticError `unknown-component`.
+std::vector<int> chosen_components(const interpreter::Keywords& keywords, const std::vector<std::string>& components);
+
+}  // namespace comma::commands

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "commands/field_reading.hpp"
+#include "commands/field_types.hpp"
+#include "commands/problem_building.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/fields/energies.hpp"
+#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/field_computation.hpp"
+#include "solver/fields/mass_inertia.hpp"
+#include "solver/loads/end_effect.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using Row = std::vector<std::pair<std::string, Cell>>;
+
+// A part of the model with the name and kind that its row shows.
+struct Part {
+  std::string name, kind;
+  std::vector<int> cells;
+};
+
+// TOUT, then one part a group, then one a cell.
+std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const solver::Mesh& mesh) {
+  std::vector<Part> parts;
+  if (occurrence.has("TOUT")) {
+    const std::string name = call.has("MODELE") ? call.concept_of("MODELE")->name : "TOUT";
+    parts.push_back({name, "TOUT", selected_cells(occurrence, mesh, {"TOUT", "", "", "", ""})});
+  }
+  selected_cells(occurrence, mesh);  // says which names do not exist
+  for (const std::string& name : occurrence.texts("GROUP_MA")) parts.push_back({name, "GROUP_MA", mesh.cell_group(name)});
+  for (const std::string& name : occurrence.texts("MAILLE")) parts.push_back({name, "MAILLE", {mesh.find_cell(name)}});
+  return parts;
+}
+
+Row place_columns(const Part& part) { return {{"LIEU", part.name}, {"ENTITE", part.kind}}; }
+
+// --- energies ---------------------------------------------------------------------------------------------------------------
+
+// The result whose energies are asked for: RESULTAT, or one step that holds the displacement CHAM_GD.
+ResultConcept energy_source(const Call& call) {
+  if (call.has("RESULTAT")) return call.data<ResultConcept>("RESULTAT");
+  const FieldConcept& data = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
+  ResultConcept source;
+  source.problem.model = data.model;
+  source.problem.properties = std::make_shared<const solver::ElementProperties>();
+  source.result.model = call.has("MODELE") ? call.data<ModelConcept>("MODELE").model : data.model;
+  solver::ResultStep& step = source.result.steps.emplace_back();
+  step.fields.emplace("DEPL", data.field);
+  return source;
+}
+
+// Totals over parts, and what percentage of the whole model's energy each has.
+void list_energies(Table& table, const Call& call, const char* keyword, const char* field) {
+  const ResultConcept source = energy_source(call);
+  const solver::StaticProblem problem = problem_of_result(call, source);
+  solver::FieldComputation computation(problem, source.result);
+  for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
+    const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
+    const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
+    const double whole = solver::sum_over_cells(energies, 0);
+    for (const Keywords& occurrence : call.factors(keyword)) {
+      for (const Part& part : parts_of(call, occurrence, source.result.mesh())) {
+        const double total = solver::sum_over_cells(energies, 0, std::span<const int>(part.cells));
+        Row row = {{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)}, {"INST", chosen->instant}};
+        const Row place = place_columns(part);
+        row.insert(row.end(), place.begin(), place.end());
+        row.insert(row.end(), {{"TOTALE", total}, {"POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0}});
+        table.add_row(row);
+      }
+    }
+  }
+}
+
+// --- masses -----------------------------------------------------------------------------------------------------------------
+
+solver::StaticProblem named_problem(const Call& call) {
+  if (call.has("RESULTAT")) return problem_of_result(call, call.data<ResultConcept>("RESULTAT"));
+  return problem_of_result(call, ResultConcept());
+}
+
+void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
+  constexpr std::pair<const char*, std::pair<int, int>> entries[] = {{"IX", {0, 0}},  {"IY", {1, 1}},  {"IZ", {2, 2}},
+                                                                     {"IXY", {0, 1}}, {"IXZ", {0, 2}}, {"IYZ", {1, 2}}};
+  for (const auto& [name, place] : entries) row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
+}
+
+void list_masses(Table& table, const Call& call) {
+  const solver::StaticProblem problem = named_problem(call);
+  const solver::VariableState state;
+  const solver::FieldInput input{*problem.model, *problem.materials, *problem.properties, state};
+  for (const Keywords& occurrence : call.factors("MASS_INER")) {
+    for (const Part& part : parts_of(call, occurrence, *problem.model->mesh)) {
+      const solver::MassInertia found = solver::mass_inertia(input, std::span<const int>(part.cells));
+      Row row = place_columns(part);
+      row.emplace_back("MASSE", found.mass);
+      for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("CDG_{}", "XYZ"[i]), found.centre[i]);
+      add_inertia(row, found.inertia, "_G");
+      table.add_row(row);
+    }
+  }
+}
+
+// --- integrals --------------------------------------------------------------------------------------------------------------
+
+int dimension_named(const std::string& word) { return word.front() - '0'; }
+
+// A field that can be integrated over cells; one at nodes goes to the nodes of each cell first.
+solver::ElementField on_elements(const FieldSource& source, const solver::Model& model) {
+  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field)) return solver::to_element_nodes(model, *nodal);
+  return std::get<solver::ElementField>(source.field);
+}
+
+std::shared_ptr<const solver::Model> model_behind(const Call& call) {
+  if (call.has("MODELE")) return call.data<ModelConcept>("MODELE").model;
+  return call.has("RESULTAT") ? call.data<ResultConcept>("RESULTAT").result.model
+                              : call.data<FieldConcept>("CHAM_GD").model;
+}
+
+void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+  const solver::ElementField field = on_elements(source, model);
+  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+  const solver::ElementField integrals = summed ? field : solver::integrate_cells(model, field);
+  const solver::ElementField volumes = solver::cell_volumes(model);
+  const int wanted = dimension_named(occurrence.text("TYPE_MAILLE"));
+  for (Part& part : parts_of(call, occurrence, source.mesh)) {
+    std::erase_if(part.cells, [&](int cell) {
+      return solver::dimension(source.mesh.cell_types[cell]) != wanted || integrals.points(cell) == 0;
+    });
+    if (part.cells.empty()) {
+      throw DiagnosticError("no-element", fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field", wanted, part.name),
+                            occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
+    }
+    Row row = source.columns;
+    const Row place = place_columns(part);
+    row.insert(row.end(), place.begin(), place.end());
+    const double volume = solver::sum_over_cells(volumes, 0, std::span<const int>(part.cells));
+    if (!summed) row.emplace_back("VOL", volume);
+    for (const std::string& name : occurrence.texts("NOM_CMP")) {
+      const double total = solver::sum_over_cells(integrals, component_of(occurrence, field.components, name), std::span<const int>(part.cells));
+      row.emplace_back("INTE_" + name, total);
+      if (!summed) row.emplace_back("MOYE_" + name, total / volume);
+    }
+    table.add_row(row);
+  }
+}
+
+// The source of the call with the field that the occurrence names.
+Keywords with_field(const Call& call, const Keywords& occurrence) {
+  Keywords merged = call;
+  if (occurrence.has("NOM_CHAM")) merged.items.push_back(occurrence.at("NOM_CHAM"));
+  return merged;
+}
+
+void list_integrals(Table& table, const Call& call) {
+  const auto model = model_behind(call);
+  if (!model) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
+  for (const Keywords& occurrence : call.factors("INTEGRALE")) {
+    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_integrals(table, call, occurrence, source, *model);
+  }
+}
+
+// --- holes ------------------------------------------------------------------------------------------------------------------
+
+void list_areas(Table& table, const Call& call) {
+  const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
+  for (const Keywords& occurrence : call.factors("AIRE_INTERNE")) {
+    const auto names = occurrence.texts("GROUP_MA_BORD");
+    const auto rim = selected_cells(occurrence, mesh, {"", "", "", "GROUP_MA_BORD", ""});
+    table.add_row({{"GROUP_MA", fmt::format("{}", fmt::join(names, " "))}, {"AIRE", solver::enclosed_area(mesh, rim)}});
+  }
+}
+
+}  // namespace
+
+Product post_elem(const Call& call, Context&) {
+  auto product = std::make_shared<TableConcept>();
+  Table& table = product->table;
+  if (call.has("ENER_ELAS")) list_energies(table, call, "ENER_ELAS", "ENEL_ELEM");
+  if (call.has("ENER_POT")) list_energies(table, call, "ENER_POT", "EPOT_ELEM");
+  if (call.has("ENER_TOTALE")) list_energies(table, call, "ENER_TOTALE", "ETOT_ELEM");
+  if (call.has("MASS_INER")) list_masses(table, call);
+  if (call.has("INTEGRALE")) list_integrals(table, call);
+  if (call.has("AIRE_INTERNE")) list_areas(table, call);
+  return product;
+}
+
+}  // namespace comma::commands

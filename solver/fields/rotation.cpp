@@ -1,0 +1,138 @@
+#include "solver/fields/rotation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+using VectorNames = std::array<const char*, 3>;
+using TensorNames = std::array<const char*, 6>;  // xx yy zz xy xz yz
+
+constexpr VectorNames vectors[] = {{"DX", "DY", "DZ"}, {"DRX", "DRY", "DRZ"}, {"FX", "FY", "FZ"}, {"MX", "MY", "MZ"}};
+constexpr TensorNames tensors[] = {{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"},
+                                   {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"}};
+
+/// The columns of a group of components; the group is not there at all if all are -1.
+template <class Names>
+auto columns_of(const NodalField& field, const Names& names) {
+  std::array<int, std::tuple_size_v<Names>> columns{};
+  for (std::size_t i = 0; i < names.size(); ++i) columns[i] = field.component(names[i]);
+  return columns;
+}
+
+template <class Columns>
+bool any_present(const Columns& columns) {
+  return std::any_of(columns.begin(), columns.end(), [](int column) { return column >= 0; });
+}
+
+/// The values of a group at a node, 0 where absent; nothing if all are.
+template <std::size_t Size>
+bool gather(const NodalField& field, int node, const std::array<int, Size>& columns, std::array<double, Size>& values) {
+  bool carried = false;
+  for (std::size_t i = 0; i < Size; ++i) {
+    const double value = columns[i] < 0 ? absent : field.at(node, columns[i]);
+    carried |= !std::isnan(value);
+    values[i] = std::isnan(value) ? 0.0 : value;
+  }
+  return carried;
+}
+
+std::array<double, 3> turned(const std::array<double, 3>& v, const Eigen::Matrix3d& axes) {
+  const Eigen::Vector3d own = axes * Eigen::Vector3d(v.data());
+  return {own[0], own[1], own[2]};
+}
+
+std::array<double, 6> turned(const std::array<double, 6>& t, const Eigen::Matrix3d& axes) {
+  Eigen::Matrix3d tensor;
+  tensor << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
+  const Eigen::Matrix3d own = axes * tensor * axes.transpose();
+  return {own(0, 0), own(1, 1), own(2, 2), own(0, 1), own(0, 2), own(1, 2)};
+}
+
+/// A field with all components of every group that the given one has a part of.
+std::vector<std::string> completed(const NodalField& field) {
+  std::vector<std::string> names = field.components;
+  const auto complete = [&](const auto& group) {
+    if (!any_present(columns_of(field, group))) return;
+    for (const char* name : group) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+    }
+  };
+  for (const auto& group : vectors) complete(group);
+  for (const auto& group : tensors) complete(group);
+  return names;
+}
+
+template <class Names>
+void turn_group(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes, const Names& names, NodalField& result) {
+  const auto from = columns_of(field, names);
+  if (!any_present(from)) return;
+  const auto to = columns_of(result, names);
+  std::array<double, std::tuple_size_v<Names>> values{};
+  for (const int node : nodes) {
+    if (!gather(field, node, from, values)) continue;
+    const auto own = turned(values, axes(node));
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      result.values[static_cast<std::size_t>(node) * result.components.size() + static_cast<std::size_t>(to[i])] = own[i];
+    }
+  }
+}
+
+}  // namespace
+
+NodalField in_axes(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes) {
+  NodalField result{field.quantity, completed(field), {}};
+  const std::size_t width = result.components.size();
+  result.values.assign(field.values.size() / field.components.size() * width, absent);
+  for (const int node : nodes) {
+    for (std::size_t c = 0; c < field.components.size(); ++c) {
+      result.values[static_cast<std::size_t>(node) * width + c] = field.at(node, static_cast<int>(c));
+    }
+  }
+  for (const auto& group : vectors) turn_group(field, nodes, axes, group, result);
+  for (const auto& group : tensors) turn_group(field, nodes, axes, group, result);
+  return result;
+}
+
+NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis) {
+  if (!(axis.norm() > 0.0)) throw Error("zero-vector", "the axis of revolution has no length");
+  const Eigen::Vector3d along = axis.normalized();
+  return [&mesh, origin, along](int node) {
+    const Eigen::Vector3d from_origin = Eigen::Vector3d(mesh.nodes[node].data()) - origin;
+    const Eigen::Vector3d radial = from_origin - along.dot(from_origin) * along;
+    // Nearer than this the direction is made up by rounding.
+    constexpr double nearest = 1e-12;
+    if (!(radial.norm() > nearest * from_origin.norm())) {
+      throw Error("zero-vector", fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
+    }
+    Eigen::Matrix3d axes;
+    axes.row(0) = radial.normalized();
+    axes.row(1) = along;
+    axes.row(2) = radial.normalized().cross(along);
+    return axes;
+  };
+}
+
+Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point) {
+  const auto force_columns = columns_of(forces, vectors[0]);
+  const auto moment_columns = columns_of(forces, vectors[1]);
+  Resultant sum;
+  for (const int node : nodes) {
+    std::array<double, 3> force{}, moment{};
+    gather(forces, node, force_columns, force);
+    gather(forces, node, moment_columns, moment);
+    const Eigen::Vector3d f(force.data());
+    sum.force += f;
+    sum.moment += Eigen::Vector3d(moment.data()) + (Eigen::Vector3d(mesh.nodes[node].data()) - point).cross(f);
+  }
+  return sum;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,35 @@
+// Vectors and tensors of a nodal field in other axes.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include <Eigen/Dense>
+
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+/// The axes (rows) at a node.
+using NodeAxes = std::function<Eigen::Matrix3d(int node)>;
+
+/// The field at `nodes`, absent elsewhere, with vectors (DX DY DZ; DRX DRY DRZ; FX FY FZ; MX MY MZ) and symmetric tensors (SIXX
+/// ... SIYZ; EPXX ... EPYZ) turned into the axes of each node; other components as they are. Of a vector or tensor that
+/// a node carries in part, the missing components count as 0, and all of them come out.
+NodalField in_axes(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes);
+
+/// The axes of bodies of revolution about the line through `origin` along `axis`: r away from the line, z along it,
+/// and the third, about it, right-handed with these two (the order of axisymmetric models). Throws Error `zero-vector`
+/// for an axis without length, and when asked for a node on the line.
+NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis);
+
+/// The sums of forces and moments over nodes.
+struct Resultant {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about a point
+};
+
+/// Forces stand in DX DY DZ, moments of their own in DRX DRY DRZ; absent values count as 0.
+Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point);
+
+}  // namespace comma::solver

@@ -1,0 +1,137 @@
+#include "solver/functions/operations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// Abscissas of different tables that are nearer than this, relative to the larger, were meant to be one.
+constexpr double same_abscissa = 1e-12;
+
+bool is_same(double a, double b) { return std::abs(a - b) <= same_abscissa * std::max(std::abs(a), std::abs(b)); }
+
+TabulatedFunction shape_of(const TabulatedFunction& function) {
+  TabulatedFunction shape = function;
+  shape.x.clear();
+  shape.y.clear();
+  return shape;
+}
+
+/// At each common abscissa, `join` of the functions' values.
+template <class Join>
+TabulatedFunction joined(Functions functions, Join join) {
+  TabulatedFunction result = shape_of(*functions.front());
+  result.x = common_abscissas(functions);
+  std::vector<double> values(functions.size());
+  for (const double x : result.x) {
+    std::ranges::transform(functions, values.begin(), [x](const TabulatedFunction* function) { return (*function)(x); });
+    result.y.push_back(join(values));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> common_abscissas(Functions functions) {
+  std::vector<double> all;
+  for (const TabulatedFunction* function : functions) all.insert(all.end(), function->x.begin(), function->x.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  std::erase_if(all, [&](double x) {
+    return std::ranges::any_of(functions, [x](const TabulatedFunction* function) {
+      const auto& own = function->x;
+      const bool before = x < own.front() && !is_same(x, own.front()) && function->left == Extension::excluded;
+      const bool behind = x > own.back() && !is_same(x, own.back()) && function->right == Extension::excluded;
+      return before || behind;
+    });
+  });
+  if (all.empty()) throw Error("out-of-function", "the functions have no abscissa where all of them are defined", "extend them on the left or on the right");
+  return all;
+}
+
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients) {
+  return joined(functions, [&](const std::vector<double>& values) {
+    return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0);
+  });
+}
+
+TabulatedFunction product(Functions functions) {
+  return joined(functions, [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>());
+  });
+}
+
+TabulatedFunction mean(Functions functions) {
+  return joined(functions, [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  });
+}
+
+TabulatedFunction upper_envelope(Functions functions) {
+  return joined(functions, [](const std::vector<double>& values) { return std::ranges::max(values); });
+}
+
+TabulatedFunction lower_envelope(Functions functions) {
+  return joined(functions, [](const std::vector<double>& values) { return std::ranges::min(values); });
+}
+
+TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate) {
+  TabulatedFunction result = function;
+  std::ranges::transform(result.y, result.y.begin(), ordinate);
+  return result;
+}
+
+TabulatedFunction integral(const TabulatedFunction& function, double at_first) {
+  TabulatedFunction result = function;
+  result.y.front() = at_first;
+  for (std::size_t i = 1; i < function.x.size(); ++i) {
+    result.y[i] = result.y[i - 1] + 0.5 * (function.y[i - 1] + function.y[i]) * (function.x[i] - function.x[i - 1]);
+  }
+  return result;
+}
+
+TabulatedFunction derivative(const TabulatedFunction& function) {
+  const std::size_t last = function.x.size() - 1;
+  if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");
+  TabulatedFunction result = function;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t behind = std::min(i + 1, last);
+    result.y[i] = (function.y[behind] - function.y[before]) / (function.x[behind] - function.x[before]);
+  }
+  return result;
+}
+
+TabulatedFunction inverse(const TabulatedFunction& function) {
+  const bool rises = std::ranges::adjacent_find(function.y, std::ranges::greater_equal()) == function.y.end();
+  const bool falls = std::ranges::adjacent_find(function.y, std::ranges::less_equal()) == function.y.end();
+  if (!rises && !falls) {
+    throw Error("out-of-function", fmt::format("the function {}({}) neither rises nor falls throughout: it has no inverse", function.result, function.parameter));
+  }
+  TabulatedFunction result = function;
+  std::swap(result.x, result.y);
+  std::swap(result.x_scale, result.y_scale);
+  std::swap(result.parameter, result.result);
+  if (falls && !rises) {
+    std::ranges::reverse(result.x);
+    std::ranges::reverse(result.y);
+    std::swap(result.left, result.right);
+  }
+  return result;
+}
+
+TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner) {
+  TabulatedFunction result = mapped(inner, outer);
+  result.result = outer.result;
+  return result;
+}
+
+}  // namespace comma::solver

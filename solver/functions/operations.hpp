@@ -1,0 +1,42 @@
+// Functions made of tabulated functions: sums, products, envelopes, integrals, derivatives (U4.32.04).
+//
+// What combines several functions is tabulated at all their abscissas, as far as every one of them is defined there: beyond
+// an end that excludes, it has no points. The new table takes parameter, scales and extensions of the first function. All
+// throw Error `out-of-function` when the functions have no abscissa in common, or where one cannot be evaluated.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "solver/functions/function.hpp"
+
+namespace comma::solver {
+
+using Functions = std::span<const TabulatedFunction* const>;
+
+/// The abscissas of all the functions within the range of each, rising; those that differ by rounding only are one.
+std::vector<double> common_abscissas(Functions functions);
+
+/// sum of coefficients[i] * functions[i].
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients);
+TabulatedFunction product(Functions functions);
+TabulatedFunction mean(Functions functions);
+/// The largest or the smallest of the functions at each abscissa.
+TabulatedFunction upper_envelope(Functions functions);
+TabulatedFunction lower_envelope(Functions functions);
+
+/// The function with another ordinate at each of its points.
+TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate);
+
+/// By the trapezoidal rule from the first abscissa, where it is `at_first`.
+TabulatedFunction integral(const TabulatedFunction& function, double at_first);
+/// By central differences over the neighbours, one-sided at the ends. Throws Error `out-of-function` for a single point.
+TabulatedFunction derivative(const TabulatedFunction& function);
+/// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates neither rise
+/// nor fall strictly.
+TabulatedFunction inverse(const TabulatedFunction& function);
+/// outer(inner(x)) at the abscissas of the inner function, whose shape it takes.
+TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner);
+
+}  // namespace comma::solver

@@ -1,0 +1,98 @@
+#include "solver/functions/operations.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+using Pointers = std::vector<const TabulatedFunction*>;
+
+const TabulatedFunction line{.x = {0.0, 1.0, 4.0}, .y = {1.0, 3.0, 9.0}};  // 1 + 2 x
+const TabulatedFunction bump{.x = {0.0, 2.0, 4.0}, .y = {0.0, 4.0, 0.0}};
+
+/// x^2 at equal steps.
+TabulatedFunction parabola() {
+  TabulatedFunction f;
+  for (int i = 0; i <= 10; ++i) {
+    f.x.push_back(0.1 * i);
+    f.y.push_back(0.01 * i * i);
+  }
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("a combination goes through the points of all its functions", "[functions]") {
+  const TabulatedFunction f = combination(Pointers{&line, &bump}, std::array{2.0, -1.0});
+  CHECK(f.x == std::vector<double>{0.0, 1.0, 2.0, 4.0});
+  for (const double x : {0.0, 0.7, 1.5, 3.3, 4.0}) CHECK(f(x) == Approx(2.0 * line(x) - bump(x)));
+}
+
+TEST_CASE("a combination ends where one of its functions excludes, and goes on where it may", "[functions]") {
+  TabulatedFunction shorter{.x = {1.0, 3.0}, .y = {1.0, 1.0}};
+  CHECK(common_abscissas(Pointers{&line, &shorter}) == std::vector<double>{1.0, 3.0});
+  shorter.right = Extension::constant;
+  CHECK(common_abscissas(Pointers{&line, &shorter}) == std::vector<double>{1.0, 3.0, 4.0});
+  const TabulatedFunction apart{.x = {5.0, 6.0}, .y = {1.0, 1.0}};
+  CHECK_THROWS_AS(common_abscissas(Pointers{&line, &apart}), Error);
+  const TabulatedFunction rounded{.x = {0.1 + 0.2, 1.0}, .y = {0.0, 0.0}}, written{.x = {0.3, 1.0}, .y = {0.0, 0.0}};
+  CHECK(common_abscissas(Pointers{&rounded, &written}).size() == 2);
+}
+
+TEST_CASE("envelopes bound, means lie between, products multiply", "[functions]") {
+  const Pointers both{&line, &bump};
+  for (const double x : {0.0, 1.0, 2.0, 4.0}) {
+    CHECK(upper_envelope(both)(x) == std::max(line(x), bump(x)));
+    CHECK(lower_envelope(both)(x) == std::min(line(x), bump(x)));
+    CHECK(mean(both)(x) == Approx(0.5 * (line(x) + bump(x))));
+    CHECK(product(both)(x) == Approx(line(x) * bump(x)));
+  }
+}
+
+TEST_CASE("the trapezoidal rule integrates a polygon exactly", "[functions]") {
+  const TabulatedFunction area = integral(bump, 5.0);
+  CHECK(area.y == std::vector<double>{5.0, 9.0, 13.0});
+}
+
+TEST_CASE("central differences are exact for a parabola inside, one-sided ones for a line at its ends", "[functions]") {
+  const TabulatedFunction slope = derivative(parabola());
+  for (std::size_t i = 1; i < 10; ++i) CHECK(slope.y[i] == Approx(2.0 * slope.x[i]));
+  CHECK(derivative(line).y == std::vector<double>{2.0, 2.0, 2.0});
+  CHECK_THROWS_AS(derivative({.x = {1.0}, .y = {1.0}}), Error);
+}
+
+TEST_CASE("deriving an integral gives the function back to second order", "[functions]") {
+  const auto worst = [](int count) {
+    TabulatedFunction wave;
+    for (int i = 0; i <= count; ++i) {
+      wave.x.push_back(i * 3.0 / count);
+      wave.y.push_back(std::sin(wave.x.back()));
+    }
+    const TabulatedFunction back = derivative(integral(wave, 0.0));
+    double error = 0.0;
+    for (std::size_t i = 1; i + 1 < wave.x.size(); ++i) error = std::max(error, std::abs(back.y[i] - wave.y[i]));
+    return error;
+  };
+  CHECK(std::log2(worst(50) / worst(100)) == Approx(2.0).margin(0.1));
+}
+
+TEST_CASE("a function and its inverse undo each other", "[functions]") {
+  TabulatedFunction falling{.parameter = "EPSI", .result = "SIGM", .x = {0.0, 1.0, 3.0}, .y = {8.0, 4.0, 2.0}};
+  falling.left = Extension::constant;
+  for (const TabulatedFunction& f : {line, falling}) {
+    const TabulatedFunction back = inverse(f);
+    for (const double x : f.x) CHECK(back(f(x)) == Approx(x));
+    CHECK(inverse(back).x == f.x);
+    CHECK(inverse(back).y == f.y);
+    const TabulatedFunction same = composition(back, f);
+    CHECK(same.y == f.x);
+  }
+  CHECK(inverse(falling).parameter == "SIGM");
+  CHECK(inverse(falling).right == Extension::constant);
+  CHECK_THROWS_AS(inverse(bump), Error);
+}
