@@ -198,7 +198,10 @@ class NameCheck {
     const auto exists = [&](const std::string& name) { return is_own(name) || std::ranges::find(known, name) != known.end(); };
     const auto hint = [&](const std::string& name) {
       const bool other = std::ranges::find(known_others, name) != known_others.end();
-      return other ? fmt::format("{} is a {} group of this mesh", name, other_kind) : hint_for(name, known, fmt::format("{} group", kind));
+      if (other) return fmt::format("{} is a {} group of this mesh", name, other_kind);
+      std::vector<std::string> offered = known;
+      offered.insert(offered.end(), own_names_.begin(), own_names_.end());
+      return hint_for(name, offered, fmt::format("{} group", kind));
     };
     check_each(site, "unknown-group", fmt::format("the mesh has no {} group", kind), exists, hint);
   }
