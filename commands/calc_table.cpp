@@ -145,7 +145,8 @@ bool same_key(const Cell& a, const Cell& b) {
   return std::abs(x - y) <= key_precision * std::max(std::abs(x), std::abs(y));
 }
 
-/// COMB: the rows of two tables put together where the key columns agree.
+/// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second table's
+/// cell stays.
 class Join {
  public:
   Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left) {
@@ -155,13 +156,6 @@ class Join {
     }
     if (keys.empty()) throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common", action.span_of("TABLE"));
     for (const std::string& name : keys) keys_.emplace_back(column_of(left, name, action), column_of(right, name, action));
-    for (const std::string& name : right.columns) {
-      const bool key = std::find(keys.begin(), keys.end(), name) != keys.end();
-      if (!key && left.column(name) >= 0) {
-        throw DiagnosticError("unsupported", fmt::format("CALC_TABLE: both tables have a column {}, which is not compared", name),
-                              action.span_of("TABLE"), "rename it in one of them, or add it to NOM_PARA");
-      }
-    }
     for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
   }
 

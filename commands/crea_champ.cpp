@@ -7,6 +7,7 @@
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/contact/normals.hpp"
 #include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
@@ -188,6 +189,19 @@ FieldPtr of_mesh(const Call& call) {
   return product;
 }
 
+// Unit normals at the nodes of boundary cells.
+FieldPtr of_normals(const Call& call) {
+  FieldPtr product = on_support(call);
+  std::vector<Eigen::Vector3d> positions;
+  for (const solver::Point& at : product->mesh->nodes) positions.emplace_back(at.data());
+  auto normals = solver::empty_nodal_field(*product->mesh, "GEOM_R", {"X", "Y", "Z"});
+  for (const auto& [node, normal] : solver::nodal_normals(*product->mesh, selected_cells(call, *product->mesh), positions)) {
+    std::copy_n(normal.data(), 3, normals.values.begin() + 3 * node);
+  }
+  product->field = std::move(normals);
+  return product;
+}
+
 FieldPtr of_result(const Call& call) {
   const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
   auto product = std::make_shared<FieldConcept>();
@@ -203,6 +217,7 @@ FieldPtr made_by(const Call& call, const FieldType& type) {
   if (operation == "ASSE") return from_pieces(call, type);
   if (operation == "COMB") return from_terms(call);
   if (operation == "EVAL") return from_functions(call, type);
+  if (operation == "NORMALE") return of_normals(call);
   return call.has("RESULTAT") ? of_result(call) : of_mesh(call);
 }
 

@@ -78,7 +78,7 @@ void add_nodes(Table& table, const Keywords& source, const FieldSource& from, co
   for (const int node : selected_nodes(source, from.mesh)) {
     Row row = from.columns;
     const solver::Point& at = from.mesh.nodes[node];
-    row.insert(row.end(), {{"NOEUD", from.mesh.node_name(node)}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
+    row.insert(row.end(), {{"NOEUD", table_node(from.mesh, node)}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
     add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(node, component); });
   }
 }
@@ -93,8 +93,8 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
   for (const int cell : selected_cells(source, from.mesh)) {
     for (int point = 0; point < field.points(cell); ++point) {
       Row row = from.columns;
-      row.emplace_back("MAILLE", from.mesh.cell_name(cell));
-      if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", from.mesh.node_name(from.mesh.cell(cell)[point]));
+      row.emplace_back("MAILLE", table_cell(from.mesh, cell));
+      if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
       if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
       add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, point, component); });
     }

@@ -46,6 +46,14 @@ solver::NodalField at_nodes(const Keywords& keywords, const FieldSource& source,
                         keywords.span_of(keyword), "give a field at nodes (..._NOEU, DEPL, FORC_NODA ...) or at the nodes of cells (..._ELNO)");
 }
 
+std::string table_node(const solver::Mesh& mesh, int node) {
+  return mesh.node_names.empty() ? std::to_string(node + 1) : mesh.node_name(node);
+}
+
+std::string table_cell(const solver::Mesh& mesh, int cell) {
+  return mesh.cell_names.empty() ? std::to_string(cell + 1) : mesh.cell_name(cell);
+}
+
 std::vector<int> chosen_components(const Keywords& keywords, const std::vector<std::string>& components) {
   std::vector<int> chosen;
   if (keywords.given("NOM_CMP")) {

@@ -27,6 +27,11 @@ std::vector<FieldSource> field_sources(const interpreter::Keywords& keywords);
 /// DiagnosticError `unsupported` for one at other points.
 solver::NodalField at_nodes(const interpreter::Keywords& keywords, const FieldSource& source, const std::vector<int>* cells = nullptr);
 
+/// What the columns NOEUD and MAILLE say: the name, or the bare number where the mesh gives none (as Code_Aster does since nodes and
+/// cells of files keep no names).
+std::string table_node(const solver::Mesh& mesh, int node);
+std::string table_cell(const solver::Mesh& mesh, int cell);
+
 /// The indices of the components that NOM_CMP names, all when it is not given. Throws DiagnosticError `unknown-component`.
 std::vector<int> chosen_components(const interpreter::Keywords& keywords, const std::vector<std::string>& components);
 

@@ -93,7 +93,7 @@ void extract(Table& table, const Keywords& action, const Reading& reading) {
   for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
     const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
     Row row = reading.head;
-    row.insert(row.begin() + 1, {"NOEUD", reading.mesh.node_name(reading.nodes[i])});
+    row.insert(row.begin() + 1, {"NOEUD", table_node(reading.mesh, reading.nodes[i])});
     row.insert(row.end(), {{"ABSC_CURV", along[i]}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
     bool carried = false;
     for (const int component : components) {
@@ -197,7 +197,7 @@ void list_extremes(Table& table, const Keywords& action, const Reading& reading)
                                         std::pair("MAXI_ABS", found->greatest_magnitude), std::pair("MINI_ABS", found->least_magnitude)}) {
       Row row = reading.head;
       row.insert(row.end(), {{"EXTREMA", std::string(name)},
-                             {"NOEUD", reading.mesh.node_name(extreme.place)},
+                             {"NOEUD", table_node(reading.mesh, extreme.place)},
                              {"CMP", reading.field.components[component]},
                              {"VALE", extreme.value}});
       table.add_row(row);

@@ -61,6 +61,7 @@ solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& s
   if (call.has("MODELE")) problem.model = call.data<ModelConcept>("MODELE").model;
   if (call.has("CHAM_MATER")) problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
   if (call.has("CARA_ELEM")) problem.properties = call.data<PropertiesConcept>("CARA_ELEM").properties;
+  if (call.has("EXCIT")) problem.loads = applied_loads(call);
   if (!problem.properties) problem.properties = std::make_shared<const solver::ElementProperties>();
   if (problem.model && problem.materials) return problem;
   const char* missing = problem.model ? "CHAM_MATER" : "MODELE";

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ double reduced(const Keywords& test, const Values& values) {
 }
 
 [[noreturn]] void not_carried(const Keywords& test, const std::string& place) {
-  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, test.text("NOM_CMP")),
+  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, fmt::join(test.texts("NOM_CMP"), ", ")),
                         test.span_of("NOM_CMP"));
 }
 

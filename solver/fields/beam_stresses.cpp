@@ -80,18 +80,6 @@ double bending_stress(const FieldInput& input, int cell, const BeamSection& sect
       "ask for them on beams with a rectangular or circular section");
 }
 
-/// What the material knows at the middle of a cell of two nodes.
-MaterialPoint middle_point(const FieldInput& input, int cell) {
-  constexpr std::array<double, 2> half = {0.5, 0.5};
-  const auto nodes = input.model.mesh->cell(cell);
-  MaterialPoint at;
-  input.state.sample(cell, nodes, half, 0, at);
-  const Point& a = input.model.mesh->nodes[nodes[0]];
-  const Point& b = input.model.mesh->nodes[nodes[1]];
-  at.place({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
-  return at;
-}
-
 const IsotropicElasticity& isotropic(const FieldInput& input, int cell) {
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
   if (material != nullptr) return *material;

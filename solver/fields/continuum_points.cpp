@@ -27,6 +27,17 @@ CellMaterial material_of(const FieldInput& input, int cell) {
   return {&*material->elasticity, axes == input.properties.material_axes.end() ? nullptr : &axes->second};
 }
 
+MaterialPoint middle_point(const FieldInput& input, int cell) {
+  constexpr std::array<double, 2> half = {0.5, 0.5};
+  const auto nodes = input.model.mesh->cell(cell);
+  MaterialPoint at;
+  input.state.sample(cell, nodes, half, 0, at);
+  const Point& a = input.model.mesh->nodes[nodes[0]];
+  const Point& b = input.model.mesh->nodes[nodes[1]];
+  at.place({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+  return at;
+}
+
 bool ContinuumPoints::covers(int cell) const {
   const int body = continuum_dimension(model_.formulations[cell]);
   return body > 0 && dimension(model_.mesh->cell_types[cell]) == body;

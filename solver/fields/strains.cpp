@@ -19,6 +19,16 @@ class DisplacementGradients {
         displacement_(displacement),
         columns_{displacement.component("DX"), displacement.component("DY"), displacement.component("DZ")} {}
 
+  /// The strain along a bar.
+  double elongation(int cell, StrainKind kind) const {
+    const auto nodes = model_.mesh->cell(cell);
+    const int dim = model_.formulations[cell] == Formulation::bar_2d ? 2 : 3;
+    const Eigen::Vector3d along = Eigen::Vector3d(model_.mesh->nodes[nodes[1]].data()) - Eigen::Vector3d(model_.mesh->nodes[nodes[0]].data());
+    const Eigen::Vector3d change = value(nodes[1], dim, cell) - value(nodes[0], dim, cell);
+    const double green = kind == StrainKind::green ? 0.5 * change.squaredNorm() : 0.0;
+    return (along.dot(change) + green) / along.squaredNorm();
+  }
+
   Eigen::Matrix3d at(int cell, const ContinuumSample& sample, const ContinuumPoint& point) const {
     const auto nodes = model_.mesh->cell(cell);
     const int dim = continuum_dimension(model_.formulations[cell]);
@@ -85,13 +95,32 @@ Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, 
 
 }  // namespace
 
+namespace {
+
+bool is_bar(Formulation formulation) {
+  return formulation == Formulation::bar || formulation == Formulation::bar_2d;
+}
+
+double bar_strain(const FieldInput& input, int cell, const DisplacementGradients& gradients, StrainKind kind) {
+  const double strain = gradients.elongation(cell, kind);
+  if (kind != StrainKind::mechanical) return strain;
+  const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
+  if (material == nullptr) {
+    throw Error("unsupported", fmt::format("the bar on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+  }
+  return strain - inelastic_axial_strain(*material, middle_point(input, cell));
+}
+
+}  // namespace
+
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind) {
   const Mesh& mesh = *input.model.mesh;
   ContinuumPoints points(input.model);
   bool solid = false;
   ElementField field{"EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0}, {}};
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const int count = points.covers(cell) ? static_cast<int>(points.samples(cell).size()) : 0;
+    const int own = is_bar(input.model.formulations[cell]) ? 1 : 0;
+    const int count = points.covers(cell) ? static_cast<int>(points.samples(cell).size()) : own;
     solid = solid || (count > 0 && dimension(mesh.cell_types[cell]) == 3);
     field.starts.push_back(field.starts.back() + count);
   }
@@ -101,6 +130,10 @@ ElementField strains(const FieldInput& input, const NodalField& displacement, St
   const DisplacementGradients gradients(input.model, displacement);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     if (field.points(cell) == 0) continue;
+    if (is_bar(input.model.formulations[cell])) {
+      field.values[static_cast<std::size_t>(field.starts[cell]) * width] = bar_strain(input, cell, gradients, kind);
+      continue;
+    }
     const auto& samples = points.samples(cell);
     for (std::size_t g = 0; g < samples.size(); ++g) {
       const ContinuumPoint point = points.locate(cell, samples[g]);

@@ -1,4 +1,4 @@
-// Strains of continua from displacements (CALC_CHAMP, DEFORMATION; U4.81.04).
+// Strains of continua and bars from displacements (CALC_CHAMP, DEFORMATION; U4.81.04).
 #pragma once
 
 #include "solver/fields/continuum_points.hpp"
@@ -13,8 +13,8 @@ enum class StrainKind : std::uint8_t {
 };
 
 /// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
-/// components (half the shear angles). In plane stress EPZZ is that of the elastic law without stress across the plane.
-/// Throws Error `incompatible-field` where a node of a continuum has no displacement.
+/// components (half the shear angles). Bars have EPXX, along themselves. In plane stress EPZZ is that of the elastic law without stress across the plane.
+/// Throws Error `incompatible-field` where a node of a continuum or bar has no displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
 }  // namespace comma::solver

@@ -1,0 +1,64 @@
+#include "solver/fields/rotation.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "solver/mesh/axes.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+Mesh nodes_at(std::vector<Point> nodes) {
+  Mesh mesh;
+  mesh.nodes = std::move(nodes);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a tensor keeps its invariants in other axes, and its missing components come out", "[fields]") {
+  const NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {4.0, -1.0, 2.0, 3.0}};
+  const Eigen::Matrix3d axes = nautical_axes(0.4, -0.7, 1.1);
+  const std::vector<int> nodes = {0};
+  const NodalField turned = in_axes(field, nodes, [&](int) { return axes; });
+  REQUIRE(turned.components.size() == 6);
+  const auto at = [&](const char* name) { return turned.at(0, turned.component(name)); };
+  CHECK(at("SIXX") + at("SIYY") + at("SIZZ") == Approx(5.0));
+  const double norm = at("SIXX") * at("SIXX") + at("SIYY") * at("SIYY") + at("SIZZ") * at("SIZZ") +
+                      2 * (at("SIXY") * at("SIXY") + at("SIXZ") * at("SIXZ") + at("SIYZ") * at("SIYZ"));
+  CHECK(norm == Approx(16 + 1 + 4 + 2 * 9));
+  CHECK(std::abs(at("SIXZ")) > 0.1);
+}
+
+TEST_CASE("a hoop stress stands in the third place of axes of revolution", "[fields]") {
+  // At 30 degrees round Z, a stress of 5 along the tangent.
+  const double c = std::cos(std::numbers::pi / 6), s = 0.5;
+  const Mesh mesh = nodes_at({{2 * c, 2 * s, 7.0}});
+  const NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {5 * s * s, 5 * c * c, 0.0, -5 * s * c}};
+  const std::vector<int> nodes = {0};
+  const NodalField turned = in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), 3 * Eigen::Vector3d::UnitZ()));
+  CHECK(turned.at(0, turned.component("SIZZ")) == Approx(5.0));
+  CHECK(turned.at(0, turned.component("SIXX")) == Approx(0.0).margin(1e-14));
+  CHECK(turned.at(0, turned.component("SIYY")) == Approx(0.0).margin(1e-14));
+}
+
+TEST_CASE("a node on the axis of revolution is named", "[fields]") {
+  const Mesh mesh = nodes_at({{0, 0, 3}});
+  const auto axes = revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
+  CHECK_THROWS_WITH(axes(0), Catch::Contains("N1"));
+}
+
+TEST_CASE("a resultant's moment moves with its point as the force says", "[fields]") {
+  const Mesh mesh = nodes_at({{1, 0, 0}, {0, 2, 0}});
+  const NodalField forces{"DEPL_R", {"DX", "DY", "DRZ"}, {0.0, 3.0, 0.5, 4.0, absent, absent}};
+  const std::vector<int> nodes = {0, 1};
+  const Resultant about_origin = resultant(mesh, forces, nodes, Eigen::Vector3d::Zero());
+  CHECK(about_origin.force == Eigen::Vector3d(4, 3, 0));
+  CHECK(about_origin.moment[2] == Approx(1 * 3 + 0.5 - 2 * 4));
+  const Eigen::Vector3d point(2, -1, 5);
+  const Resultant moved = resultant(mesh, forces, nodes, point);
+  CHECK((moved.moment - (about_origin.moment - point.cross(about_origin.force))).norm() == Approx(0.0).margin(1e-14));
+}
