@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/objects.hpp"
+
 namespace comma::interpreter {
 
 namespace {
@@ -85,6 +87,10 @@ ErrorKind kind_of_failure(std::string_view code) {
   if (code == "time-limit") return ErrorKind::time_limit;
   if (code == "integration-failed") return ErrorKind::integration;
   return ErrorKind::aster;
+}
+
+ExceptionObject::~ExceptionObject() {
+  if (!arguments.empty()) release_later(std::make_shared<std::vector<Value>>(std::move(arguments)));
 }
 
 std::string ExceptionObject::repr() const {

@@ -69,6 +69,10 @@ ErrorKind kind_of_failure(std::string_view code);
 
 /// An exception, raised or not.
 struct ExceptionObject : Object {
+  ExceptionObject() = default;
+  ~ExceptionObject() override;
+  ExceptionObject(const ExceptionObject&) = default;
+  ExceptionObject& operator=(const ExceptionObject&) = default;
   ErrorKind kind = ErrorKind::exception;
   std::vector<Value> arguments;
   std::string hint;

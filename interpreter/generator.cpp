@@ -42,10 +42,16 @@ Evaluator::Generator::Generator(Evaluator& evaluator, const ComprehensionNode& n
   loops_.push_back(std::move(first));
 }
 
+Evaluator::Generator::~Generator() {
+  for (auto& loop : loops_) release_later(std::move(loop));
+  release_later(std::move(frame_));
+}
+
 std::optional<Value> Evaluator::Generator::next() {
   if (!code_ && run_token_.expired()) return std::nullopt;
   if (loops_.empty()) return std::nullopt;
   if (running_) raise(ErrorKind::value, "generator already executing");
+  evaluator_.check_stack();  // a generator may draw from one that draws from one ...
   const Scope scope(*this);
   try {
     return advance();

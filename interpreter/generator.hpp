@@ -12,6 +12,9 @@ namespace comma::interpreter {
 class Evaluator::Generator : public Iterator {
  public:
   Generator(Evaluator& evaluator, const ComprehensionNode& node, std::shared_ptr<Iterator> first);
+  ~Generator() override;
+  Generator(const Generator&) = delete;
+  Generator& operator=(const Generator&) = delete;
 
   std::optional<Value> next() override;
   const Value& value() const { return value_; }  ///< that goes with the last key of a dict comprehension

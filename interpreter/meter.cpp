@@ -55,12 +55,16 @@ void Meter::look() {
   next_look_ = std::min(steps_ + steps_between_looks, limits_.steps + 1);
 }
 
-void Meter::allocate(std::uint64_t bytes) {
+void Meter::check_object(std::uint64_t bytes) const {
   const std::uint64_t largest = std::min(limits_.largest_object, limits_.memory);
   if (bytes > largest) {
     throw LimitReached("limit-memory", fmt::format("this makes an object of more than {} MB: the run is stopped", largest >> 20), {},
                        "look for a product or a range that is too large");
   }
+}
+
+void Meter::allocate(std::uint64_t bytes) {
+  check_object(bytes);
   steps_ += bytes / bytes_per_step;
   if (steps_ >= next_look_) look();
 }

@@ -27,6 +27,8 @@ class Meter {
   }
   /// Before something of this size is made; making it counts as steps, so that many large things end a run as well.
   void allocate(std::uint64_t bytes);
+  /// The size alone, of something that has been counted or grows bit by bit.
+  void check_object(std::uint64_t bytes) const;
   /// `count` items of a list or a tuple.
   void allocate_items(std::uint64_t count) { allocate(count * 24); }
   /// Before arithmetic on long integers: `operations` on 32-bit limbs.

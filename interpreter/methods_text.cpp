@@ -162,9 +162,10 @@ Value join(Evaluator& evaluator, const Value& self, const CallArguments& argumen
     }
     if (index++ > 0) out += self.as_text();
     out += item.as_text();
+    // Beforehand for the next item: the separator alone, many times over, may be too much.
     evaluator.meter().allocate(item.as_text().size());
+    evaluator.meter().check_object(out.size() + self.as_text().size());
   }
-  evaluator.meter().allocate(out.size());
   return out;
 }
 

@@ -7,6 +7,26 @@
 
 namespace comma::interpreter {
 
+void release_later(std::shared_ptr<void> held) {
+  // Of each thread its own; empty again when the outermost destructor is through.
+  thread_local std::vector<std::shared_ptr<void>> pending;
+  thread_local bool releasing = false;
+  if (!held || held.use_count() > 1) return;
+  pending.push_back(std::move(held));
+  if (releasing) return;
+  releasing = true;
+  while (!pending.empty()) {
+    const std::shared_ptr<void> last = std::move(pending.back());
+    pending.pop_back();
+  }
+  releasing = false;
+}
+
+FunctionObject::~FunctionObject() {
+  if (!defaults.empty()) release_later(std::make_shared<std::vector<Value>>(std::move(defaults)));
+  release_later(std::move(outer));
+}
+
 const Value* CallArguments::find(std::string_view name) const {
   const auto found = std::find_if(named.begin(), named.end(), [&](const Named& item) { return item.name == name; });
   return found == named.end() ? nullptr : &found->value;

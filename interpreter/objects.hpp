@@ -18,6 +18,10 @@ namespace comma::interpreter {
 
 class Evaluator;
 
+/// For destructors: releases what an object held once the destructor is over, so that a chain of objects that hold one
+/// another (a function in the frame of a function in the frame ...) may be longer than the stack is deep.
+void release_later(std::shared_ptr<void> held);
+
 /// What stands in the brackets of a call, evaluated; *sequences and **mappings are spread.
 struct CallArguments {
   struct Named {
@@ -105,6 +109,10 @@ struct FunctionHome {
 };
 
 struct FunctionObject : Object {
+  FunctionObject() = default;
+  ~FunctionObject() override;
+  FunctionObject(const FunctionObject&) = delete;
+  FunctionObject& operator=(const FunctionObject&) = delete;
   std::shared_ptr<const FunctionHome> home;
   std::shared_ptr<const FunctionCode> code;
   std::vector<Value> defaults;

@@ -106,7 +106,8 @@ const void* identity_of(const Value& value) {
   if (value.is_tuple()) return std::get<std::shared_ptr<Tuple>>(value.storage()).get();
   if (value.is_dict()) return &value.as_dict();
   if (value.is_set()) return &value.as_set();
-  return value.is_factor() ? &value.as_factor() : nullptr;
+  if (value.is_factor()) return &value.as_factor();
+  return value.as_object<ExceptionObject>();
 }
 
 void write_container(const Value& value, const void* identity, std::string& out, Path& path) {
@@ -125,6 +126,11 @@ void write_container(const Value& value, const void* identity, std::string& out,
     write_dict(value.as_dict(), out, path);
   } else if (value.is_set()) {
     write_set(value, out, path);
+  } else if (const auto* error = value.as_object<ExceptionObject>()) {
+    out += class_of(error->kind).name;
+    out += '(';
+    write_items(error->arguments, out, path);
+    out += ')';
   } else {
     write_factor(value.as_factor(), out, path);
   }

@@ -261,3 +261,19 @@ TEST_CASE("A command may run another file in the middle of this one", "[evaluato
   CHECK(diagnostics.items()[0].span.file->path() == "included.comm");
   CHECK(diagnostics.items()[1].span.file->path() == "main.comm");
 }
+
+TEST_CASE("Chains of objects may be longer than the stack is deep", "[evaluator]") {
+  const std::string many = "for i in range(200000):\n    ";
+  const std::vector<std::pair<std::string, Findings>> cases = {
+      {"f = lambda: 1\n" + many + "f = (lambda g: lambda: g())(f)\nf = 0\n", {}},
+      {"f = lambda: 1\n" + many + "f = lambda g=f: g()\nf = 0\n", {}},
+      {"e = ValueError(1)\n" + many + "e = ValueError(e)\nx = repr(e)\ny = str(e)\ne = 0\n", {}},
+      {"g = (i for i in [1])\n" + many + "g = (i for i in g)\ng = 0\n", {}},
+      {"g = (i for i in [1])\n" + many + "g = (i for i in g)\nx = list(g)\n", {"limit-depth 4:5"}},
+      {"x = ('a' * 1000000).join(['b'] * 1000000)\n", {"limit-memory 1:6"}},
+  };
+  for (const auto& [text, expected] : cases) {
+    INFO(text);
+    CHECK(Run(text).findings() == expected);
+  }
+}
