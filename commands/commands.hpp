@@ -24,6 +24,7 @@ Product calc_fonction(const Call& call, Context& context);
 Product calc_table(const Call& call, Context& context);
 Product crea_champ(const Call& call, Context& context);
 Product crea_resu(const Call& call, Context& context);
+Product crea_maillage(const Call& call, Context& context);
 Product crea_table(const Call& call, Context& context);
 Product debut(const Call& call, Context& context);
 Product defi_constante(const Call& call, Context& context);

@@ -1,6 +1,15 @@
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
 #include "commands/commands.hpp"
+#include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/axes.hpp"
+#include "solver/mesh/groups.hpp"
 
 namespace comma::commands {
 
@@ -9,52 +18,224 @@ namespace {
 using interpreter::DiagnosticError;
 using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
-const std::vector<int>& cell_group(const Keywords& keywords, const std::string& keyword, const solver::Mesh& mesh,
-                                   const std::string& name) {
-  try {
-    return mesh.cell_group(name);
-  } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), keyword + ": " + error.what(), keywords.span_of(keyword), error.hint());
-  }
-}
+constexpr double degree = std::numbers::pi / 180.0;
 
-// A group is never replaced in silence: Code_Aster stops on a name that is taken (U4.22.01).
-void add_group(Groups& groups, const std::string& name, std::vector<int> nodes, const Keywords& made_by) {
-  if (!groups.emplace(name, std::move(nodes)).second) {
-    throw DiagnosticError("group-exists", "DEFI_GROUP: the mesh has a group " + name + " of nodes already", made_by.span,
+// The groups of one kind in a mesh, and how messages call them.
+struct Target {
+  Groups& groups;
+  const char* kind;  // "nodes", "cells"
+  const Context& context;
+};
+
+// A group is never replaced in silence, and an empty one is not made: Code_Aster does the same (U4.22.01).
+void add_group(const Target& target, const std::string& name, std::vector<int> members, const Keywords& made_by) {
+  if (members.empty()) {
+    target.context.diagnostics.alarm("empty-group", fmt::format("DEFI_GROUP: the group {} would be empty and is not made", name), made_by.span,
+                                     fmt::format("no {} are in the place that this names", target.kind));
+    return;
+  }
+  if (!target.groups.emplace(name, std::move(members)).second) {
+    throw DiagnosticError("group-exists", fmt::format("DEFI_GROUP: the mesh has a group {} of {} already", name, target.kind), made_by.span,
                           "choose another NOM, or drop this line");
   }
 }
 
-// TOUT_GROUP_MA: one node group for each cell group, under the same name; a node group of that name stays as it is.
-void node_groups_of_all_cell_groups(solver::Mesh& mesh) {
-  for (const auto& [name, cells] : mesh.cell_groups) mesh.node_groups.emplace(name, mesh.nodes_of_cells(cells));
+// NUME_INIT ... NUME_FIN, or POSITION: a part of a group.
+std::vector<int> part_of(std::vector<int> members, const Keywords& creation) {
+  const auto count = static_cast<std::int64_t>(members.size());
+  std::int64_t first = 1;
+  std::int64_t last = count;
+  if (creation.given("POSITION")) {
+    const std::string& position = creation.text("POSITION");
+    first = last = position == "INIT" ? 1 : position == "FIN" ? count : (count + 1) / 2;
+  }
+  if (creation.given("NUME_INIT")) first = creation.integer("NUME_INIT");
+  if (creation.given("NUME_FIN")) last = creation.integer("NUME_FIN");
+  if (first > last || last > count) {
+    throw DiagnosticError("index-error", fmt::format("DEFI_GROUP: numbers {} to {} are not in a group of {}", first, last, count), creation.span,
+                          "members count from 1; NUME_FIN is at least NUME_INIT");
+  }
+  return {members.begin() + (first - 1), members.begin() + last};
 }
 
-void node_groups_of_named_cell_groups(const Keywords& creation, solver::Mesh& mesh) {
+// UNION, INTERSEC, DIFFE; nothing when none of them is given.
+std::optional<std::vector<int>> combination(const Keywords& creation, const solver::Mesh& mesh, NamedGroups named) {
+  if (creation.given("UNION")) return solver::union_of(named(creation, "UNION", mesh));
+  if (creation.given("INTERSEC")) return solver::intersection_of(named(creation, "INTERSEC", mesh));
+  if (creation.given("DIFFE")) return solver::difference_of(named(creation, "DIFFE", mesh));
+  return std::nullopt;
+}
+
+solver::Point point_of(const std::vector<double>& values) {
+  solver::Point point{};
+  std::copy(values.begin(), values.end(), point.begin());
+  return point;
+}
+
+// The centre of a shape: POINT, or a node.
+solver::Point centre(const Keywords& creation, const solver::Mesh& mesh) {
+  if (creation.given("POINT")) return point_of(creation.reals("POINT"));
+  return mesh.nodes[static_cast<std::size_t>(single_node(creation, "NOEUD_CENTRE", "GROUP_NO_CENTRE", mesh))];
+}
+
+// VECT_NORMALE, or the first axis of ANGL_NAUT.
+solver::Point direction(const Keywords& creation) {
+  if (creation.given("VECT_NORMALE")) return point_of(creation.reals("VECT_NORMALE"));
+  const solver::Point angles = point_of(creation.reals("ANGL_NAUT"));
+  const Eigen::Vector3d axis = solver::nautical_axes(angles[0] * degree, angles[1] * degree, 0.0).row(0);
+  return {axis[0], axis[1], axis[2]};
+}
+
+solver::NodeCriterion criterion(const std::string& word) {
+  if (word == "TOUT" || word == "TOUS") return solver::NodeCriterion::all;
+  if (word == "SOMMET") return solver::NodeCriterion::corners;
+  return word == "MAJORITE" ? solver::NodeCriterion::majority : solver::NodeCriterion::any;
+}
+
+std::vector<int> cells_of_option(const Keywords& creation, const solver::Mesh& mesh) {
+  const std::string& option = creation.text("OPTION");
+  if (option == "FACE_NORMALE") {
+    const bool either = creation.text("VERI_SIGNE") == "NON";
+    return solver::cells_with_normal(mesh, direction(creation), creation.real("ANGL_PREC") * degree, either);
+  }
+  if (option == "APPUI") {
+    const auto nodes = selected_nodes(creation, mesh, {.all = "", .cell_groups = "", .cells = ""});
+    return solver::cells_on_nodes(mesh, nodes, criterion(creation.text("TYPE_APPUI")));
+  }
+  const solver::NodeCriterion nodes = criterion(creation.text("CRIT_NOEUD"));
+  const solver::Point at = centre(creation, mesh);
+  if (option == "SPHERE") return solver::cells_on_nodes(mesh, solver::nodes_in_ball(mesh, at, creation.real("RAYON")), nodes);
+  const solver::Point along = direction(creation);
+  if (option == "CYLINDRE") {
+    return solver::cells_on_nodes(mesh, solver::nodes_in_cylinder(mesh, at, along, creation.real("RAYON")), nodes);
+  }
+  return solver::cells_on_nodes(mesh, solver::nodes_on_plane(mesh, at, along, creation.real("DIST")), nodes);  // BANDE
+}
+
+// TYPE_MAILLE: "QUAD4" ..., "2D" ..., "TOUT".
+bool is_of_type(solver::CellType type, const std::string& word) {
+  if (word == "TOUT") return true;
+  if (word.size() == 2 && word[1] == 'D') return solver::dimension(type) == word[0] - '0';
+  return solver::name_of(type) == word;
+}
+
+std::vector<int> cells_of(const Keywords& creation, const solver::Mesh& mesh) {
+  if (auto combined = combination(creation, mesh, named_cell_groups)) return *std::move(combined);
+  if (creation.given("OPTION")) return cells_of_option(creation, mesh);
+  const auto cells = selected_cells(creation, mesh);
+  return creation.given("GROUP_MA") ? part_of(cells, creation) : cells;
+}
+
+void make_cell_group(const Keywords& creation, solver::Mesh& mesh, const Context& context) {
+  auto cells = cells_of(creation, mesh);
+  if (creation.given("TYPE_MAILLE")) {
+    const auto words = creation.texts("TYPE_MAILLE");
+    std::erase_if(cells, [&](int cell) {
+      return std::ranges::none_of(words, [&](const std::string& word) { return is_of_type(mesh.cell_types[cell], word); });
+    });
+  }
+  add_group({mesh.cell_groups, "cells", context}, creation.text("NOM"), std::move(cells), creation);
+}
+
+// An end of a line: NOEUD_ORIG or GROUP_NO_ORIG, NOEUD_EXTR or GROUP_NO_EXTR.
+std::optional<int> end_of_line(const Keywords& creation, const std::string& end, const solver::Mesh& mesh) {
+  if (!creation.given("NOEUD_" + end) && !creation.given("GROUP_NO_" + end)) return std::nullopt;
+  return single_node(creation, "NOEUD_" + end, "GROUP_NO_" + end, mesh);
+}
+
+std::vector<int> nodes_in_order(const Keywords& creation, const solver::Mesh& mesh) {
+  const auto start = end_of_line(creation, "ORIG", mesh);
+  const auto end = end_of_line(creation, "EXTR", mesh);
+  if (creation.text("OPTION") == "NOEUD_ORDO") {
+    std::optional<solver::Point> step;
+    if (creation.given("VECT_ORIE")) step = point_of(creation.reals("VECT_ORIE"));
+    return solver::nodes_along_line(mesh, selected_cells(creation, mesh), start, end, step);
+  }
+  if (!start || !end) {
+    throw DiagnosticError("missing-keyword", "DEFI_GROUP: SEGM_DROI_ORDO needs both ends of the segment", creation.span,
+                          "give GROUP_NO_ORIG and GROUP_NO_EXTR");
+  }
+  double tolerance = creation.real("PRECISION");
+  if (creation.text("CRITERE") == "RELATIF") tolerance *= solver::distance(mesh.nodes[*start], mesh.nodes[*end]);
+  return solver::nodes_along_segment(mesh, selected_nodes(creation, mesh), *start, *end, tolerance);
+}
+
+std::vector<int> nodes_of_option(const Keywords& creation, const solver::Mesh& mesh) {
+  const std::string& option = creation.text("OPTION");
+  if (option == "NOEUD_ORDO" || option == "SEGM_DROI_ORDO") return nodes_in_order(creation, mesh);
+  const solver::Point at = centre(creation, mesh);
+  const double tolerance = creation.real("PRECISION");
+  if (option == "ENV_SPHERE") return solver::nodes_on_sphere(mesh, at, creation.real("RAYON"), tolerance);
+  const solver::Point along = direction(creation);
+  if (option == "ENV_CYLINDRE") return solver::nodes_on_cylinder(mesh, at, along, creation.real("RAYON"), tolerance);
+  return solver::nodes_on_plane(mesh, at, along, tolerance);  // PLAN
+}
+
+std::vector<int> nodes_of_cells(const Keywords& creation, const std::vector<int>& cells, const solver::Mesh& mesh) {
+  const std::string& which = creation.text("CRIT_NOEUD");
+  if (which == "TOUS") return mesh.nodes_of_cells(cells);
+  return solver::nodes_of_cells(mesh, cells, which == "SOMMET"   ? solver::NodeRole::corner
+                                             : which == "MILIEU" ? solver::NodeRole::mid_edge
+                                                                 : solver::NodeRole::centre);
+}
+
+// GROUP_MA: a node group for each cell group, under the names of NOM or the groups' own.
+void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& mesh, const Target& target) {
   const auto groups = creation.texts("GROUP_MA");
   const auto names = creation.given("NOM") ? creation.texts("NOM") : groups;
   if (names.size() != groups.size()) {
-    throw DiagnosticError("wrong-count", "DEFI_GROUP: NOM gives " + std::to_string(names.size()) + " names to " +
-                                             std::to_string(groups.size()) + " groups",
+    throw DiagnosticError("wrong-count", fmt::format("DEFI_GROUP: NOM gives {} names to {} groups", names.size(), groups.size()),
                           creation.span_of("NOM"), "give one name a group, or leave NOM out to keep the groups' names");
   }
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    add_group(mesh.node_groups, names[i], mesh.nodes_of_cells(cell_group(creation, "GROUP_MA", mesh, groups[i])), creation);
+  const auto cells = named_cell_groups(creation, "GROUP_MA", mesh);
+  for (std::size_t i = 0; i < groups.size(); ++i) add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
+}
+
+void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context& context) {
+  const Target target{mesh.node_groups, "nodes", context};
+  if (creation.given("TOUT_GROUP_MA")) {
+    solver::add_node_groups_of_all_cell_groups(mesh);
+    return;
+  }
+  if (creation.given("GROUP_MA") && !creation.given("OPTION")) return node_groups_of_cell_groups(creation, mesh, target);
+  const auto names = creation.texts("NOM");
+  if (names.size() != 1) {
+    throw DiagnosticError("wrong-count", fmt::format("DEFI_GROUP: one group is made here, and NOM gives {} names", names.size()), creation.span,
+                          "give NOM one name");
+  }
+  if (auto combined = combination(creation, mesh, named_node_groups)) return add_group(target, names[0], *std::move(combined), creation);
+  if (creation.given("OPTION")) return add_group(target, names[0], nodes_of_option(creation, mesh), creation);
+  const auto nodes = selected_nodes(creation, mesh);
+  add_group(target, names[0], creation.given("GROUP_NO") ? part_of(nodes, creation) : nodes, creation);
+}
+
+void remove_groups(const Keywords& removal, Groups& groups, const char* kind) {
+  for (const std::string& name : removal.texts("NOM")) {
+    if (groups.erase(name) > 0) continue;
+    throw DiagnosticError("unknown-group", fmt::format("DEFI_GROUP: the mesh has no group {} of {} to remove", name, kind), removal.span_of("NOM"));
+  }
+}
+
+// An error of the solver in one occurrence is told there.
+template <class Make>
+void each_occurrence(const Call& call, const char* factor, Make make) {
+  for (const Keywords& occurrence : call.factors(factor)) {
+    try {
+      make(occurrence);
+    } catch (const solver::Error& error) {
+      throw DiagnosticError(error.code(), fmt::format("DEFI_GROUP/{}: {}", factor, error.what()), occurrence.span, error.hint());
+    }
   }
 }
 
 }  // namespace
 
-Product defi_group(const Call& call, Context&) {
+Product defi_group(const Call& call, Context& context) {
   solver::Mesh& mesh = *call.data<MeshConcept>("MAILLAGE").mesh;
-  for (const Keywords& creation : call.factors("CREA_GROUP_NO")) {
-    if (creation.given("TOUT_GROUP_MA")) {
-      node_groups_of_all_cell_groups(mesh);
-    } else {
-      node_groups_of_named_cell_groups(creation, mesh);
-    }
-  }
+  each_occurrence(call, "DETR_GROUP_MA", [&](const Keywords& one) { remove_groups(one, mesh.cell_groups, "cells"); });
+  each_occurrence(call, "DETR_GROUP_NO", [&](const Keywords& one) { remove_groups(one, mesh.node_groups, "nodes"); });
+  each_occurrence(call, "CREA_GROUP_MA", [&](const Keywords& one) { make_cell_group(one, mesh, context); });
+  each_occurrence(call, "CREA_GROUP_NO", [&](const Keywords& one) { make_node_group(one, mesh, context); });
   return nullptr;
 }
 

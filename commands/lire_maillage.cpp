@@ -1,18 +1,28 @@
 #include "commands/commands.hpp"
 #include "solver/io/aster_mesh_file.hpp"
+#include "solver/io/gibi_mesh_file.hpp"
+#include "solver/io/gmsh_mesh_file.hpp"
 #include "solver/io/med_file.hpp"
 
 namespace comma::commands {
 
 namespace {
 
+// How the files of a format are called where no .export names them.
+const std::map<std::string, std::vector<std::string>, std::less<>>& extensions() {
+  static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
+      {"MED", {"mmed", "med"}}, {"ASTER", {"mail", "aster"}}, {"GMSH", {"msh"}}, {"GIBI", {"mgib"}}};
+  return table;
+}
+
 solver::Mesh read(const Call& call, const Context& context) {
-  const bool text = call.text("FORMAT") == "ASTER";
-  const int unit = static_cast<int>(call.integer("UNITE"));
-  const std::vector<std::string> extensions = text ? std::vector<std::string>{"mail", "aster"} : std::vector<std::string>{"mmed", "med"};
-  const std::string path = context.files.input(unit, extensions).string();
+  const std::string& format = call.text("FORMAT");
+  const std::string path = context.files.input(static_cast<int>(call.integer("UNITE")), extensions().at(format)).string();
   context.console.progress("  reads " + path);
-  return text ? solver::read_aster_mesh(path) : solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
+  if (format == "ASTER") return solver::read_aster_mesh(path);
+  if (format == "GMSH") return solver::read_gmsh_mesh(path);
+  if (format == "GIBI") return solver::read_gibi_mesh(path);
+  return solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
 }
 
 }  // namespace

@@ -198,7 +198,10 @@ class NameCheck {
     const auto exists = [&](const std::string& name) { return is_own(name) || std::ranges::find(known, name) != known.end(); };
     const auto hint = [&](const std::string& name) {
       const bool other = std::ranges::find(known_others, name) != known_others.end();
-      return other ? fmt::format("{} is a {} group of this mesh", name, other_kind) : hint_for(name, known, fmt::format("{} group", kind));
+      if (other) return fmt::format("{} is a {} group of this mesh", name, other_kind);
+      std::vector<std::string> offered = known;
+      offered.insert(offered.end(), own_names_.begin(), own_names_.end());
+      return hint_for(name, offered, fmt::format("{} group", kind));
     };
     check_each(site, "unknown-group", fmt::format("the mesh has no {} group", kind), exists, hint);
   }
@@ -213,7 +216,8 @@ class NameCheck {
   }
 
   void check_components(const Site& site) {
-    if (site.fields.empty()) return;
+    // The moment of a resultant exists where nodes have forces alone.
+    if (site.fields.empty() || site.keyword.name == "MOMENT") return;
     const auto models = models_of(site.reach);
     std::vector<std::string> known;
     for (const solver::Model* model : models) {
@@ -226,6 +230,8 @@ class NameCheck {
     if (known.empty()) return;
     std::ranges::sort(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
+    // Relations also speak of displacements along the normal.
+    if (site.label.find("/LIAISON_") != std::string::npos) known.emplace_back("DNOR");
     const auto exists = [&](const std::string& name) { return has_component(known, name); };
     const auto hint = [&](const std::string& name) { return hint_for(name, known, "component"); };
     check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);

@@ -24,6 +24,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"CALC_TABLE", calc_table},
     {"CREA_CHAMP", crea_champ},
     {"CREA_RESU", crea_resu},
+    {"CREA_MAILLAGE", crea_maillage},
     {"CREA_TABLE", crea_table},
     {"DEBUT", debut},
     {"DEFI_CONSTANTE", defi_constante},

@@ -79,8 +79,8 @@ BeamSection general_section(const Characteristics& given, bool bends) {
   section.torsion = given.get("JX", 0.0);
   section.shear_y = given.get("AY", section.shear_y);
   section.shear_z = given.get("AZ", section.shear_z);
-  section.centre_y = given.get("EY", 0.0);
-  section.centre_z = given.get("EZ", 0.0);
+  section.centre_y = -given.get("EY", 0.0);  // EY, EZ lead from the centre of torsion to the centroid
+  section.centre_z = -given.get("EZ", 0.0);
   section.reach_y = given.get("RY", section.reach_y);
   section.reach_z = given.get("RZ", section.reach_z);
   section.torsion_reach = given.get("RT", section.torsion_reach);

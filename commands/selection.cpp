@@ -118,6 +118,28 @@ std::vector<int> listed_nodes(const Keywords& keywords, const solver::Mesh& mesh
   return listed;
 }
 
+std::vector<std::vector<int>> named_node_groups(const Keywords& keywords, const std::string& keyword, const solver::Mesh& mesh) {
+  std::vector<std::vector<int>> groups;
+  each_group(keywords, keyword, [&](const std::string& name) { return mesh.node_group(name); },
+             [&](const std::vector<int>& group) { groups.push_back(group); });
+  return groups;
+}
+
+std::vector<std::vector<int>> named_cell_groups(const Keywords& keywords, const std::string& keyword, const solver::Mesh& mesh) {
+  std::vector<std::vector<int>> groups;
+  each_group(keywords, keyword, [&](const std::string& name) { return mesh.cell_group(name); },
+             [&](const std::vector<int>& group) { groups.push_back(group); });
+  return groups;
+}
+
+int single_node(const Keywords& keywords, const std::string& node_keyword, const std::string& group_keyword, const solver::Mesh& mesh) {
+  const auto nodes = selected_nodes(keywords, mesh, {.all = "", .node_groups = group_keyword, .nodes = node_keyword, .cell_groups = "", .cells = ""});
+  if (nodes.size() == 1) return nodes.front();
+  const std::string& keyword = keywords.given(group_keyword) ? group_keyword : node_keyword;
+  throw DiagnosticError("wrong-count", keyword + " names " + std::to_string(nodes.size()) + " nodes where one is wanted",
+                        keywords.span_of(keyword), "name a group of one node");
+}
+
 bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {
   for (const std::string* name : {&names.all, &names.node_groups, &names.nodes, &names.cell_groups, &names.cells}) {
     if (takes(keywords, *name)) return true;

@@ -36,6 +36,19 @@ std::vector<int> listed_nodes(const interpreter::Keywords& keywords, const solve
 std::vector<int> selected_cells(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});
 
+/// The groups that a keyword names, one by one. Throw as above.
+using NamedGroups = std::vector<std::vector<int>> (*)(const interpreter::Keywords& keywords, const std::string& keyword,
+                                                      const solver::Mesh& mesh);
+std::vector<std::vector<int>> named_node_groups(const interpreter::Keywords& keywords, const std::string& keyword,
+                                                const solver::Mesh& mesh);
+std::vector<std::vector<int>> named_cell_groups(const interpreter::Keywords& keywords, const std::string& keyword,
+                                                const solver::Mesh& mesh);
+
+/// The one node that a keyword names, or another by its group. Throws as above, and DiagnosticError `wrong-count` for a group
+/// of several nodes.
+int single_node(const interpreter::Keywords& keywords, const std::string& node_keyword, const std::string& group_keyword,
+                const solver::Mesh& mesh);
+
 /// Whether any of the keywords is given.
 bool names_a_place(const interpreter::Keywords& keywords, const PlaceKeywords& names = {});
 

@@ -19,8 +19,8 @@ struct Rectangle {
 /// and the walls leave a hole.
 BeamSection rectangular_section(const Rectangle& rectangle);
 
-/// A disc or, with a wall thinner than the radius, a tube. Shear: 10/9 for a disc, for a tube the polynomial in the ratio of the
-/// radii of R3.08.03. Throws Error `invalid-section` unless 0 < thickness <= radius.
+/// A disc or, with a wall thinner than the radius, a tube. Shear factors by Cowper (The shear coefficient in Timoshenko's beam
+/// theory, 1966) for a Poisson's ratio of 0: 7/6 for a disc, 2 for a thin tube. Throws Error `invalid-section` unless 0 < thickness <= radius.
 BeamSection circular_section(double radius, double thickness);
 
 /// The section of a curved pipe, which ovalises in bending: second moments divided by the factors of flexibility of bending in

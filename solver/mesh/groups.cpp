@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 #include "solver/error.hpp"
@@ -43,6 +44,17 @@ std::vector<int> filtered(std::span<const int> members, Predicate predicate) {
 /// Distance from the axis through `point` along the unit vector `axis`.
 double distance_from_axis(const Vector& position, const Vector& point, const Vector& axis) {
   return axis.cross(position - point).norm();
+}
+
+/// Along the normal of a face or, in the plane, of a line; its length is no matter.
+Vector normal_of(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  const auto at = [&](int i) { return vector(mesh.nodes[nodes[static_cast<std::size_t>(i)]]); };
+  if (mesh.dimension == 2) return (at(1) - at(0)).cross(Vector::UnitZ());
+  const int corners = corner_count(mesh.cell_types[cell]);
+  Vector sum = Vector::Zero();
+  for (int i = 1; i + 1 < corners; ++i) sum += (at(i) - at(0)).cross(at(i + 1) - at(0));
+  return sum;
 }
 
 bool plays(CellType type, int local, NodeRole role) {
@@ -119,13 +131,27 @@ std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, No
   for (const int node : nodes) chosen[static_cast<std::size_t>(node)] = true;
   std::vector<int> result;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const auto own = mesh.cell(cell);
+    auto own = mesh.cell(cell);
+    if (criterion == NodeCriterion::corners) own = own.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell])));
     const auto hits = std::ranges::count_if(own, [&](int node) { return chosen[static_cast<std::size_t>(node)]; });
     const auto size = static_cast<std::ptrdiff_t>(own.size());
-    const bool wanted = criterion == NodeCriterion::all   ? hits == size
-                        : criterion == NodeCriterion::any ? hits > 0
-                                                          : 2 * hits > size;
+    const bool wanted = criterion == NodeCriterion::any        ? hits > 0
+                        : criterion == NodeCriterion::majority ? 2 * hits > size
+                                                               : hits == size;
     if (wanted) result.push_back(cell);
+  }
+  return result;
+}
+
+std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, double angle, bool either_sense) {
+  const Vector wanted = unit(direction);
+  std::vector<int> result;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (dimension(mesh.cell_types[cell]) != mesh.dimension - 1) continue;
+    const Vector normal = normal_of(mesh, cell);
+    const double along = wanted.dot(normal);
+    const double between = std::atan2(wanted.cross(normal).norm(), either_sense ? std::abs(along) : along);
+    if (between <= angle) result.push_back(cell);
   }
   return result;
 }
@@ -166,6 +192,8 @@ std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Poin
   return nodes_where(
       mesh, [&](const Vector& position) { return std::abs(direction.dot(position - vector(point))) <= tolerance; });
 }
+
+double distance(const Point& a, const Point& b) { return (vector(a) - vector(b)).norm(); }
 
 std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end,
                                      double tolerance) {

@@ -31,9 +31,14 @@ std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, No
 std::vector<int> cells_of_type(const Mesh& mesh, std::span<const int> cells, CellType type);
 
 /// How many of its nodes must be chosen for a cell to be.
-enum class NodeCriterion { all, any, majority };
-/// The cells of the mesh, rising, whose nodes are among `nodes` as the criterion says.
+enum class NodeCriterion { all, any, majority, corners };
+/// The cells of the mesh, rising, whose nodes (`corners`: whose corners, all of them) are among `nodes` as the criterion says.
 std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, NodeCriterion criterion);
+
+/// The face cells (in a plane mesh: the line cells) whose normal makes at most `angle` (in radians) with `direction`;
+/// `either_sense`: or with its opposite. The normal is that of the corners, by the right-hand rule; a line's is its direction
+/// turned by -90 degrees. Error `zero-vector` where the direction has no length.
+std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, double angle, bool either_sense);
 
 /// Lengths below are in the mesh's unit; `tolerance` is a distance. All return the nodes of the mesh, rising.
 /// Error `zero-vector` where a direction has no length.
@@ -57,6 +62,8 @@ std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Poin
 /// end of the line.
 std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start = {},
                                   std::optional<int> end = {}, std::optional<Point> direction = {});
+
+double distance(const Point& a, const Point& b);
 
 /// The nodes sorted by their distance from `start` along the straight line to `end`. Throws Error `not-a-line` naming a
 /// node that is more than `tolerance` off that line, `zero-vector` if the two ends coincide.

@@ -4,7 +4,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <iterator>
 
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
@@ -77,6 +78,10 @@ std::vector<int> default_support(const Mesh& mesh, std::span<const int> skin) {
   return support;
 }
 
+FacetMap facets_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
+  return support.empty() ? map_facets(mesh, default_support(mesh, skin)) : map_facets(mesh, support);
+}
+
 CellFacet support_of(const Mesh& mesh, int cell, const FacetMap& facets) {
   const auto found = facets.find(facet_key(mesh, cell));
   if (found == facets.end()) {
@@ -101,20 +106,29 @@ bool points_inwards(const Mesh& mesh, int cell, const CellFacet& behind) {
 
 }  // namespace
 
+void turn_cell(Mesh& mesh, int cell) {
+  const CellType type = mesh.cell_types[cell];
+  reverse(std::span(mesh.connectivity)
+              .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]), static_cast<std::size_t>(node_count(type))),
+          type);
+}
+
 int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
-  const std::vector<int> all = support.empty() ? default_support(mesh, skin) : std::vector<int>{};
-  const FacetMap facets = map_facets(mesh, support.empty() ? std::span<const int>(all) : support);
+  const FacetMap facets = facets_behind(mesh, skin, support);
   int turned = 0;
   for (const int cell : skin) {
     if (!points_inwards(mesh, cell, support_of(mesh, cell, facets))) continue;
-    const CellType type = mesh.cell_types[cell];
-    const auto nodes =
-        std::span(mesh.connectivity)
-            .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]), static_cast<std::size_t>(node_count(type)));
-    reverse(nodes, type);
+    turn_cell(mesh, cell);
     ++turned;
   }
   return turned;
+}
+
+std::vector<int> loose_skin(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
+  const FacetMap facets = facets_behind(mesh, skin, support);
+  std::vector<int> loose;
+  std::ranges::copy_if(skin, std::back_inserter(loose), [&](int cell) { return !facets.contains(facet_key(mesh, cell)); });
+  return loose;
 }
 
 std::vector<int> inward_skin(const Mesh& mesh, std::span<const int> skin) {

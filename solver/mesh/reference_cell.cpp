@@ -7,8 +7,6 @@ namespace comma::solver {
 namespace {
 
 using enum CellType;
-using Edges = std::vector<std::array<int, 2>>;
-using Faces = std::vector<std::array<int, 4>>;
 
 std::vector<Point> corners_of(CellType type) {
   switch (type) {
@@ -41,7 +39,17 @@ std::vector<Point> corners_of(CellType type) {
   }
 }
 
-Edges edges_with_middles(CellType type) {
+Point mean(const std::vector<Point>& points, std::span<const int> chosen) {
+  Point sum{};
+  for (const int i : chosen) {
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += points[i][axis] / static_cast<double>(chosen.size());
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 2>> middle_edges(CellType type) {
   switch (type) {
     case seg3:
       return {{0, 1}};
@@ -66,21 +74,12 @@ Edges edges_with_middles(CellType type) {
   }
 }
 
-Faces faces_with_middles(CellType type) {
+std::vector<std::array<int, 4>> middle_faces(CellType type) {
+  if (type == quad9) return {{0, 1, 2, 3}};
   if (type == penta18) return {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
   if (type == hexa27) return {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
   return {};
 }
-
-Point mean(const std::vector<Point>& points, std::span<const int> chosen) {
-  Point sum{};
-  for (const int i : chosen) {
-    for (int axis = 0; axis < 3; ++axis) sum[axis] += points[i][axis] / static_cast<double>(chosen.size());
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::vector<Point> reference_points(CellType type) {
   std::vector<Point> points = corners_of(type);
@@ -88,10 +87,10 @@ std::vector<Point> reference_points(CellType type) {
     points.insert(points.end(), {Point{-1.0 / 3.0, 0, 0}, Point{1.0 / 3.0, 0, 0}});
     return points;
   }
-  for (const auto& edge : edges_with_middles(type)) points.push_back(mean(points, edge));
-  for (const auto& face : faces_with_middles(type)) points.push_back(mean(points, face));
+  for (const auto& edge : middle_edges(type)) points.push_back(mean(points, edge));
+  for (const auto& face : middle_faces(type)) points.push_back(mean(points, face));
   static constexpr std::array<int, 8> corners = {0, 1, 2, 3, 4, 5, 6, 7};
-  const bool has_centre = type == tria7 || type == quad9 || type == hexa27;
+  const bool has_centre = type == tria7 || type == hexa27;
   if (has_centre)
     points.push_back(mean(points, std::span(corners).first(static_cast<std::size_t>(corner_count(type)))));
   return points;

@@ -70,7 +70,7 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
     mesh->nodes = {{0, 0, 0}, {0, 2, 0}};
     mesh->add_cell(CellType::seg2, std::array{0, 1});
     ElementProperties properties;
-    properties.sections[0] = {0.5, 0.02, 0.03, 0.01, 1.2, 1.3, 0.3};
+    properties.sections[0] = {.area = 0.5, .inertia_y = 0.02, .inertia_z = 0.03, .torsion = 0.01, .shear_y = 1.2, .shear_z = 1.3, .roll = 0.3};
     const Body body(mesh, std::vector{formulation}, elastic(100.0, 0.25), properties);
     const double elongation = 1e-3, curvature_y = beam ? 2e-3 : 0.0, curvature_z = beam ? -3e-3 : 0.0;
     Load load;

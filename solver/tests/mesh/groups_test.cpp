@@ -165,3 +165,25 @@ TEST_CASE("nodes on a straight line are sorted along it") {
   CHECK_THROWS_AS(nodes_along_segment(curved, Group{0, 1, 2}, 0, 2, 1e-3), Error);
   CHECK_THROWS_AS(nodes_along_segment(curved, Group{0, 1, 2}, 0, 0, 1e-3), Error);
 }
+
+TEST_CASE("faces are chosen by their normal, of one sense or either") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int up = mesh.add_cell(CellType::quad4, Group{0, 1, 2, 3});
+  const int down = mesh.add_cell(CellType::tria3, Group{0, 2, 1});
+  mesh.add_cell(CellType::tria3, Group{0, 4, 1});
+  mesh.add_cell(CellType::seg2, Group{0, 1});
+  const double degree = std::numbers::pi / 180.0;
+  CHECK(cells_with_normal(mesh, {0, 0.1, 1}, 6 * degree, false) == Group{up});
+  CHECK(cells_with_normal(mesh, {0, 0.1, 1}, 6 * degree, true) == Group{up, down});
+  CHECK(cells_with_normal(mesh, {0, 0.1, 1}, 5 * degree, true).empty());
+  CHECK_THROWS_AS(cells_with_normal(mesh, {0, 0, 0}, 1.0, true), Error);
+  mesh.dimension = 2;
+  CHECK(cells_with_normal(mesh, {0, -1, 0}, degree, false) == Group{3});
+}
+
+TEST_CASE("a quadratic cell can be chosen by its corners alone") {
+  const Mesh line = quadratic_line();
+  CHECK(cells_on_nodes(line, Group{2, 4}, NodeCriterion::corners) == Group{0});
+  CHECK(cells_on_nodes(line, Group{2, 4}, NodeCriterion::all).empty());
+}

@@ -1,6 +1,9 @@
 #include "solver/mesh/orientation.hpp"
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 #include <random>
 
@@ -159,10 +162,72 @@ TEST_CASE("a skin without one clear side is an error") {
   const int loose = mesh.add_cell(CellType::quad4, std::vector{0, 1, 10, 9});
   CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}); }) == "skin-inside-body");
   CHECK(code_of([&] { orient_skin(mesh, std::vector{loose}); }) == "skin-without-support");
+  CHECK(loose_skin(mesh, std::vector{inside, loose}) == std::vector{loose});
   CHECK(orient_skin(mesh, std::vector{inside}, std::vector{0}) +
             orient_skin(mesh, std::vector{inside}, std::vector{1}) >=
         1);
   mesh.nodes[0] = mesh.nodes[3] = {1, 0, 0};
   for (auto& point : mesh.nodes) point[0] = 0.0;
   CHECK(code_of([&] { orient_skin(mesh, std::vector{inside}, std::vector{0}); }) == "flat-cell");
+}
+
+TEST_CASE("the faces of a warped sheet get normals on the side that is asked for") {
+  // A strip of quadrangles bent round a half circle, each written in a sense and from a corner of its own.
+  Mesh mesh;
+  const int count = 9;
+  for (int i = 0; i <= count; ++i) {
+    const double angle = std::acos(-1.0) * i / count;
+    for (const double z : {0.0, 1.0}) mesh.nodes.push_back({std::cos(angle), std::sin(angle), z});
+  }
+  std::vector<int> cells;
+  for (int i = 0; i < count; ++i) {
+    std::vector<int> nodes = {2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1};
+    std::rotate(nodes.begin(), nodes.begin() + i % 4, nodes.end());
+    if (i % 3 == 1) std::reverse(nodes.begin(), nodes.end());
+    cells.push_back(mesh.add_cell(CellType::quad4, nodes));
+  }
+  const auto outwards = [&](int cell) {
+    const Eigen::Vector3d a(mesh.nodes[mesh.cell(cell)[0]].data());
+    const Eigen::Vector3d b(mesh.nodes[mesh.cell(cell)[1]].data());
+    const Eigen::Vector3d c(mesh.nodes[mesh.cell(cell)[2]].data());
+    const Eigen::Vector3d middle = (a + c) / 2.0;
+    return (b - a).cross(c - a).dot(Eigen::Vector3d(middle[0], middle[1], 0.0)) > 0.0;
+  };
+  CHECK(orient_normals(mesh, cells, OrientationSeed{0, {1.0, 0.1, 0.0}}) == 3);
+  CHECK(std::ranges::all_of(cells, outwards));
+  CHECK(orient_normals(mesh, cells, OrientationSeed{2 * count, {1.0, 0.0, 0.0}}) == count);
+  CHECK(std::ranges::none_of(cells, outwards));
+  CHECK(orient_normals(mesh, cells, std::nullopt) == 0);
+  CHECK(code_of([&] { orient_normals(mesh, cells, OrientationSeed{0, {0.0, 0.0, 1.0}}); }) == "ambiguous-direction");
+  // Twins on the same nodes run alike; a cell elsewhere is another piece.
+  const std::vector<int> nodes = {0, 2, 3, 1};
+  cells.push_back(mesh.add_cell(CellType::quad4, nodes));
+  orient_normals(mesh, cells, OrientationSeed{0, {1.0, 0.1, 0.0}});
+  CHECK(std::ranges::all_of(cells, outwards));
+  mesh.nodes.insert(mesh.nodes.end(), {Point{5, 0, 0}, Point{6, 0, 0}, Point{5, 1, 0}});
+  const int first = mesh.node_count() - 3;
+  cells.push_back(mesh.add_cell(CellType::tria3, std::vector{first, first + 1, first + 2}));
+  CHECK(code_of([&] { orient_normals(mesh, cells, std::nullopt); }) == "several-pieces");
+}
+
+TEST_CASE("a sheet with one side only cannot be turned") {
+  Mesh mesh;  // Moebius: a strip of triangles closed with a half twist
+  const int count = 5;
+  for (int i = 0; i < count; ++i) mesh.nodes.push_back({std::cos(1.2566 * i), std::sin(1.2566 * i), 0.1 * i});
+  std::vector<int> cells;
+  for (int i = 0; i < count; ++i) {
+    cells.push_back(mesh.add_cell(CellType::tria3, std::vector{i, (i + 1) % count, (i + 2) % count}));
+  }
+  CHECK(code_of([&] { orient_normals(mesh, cells, std::nullopt); }) == "not-orientable");
+}
+
+TEST_CASE("the segments of a line follow each other from the end that is asked for") {
+  Mesh mesh;
+  for (int i = 0; i < 5; ++i) mesh.nodes.push_back({1.0 * i, 0.3 * i * i, 0.0});
+  std::vector<int> cells;
+  for (int i = 0; i < 4; ++i) cells.push_back(mesh.add_cell(CellType::seg2, i % 2 == 0 ? std::vector{i, i + 1} : std::vector{i + 1, i}));
+  CHECK(orient_lines(mesh, cells, OrientationSeed{4, {-1.0, 0.0, 0.0}}) == 2);
+  for (int i = 0; i < 4; ++i) CHECK(mesh.cell(cells[i])[0] == i + 1);
+  const int face = mesh.add_cell(CellType::tria3, std::vector{0, 1, 2});
+  CHECK(code_of([&] { orient_lines(mesh, std::vector{face}, std::nullopt); }) == "wrong-cell");
 }

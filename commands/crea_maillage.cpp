@@ -1,0 +1,71 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
+#include "solver/mesh/conversion.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using solver::Conversion;
+
+// The keywords that change the type of cells.
+constexpr std::pair<const char*, Conversion> conversions[] = {{"LINE_QUAD", Conversion::to_quadratic},
+                                                              {"QUAD_LINE", Conversion::to_linear},
+                                                              {"HEXA20_27", Conversion::hexa20_to_27},
+                                                              {"PENTA15_18", Conversion::penta15_to_18},
+                                                              {"MODI_MAILLE", Conversion::quad8_to_9}};
+
+// RESTREINT keeps the groups that it names, unless TOUT_GROUP_MA or TOUT_GROUP_NO keeps all.
+template <class Groups>
+void keep_named(const Keywords& restriction, const std::string& names, const std::string& all, Groups& groups) {
+  if (restriction.has(all) && restriction.text(all) == "OUI") return;
+  const auto kept = restriction.texts(names);
+  std::erase_if(groups, [&](const auto& group) { return std::ranges::find(kept, group.first) == kept.end(); });
+}
+
+solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) {
+  if (restriction.given("GROUP_NO")) named_node_groups(restriction, "GROUP_NO", mesh);  // tells a name that does not exist
+  solver::Mesh result = solver::restricted(mesh, selected_cells(restriction, mesh, {.all = "", .node_groups = "", .nodes = ""}));
+  keep_named(restriction, "GROUP_MA", "TOUT_GROUP_MA", result.cell_groups);
+  keep_named(restriction, "GROUP_NO", "TOUT_GROUP_NO", result.node_groups);
+  return result;
+}
+
+// The new mesh of one occurrence; an error of the solver is told there.
+template <class Make>
+void each_occurrence(const Call& call, const std::string& factor, Make make) {
+  for (const Keywords& occurrence : call.factors(factor)) {
+    try {
+      make(occurrence);
+    } catch (const solver::Error& error) {
+      throw DiagnosticError(error.code(), fmt::format("CREA_MAILLAGE/{}: {}", factor, error.what()), occurrence.span, error.hint());
+    }
+  }
+}
+
+}  // namespace
+
+Product crea_maillage(const Call& call, Context& context) {
+  solver::Mesh mesh = *call.data<MeshConcept>("MAILLAGE").mesh;
+  for (const auto& [name, conversion] : conversions) {
+    each_occurrence(call, name, [&](const Keywords& one) { mesh = solver::converted(mesh, selected_cells(one, mesh), conversion); });
+  }
+  each_occurrence(call, "CREA_MAILLE", [&](const Keywords& one) { solver::double_cells(mesh, selected_cells(one, mesh), one.text("NOM")); });
+  each_occurrence(call, "CREA_POI1", [&](const Keywords& one) {
+    solver::add_points(mesh, selected_nodes(one, mesh), one.given("NOM_GROUP_MA") ? one.text("NOM_GROUP_MA") : "");
+  });
+  each_occurrence(call, "RESTREINT", [&](const Keywords& one) { mesh = restrict_to(one, mesh); });
+  context.console.detail(fmt::format("  {} nodes, {} cells", mesh.node_count(), mesh.cell_count()));
+  auto product = std::make_shared<MeshConcept>();
+  product->mesh = std::make_shared<solver::Mesh>(std::move(mesh));
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,279 @@
+#include "solver/mesh/conversion.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <unordered_set>
+
+#include "solver/error.hpp"
+#include "solver/mesh/reference_cell.hpp"
+
+namespace comma::solver {
+namespace {
+
+using enum CellType;
+using Groups = std::map<std::string, std::vector<int>, std::less<>>;
+
+CellType quadratic(CellType type) {
+  switch (type) {
+    case seg2: return seg3;
+    case tria3: return tria6;
+    case quad4: return quad8;
+    case tetra4: return tetra10;
+    case pyram5: return pyram13;
+    case penta6: return penta15;
+    case hexa8: return hexa20;
+    default: return type;
+  }
+}
+
+CellType linear(CellType type) {
+  switch (type) {
+    case seg3:
+    case seg4: return seg2;
+    case tria6:
+    case tria7: return tria3;
+    case quad8:
+    case quad9: return quad4;
+    case tetra10: return tetra4;
+    case pyram13: return pyram5;
+    case penta15:
+    case penta18: return penta6;
+    case hexa20:
+    case hexa27: return hexa8;
+    default: return type;
+  }
+}
+
+CellType target_of(CellType type, Conversion conversion) {
+  switch (conversion) {
+    case Conversion::to_quadratic: return quadratic(type);
+    case Conversion::to_linear: return linear(type);
+    case Conversion::hexa20_to_27: return type == hexa20 ? hexa27 : type == quad8 ? quad9 : type;
+    case Conversion::penta15_to_18: return type == penta15 ? penta18 : type == quad8 ? quad9 : type;
+    case Conversion::quad8_to_9: return type == quad8 ? quad9 : type;
+  }
+  return type;
+}
+
+/// Names in use, and new ones that are not among them.
+class Names {
+ public:
+  Names(std::vector<std::string>& names, std::string prefix) : names_(names), prefix_(std::move(prefix)), used_(names.begin(), names.end()) {}
+
+  /// Gives the next member a name, in a mesh whose members have names.
+  void add() {
+    if (used_.empty()) return;
+    std::string name;
+    do {
+      name = fmt::format("{}{}", prefix_, ++count_);
+    } while (!used_.insert(name).second);
+    names_.push_back(std::move(name));
+  }
+
+ private:
+  std::vector<std::string>& names_;
+  std::string prefix_;
+  std::unordered_set<std::string> used_;
+  int count_ = 0;
+};
+
+/// Nodes between others, made once for all cells that share them.
+class MiddleNodes {
+ public:
+  explicit MiddleNodes(Mesh& mesh) : mesh_(mesh), names_(mesh.node_names, "NS") {}
+
+  /// The node with a position, known by the corners that it lies between.
+  int between(std::vector<int> corners, const Eigen::Vector3d& position) {
+    std::ranges::sort(corners);
+    const auto [found, is_new] = known_.try_emplace(std::move(corners), mesh_.node_count());
+    if (is_new) {
+      mesh_.nodes.push_back({position[0], position[1], position[2]});
+      names_.add();
+    }
+    return found->second;
+  }
+
+ private:
+  Mesh& mesh_;
+  Names names_;
+  std::map<std::vector<int>, int> known_;
+};
+
+/// Adds the nodes that the larger type of a cell has and the smaller one lacks.
+class Extension {
+ public:
+  Extension(const Mesh& mesh, MiddleNodes& middles, int cell, CellType to)
+      : mesh_(mesh), middles_(middles), from_(mesh.cell_types[cell]), to_(to), nodes_(mesh.cell(cell).begin(), mesh.cell(cell).end()) {}
+
+  std::vector<int> extend() {
+    const bool has_edges = node_count(from_) > corner_count(from_);
+    if (!has_edges) {
+      for (const auto& edge : middle_edges(to_)) nodes_.push_back(middles_.between(corners(edge), mean(edge)));
+      return nodes_;
+    }
+    for (const auto& face : middle_faces(to_)) nodes_.push_back(middles_.between(corners(face), face_centre(face)));
+    if (to_ == hexa27) nodes_.push_back(middles_.between({nodes_.begin(), nodes_.begin() + 8}, solid_centre()));
+    return nodes_;
+  }
+
+ private:
+  Eigen::Vector3d place(int local) const { return Eigen::Vector3d(mesh_.nodes[nodes_[static_cast<std::size_t>(local)]].data()); }
+
+  std::vector<int> corners(std::span<const int> local) const {
+    std::vector<int> result;
+    for (const int i : local) result.push_back(nodes_[static_cast<std::size_t>(i)]);
+    return result;
+  }
+
+  Eigen::Vector3d mean(std::span<const int> local) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int i : local) sum += place(i);
+    return sum / static_cast<double>(local.size());
+  }
+
+  /// The eight-node quadrangle at its centre: each corner counts -1/4, each mid-edge node 1/2.
+  Eigen::Vector3d face_centre(std::span<const int> face) const {
+    Eigen::Vector3d sum = -mean(face);
+    const auto edges = middle_edges(from_);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const bool on_face = std::ranges::all_of(edges[i], [&](int corner) { return std::ranges::find(face, corner) != face.end(); });
+      if (on_face) sum += place(corner_count(from_) + static_cast<int>(i)) / 2.0;
+    }
+    return sum;
+  }
+
+  /// The twenty-node hexahedron at its centre: each corner counts -1/4, each mid-edge node 1/4.
+  Eigen::Vector3d solid_centre() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 20; ++i) sum += (i < 8 ? -0.25 : 0.25) * place(i);
+    return sum;
+  }
+
+  const Mesh& mesh_;
+  MiddleNodes& middles_;
+  CellType from_;
+  CellType to_;
+  std::vector<int> nodes_;
+};
+
+/// Puts cells of other types, on other nodes, in the place of those of a mesh.
+void replace_cells(Mesh& mesh, const std::vector<CellType>& types, const std::vector<std::vector<int>>& nodes) {
+  mesh.cell_types.clear();
+  mesh.connectivity.clear();
+  mesh.cell_starts = {0};
+  for (std::size_t cell = 0; cell < types.size(); ++cell) mesh.add_cell(types[cell], nodes[cell]);
+}
+
+void renumber(Groups& groups, const std::vector<int>& new_index) {
+  for (auto group = groups.begin(); group != groups.end();) {
+    std::vector<int> kept;
+    for (const int member : group->second) {
+      if (new_index[static_cast<std::size_t>(member)] >= 0) kept.push_back(new_index[static_cast<std::size_t>(member)]);
+    }
+    if (kept.empty()) {
+      group = groups.erase(group);
+    } else {
+      (group++)->second = std::move(kept);
+    }
+  }
+}
+
+/// Keeps the nodes that cells use.
+void drop_loose_nodes(Mesh& mesh, const std::vector<bool>& candidates) {
+  std::vector<bool> used(mesh.nodes.size(), false);
+  for (const int node : mesh.connectivity) used[static_cast<std::size_t>(node)] = true;
+  std::vector<int> new_index(mesh.nodes.size(), -1);
+  std::vector<Point> nodes;
+  std::vector<std::string> names;
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    if (candidates[node] && !used[node]) continue;
+    new_index[node] = static_cast<int>(nodes.size());
+    nodes.push_back(mesh.nodes[node]);
+    names.push_back(mesh.node_name(static_cast<int>(node)));
+  }
+  if (nodes.size() == mesh.nodes.size()) return;
+  mesh.nodes = std::move(nodes);
+  mesh.node_names = std::move(names);
+  for (int& node : mesh.connectivity) node = new_index[static_cast<std::size_t>(node)];
+  renumber(mesh.node_groups, new_index);
+}
+
+void add_group(Mesh& mesh, const std::string& name, std::vector<int> cells) {
+  if (mesh.cell_groups.try_emplace(name, std::move(cells)).second) return;
+  throw Error("group-exists", fmt::format("the mesh has a cell group {} already", name), "choose another name");
+}
+
+}  // namespace
+
+Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion) {
+  Mesh result = mesh;
+  MiddleNodes middles(result);
+  std::vector<CellType> types = mesh.cell_types;
+  std::vector<std::vector<int>> nodes;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  std::vector<bool> left(mesh.nodes.size(), false);
+  int changed = 0;
+  for (const int cell : cells) {
+    const CellType to = target_of(mesh.cell_types[cell], conversion);
+    if (to == mesh.cell_types[cell]) continue;
+    ++changed;
+    types[cell] = to;
+    if (node_count(to) > node_count(mesh.cell_types[cell])) {
+      nodes[cell] = Extension(mesh, middles, cell, to).extend();
+    } else {
+      for (const int node : nodes[cell]) left[static_cast<std::size_t>(node)] = true;
+      nodes[cell].resize(static_cast<std::size_t>(node_count(to)));
+    }
+  }
+  if (changed == 0) throw Error("no-cell", "none of the cells is of a type that this changes");
+  replace_cells(result, types, nodes);
+  left.resize(result.nodes.size(), false);
+  drop_loose_nodes(result, left);
+  return result;
+}
+
+void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& group) {
+  Names names(mesh.cell_names, "E");
+  std::vector<int> made;
+  for (const int cell : cells) {
+    const std::vector<int> nodes(mesh.cell(cell).begin(), mesh.cell(cell).end());
+    made.push_back(mesh.add_cell(mesh.cell_types[cell], nodes));
+    names.add();
+  }
+  add_group(mesh, group, std::move(made));
+}
+
+void add_points(Mesh& mesh, std::span<const int> nodes, const std::string& group) {
+  Names names(mesh.cell_names, "P");
+  std::vector<int> made;
+  for (const int node : nodes) {
+    made.push_back(mesh.add_cell(poi1, std::array{node}));
+    names.add();
+  }
+  if (!group.empty()) add_group(mesh, group, std::move(made));
+}
+
+Mesh restricted(const Mesh& mesh, std::span<const int> cells) {
+  Mesh result = mesh;
+  std::vector<int> new_index(static_cast<std::size_t>(mesh.cell_count()), -1);
+  std::vector<CellType> types;
+  std::vector<std::vector<int>> nodes;
+  std::vector<std::string> names;
+  for (const int cell : cells) {
+    new_index[static_cast<std::size_t>(cell)] = static_cast<int>(types.size());
+    types.push_back(mesh.cell_types[cell]);
+    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+    names.push_back(mesh.cell_name(cell));
+  }
+  replace_cells(result, types, nodes);
+  result.cell_names = std::move(names);
+  renumber(result.cell_groups, new_index);
+  drop_loose_nodes(result, std::vector<bool>(mesh.nodes.size(), true));
+  return result;
+}
+
+}  // namespace comma::solver

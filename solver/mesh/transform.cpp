@@ -1,0 +1,80 @@
+#include "solver/mesh/transform.hpp"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Directions (in radians) closer than this are the same but for rounding.
+constexpr double smallest_angle = 1e-12;
+
+Vector vector(const Point& point) { return Vector(point.data()); }
+
+Vector unit(const Vector& direction) {
+  const double length = direction.norm();
+  if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
+  return direction / length;
+}
+
+template <class Move>
+void move_nodes(Mesh& mesh, Move move) {
+  for (Point& node : mesh.nodes) {
+    const Vector moved = move(vector(node));
+    node = {moved[0], moved[1], moved[2]};
+  }
+}
+
+}  // namespace
+
+void scale(Mesh& mesh, double factor) {
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return factor * at; });
+}
+
+void translate(Mesh& mesh, const Point& shift) {
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return at + vector(shift); });
+}
+
+void rotate(Mesh& mesh, const Point& point, const Point& axis, double angle) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, unit(vector(axis))).toRotationMatrix();
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return vector(point) + turn * (at - vector(point)); });
+}
+
+void mirror(Mesh& mesh, const Point& point, const Point& normal) {
+  const Vector across = unit(vector(normal));
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return at - 2.0 * across.dot(at - vector(point)) * across; });
+}
+
+void change_axes(Mesh& mesh, const Point& x, const Point& y) {
+  const Vector first = unit(vector(x));
+  const Vector third = first.cross(unit(vector(y)));
+  if (!(third.norm() > smallest_angle)) {
+    throw Error("zero-vector", "the two directions of the new axes lie along each other", "give two different directions");
+  }
+  Eigen::Matrix3d axes;
+  axes << first.transpose(), third.normalized().cross(first).transpose(), third.normalized().transpose();
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return axes * at; });
+}
+
+void displace(Mesh& mesh, const NodalField& displacements) {
+  const std::array columns = {displacements.component("DX"), displacements.component("DY"), displacements.component("DZ")};
+  const std::size_t expected = mesh.nodes.size() * displacements.components.size();
+  if (columns[0] < 0 || displacements.values.size() != expected) {
+    throw Error("incompatible-field", "the field is not one of displacements on the nodes of this mesh",
+                "give a field with DX, DY and, in space, DZ, made on the same mesh");
+  }
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (columns[axis] < 0) continue;
+      const double shift = displacements.at(node, columns[axis]);
+      if (!std::isnan(shift)) mesh.nodes[static_cast<std::size_t>(node)][axis] += shift;
+    }
+  }
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,142 @@
+#include "solver/mesh/conversion.hpp"
+
+#include <Eigen/Dense>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "solver/error.hpp"
+#include "solver/mesh/boundary.hpp"
+#include "solver/mesh/reference_cell.hpp"
+#include "solver/mesh/transform.hpp"
+
+using namespace comma::solver;
+using Group = std::vector<int>;
+
+namespace {
+
+Mesh single(CellType type) {
+  Mesh mesh;
+  mesh.nodes = reference_points(type);
+  std::vector<int> nodes(mesh.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  mesh.add_cell(type, nodes);
+  return mesh;
+}
+
+const Group first_cell = {0};
+
+/// Two QUAD4 side by side, with groups.
+Mesh pair_of_faces() {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  mesh.add_cell(CellType::quad4, Group{0, 1, 4, 3});
+  mesh.add_cell(CellType::quad4, Group{1, 2, 5, 4});
+  mesh.cell_groups = {{"BOTH", {0, 1}}, {"RIGHT", {1}}};
+  mesh.node_groups = {{"LEFT", {0, 3}}, {"ALL", {0, 1, 2, 3, 4, 5}}};
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a converted reference cell is the reference cell of the new type", "[mesh]") {
+  using enum CellType;
+  const std::vector<std::tuple<CellType, Conversion, CellType>> cases = {
+      {seg2, Conversion::to_quadratic, seg3},       {tria3, Conversion::to_quadratic, tria6},   {quad4, Conversion::to_quadratic, quad8},
+      {tetra4, Conversion::to_quadratic, tetra10},  {pyram5, Conversion::to_quadratic, pyram13}, {penta6, Conversion::to_quadratic, penta15},
+      {hexa8, Conversion::to_quadratic, hexa20},    {hexa20, Conversion::hexa20_to_27, hexa27},  {penta15, Conversion::penta15_to_18, penta18},
+      {quad8, Conversion::quad8_to_9, quad9},       {quad8, Conversion::hexa20_to_27, quad9},    {hexa27, Conversion::to_linear, hexa8},
+      {penta18, Conversion::to_linear, penta6},     {tria7, Conversion::to_linear, tria3}};
+  for (const auto& [from, conversion, to] : cases) {
+    CAPTURE(name_of(from), name_of(to));
+    const Mesh mesh = converted(single(from), first_cell, conversion);
+    REQUIRE(mesh.cell_types.front() == to);
+    const auto expected = reference_points(to);
+    REQUIRE(mesh.node_count() == static_cast<int>(expected.size()));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const Point& node = mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])];
+      for (int axis = 0; axis < 3; ++axis) CHECK(node[axis] == Approx(expected[i][axis]).margin(1e-15));
+    }
+  }
+}
+
+TEST_CASE("neighbours share the nodes of their edge, groups keep what they held", "[mesh]") {
+  const Mesh mesh = converted(pair_of_faces(), Group{0, 1}, Conversion::to_quadratic);
+  CHECK(mesh.node_count() == 6 + 7);
+  CHECK(mesh.cell(0)[5] == mesh.cell(1)[7]);
+  CHECK(mesh.cell_groups == pair_of_faces().cell_groups);
+  CHECK(mesh.node_groups == pair_of_faces().node_groups);
+  const Mesh back = converted(mesh, Group{0, 1}, Conversion::to_linear);
+  CHECK(back.nodes == pair_of_faces().nodes);
+  CHECK(back.connectivity == pair_of_faces().connectivity);
+  CHECK_THROWS_AS(converted(pair_of_faces(), Group{0, 1}, Conversion::hexa20_to_27), Error);
+}
+
+TEST_CASE("the middle of a curved face lies on the face", "[mesh]") {
+  Mesh mesh = single(CellType::quad8);
+  for (Point& node : mesh.nodes) node[2] = node[0] * node[0];  // a parabolic cylinder, which QUAD8 represents exactly
+  mesh.nodes[4][0] = mesh.nodes[6][0] = 0.25;
+  const Mesh larger = converted(mesh, first_cell, Conversion::quad8_to_9);
+  CHECK(larger.nodes.back()[0] == Approx(0.25));
+  CHECK(larger.nodes.back()[1] == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("doubled cells and points are cells of their own in a new group", "[mesh]") {
+  Mesh mesh = pair_of_faces();
+  double_cells(mesh, mesh.cell_groups.at("RIGHT"), "TWIN");
+  add_points(mesh, Group{5, 0}, "ENDS");
+  CHECK(mesh.cell_group("TWIN") == Group{2});
+  CHECK(Group(mesh.cell(2).begin(), mesh.cell(2).end()) == Group{1, 2, 5, 4});
+  CHECK(mesh.cell_group("ENDS") == Group{3, 4});
+  CHECK(mesh.cell_types[3] == CellType::poi1);
+  CHECK(mesh.cell(4)[0] == 0);
+  CHECK_THROWS_AS(add_points(mesh, Group{1}, "TWIN"), Error);
+}
+
+TEST_CASE("a part of a mesh keeps names and what remains of its groups", "[mesh]") {
+  const Mesh part = restricted(pair_of_faces(), Group{1});
+  CHECK(part.node_count() == 4);
+  CHECK(part.cell_count() == 1);
+  CHECK(part.cell_name(0) == "M2");
+  CHECK(part.node_name(0) == "N2");
+  CHECK(part.find_node("N1") == -1);
+  CHECK(part.cell_groups.at("BOTH") == Group{0});
+  CHECK_FALSE(part.node_groups.contains("LEFT"));
+  CHECK(part.node_groups.at("ALL") == Group{0, 1, 2, 3});
+  CHECK(std::abs(signed_size(part, 0)) == Approx(1.0));
+}
+
+TEST_CASE("moving a mesh keeps its sizes as the motion says", "[mesh]") {
+  const auto moved = [](auto&& move) {
+    Mesh mesh = single(CellType::hexa8);
+    move(mesh);
+    return signed_size(mesh, 0);
+  };
+  CHECK(moved([](Mesh& m) { scale(m, 0.5); }) == Approx(1.0));
+  CHECK(moved([](Mesh& m) { translate(m, {1, 2, 3}); }) == Approx(8.0));
+  CHECK(moved([](Mesh& m) { rotate(m, {1, 2, 3}, {1, 1, 0}, 0.7); }) == Approx(8.0));
+  CHECK(moved([](Mesh& m) { mirror(m, {1, 2, 3}, {1, 1, 0}); }) == Approx(-8.0));
+  CHECK(moved([](Mesh& m) { change_axes(m, {1, 2, 3}, {1, 1, 0}); }) == Approx(8.0));
+  Mesh mesh;
+  mesh.nodes = {{2, 0, 0}};
+  rotate(mesh, {1, 0, 0}, {0, 0, 2}, std::acos(0.0));
+  CHECK(mesh.nodes[0][0] == Approx(1.0));
+  CHECK(mesh.nodes[0][1] == Approx(1.0));
+  change_axes(mesh, {0, 3, 0}, {-1, 0, 0});
+  CHECK(mesh.nodes[0][0] == Approx(1.0));
+  CHECK(mesh.nodes[0][1] == Approx(-1.0));
+  mirror(mesh, {0, 5, 0}, {0, -1, 0});
+  CHECK(mesh.nodes[0][1] == Approx(11.0));
+  CHECK_THROWS_AS(rotate(mesh, {0, 0, 0}, {0, 0, 0}, 1.0), Error);
+  CHECK_THROWS_AS(change_axes(mesh, {1, 0, 0}, {2, 0, 0}), Error);
+}
+
+TEST_CASE("a field of displacements moves the nodes that carry it", "[mesh]") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}};
+  displace(mesh, {.quantity = "DEPL_R", .components = {"DX", "DY"}, .values = {0.5, -1.0, absent, absent}});
+  CHECK(mesh.nodes == std::vector<Point>{{0.5, -1, 0}, {1, 0, 0}});
+  CHECK_THROWS_AS(displace(mesh, {.quantity = "TEMP_R", .components = {"TEMP"}, .values = {1, 2}}), Error);
+  CHECK_THROWS_AS(displace(mesh, {.quantity = "DEPL_R", .components = {"DX"}, .values = {1}}), Error);
+}
