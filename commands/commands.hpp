@@ -29,6 +29,7 @@ Product crea_table(const Call& call, Context& context);
 Product debut(const Call& call, Context& context);
 Product defi_constante(const Call& call, Context& context);
 Product defi_contact(const Call& call, Context& context);
+Product defi_fichier(const Call& call, Context& context);
 Product defi_fonction(const Call& call, Context& context);
 Product defi_group(const Call& call, Context& context);
 Product defi_list_reel(const Call& call, Context& context);

@@ -130,7 +130,7 @@ void add_beam_displacements(const Keywords& keywords, const LoadedModel& target,
     const int cell = solver::beam_at_node(target.model, node, candidates);
     if (!keywords.given("VECT_Y")) return solver::own_axes(target.mesh, cell, roll);
     const auto y = keywords.reals("VECT_Y");
-    return solver::beam_axes(target.mesh, cell, {y[0], y[1], y[2]});
+    return solver::beam_axes(target.mesh, cell, node, {y[0], y[1], y[2]});
   };
   impose_in_axes(keywords, nodes, target, origin_of(keywords, "DDL_POUTRE"), load, axes);
 }

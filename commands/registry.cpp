@@ -29,6 +29,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"DEBUT", debut},
     {"DEFI_CONSTANTE", defi_constante},
     {"DEFI_CONTACT", defi_contact},
+    {"DEFI_FICHIER", defi_fichier},
     {"DEFI_FONCTION", defi_fonction},
     {"DEFI_GROUP", defi_group},
     {"DEFI_LIST_REEL", defi_list_reel},

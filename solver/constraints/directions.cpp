@@ -44,8 +44,9 @@ LinearRelation along(int node, Motion motion, const Eigen::Vector3d& direction, 
   return relation;
 }
 
-Eigen::Matrix3d beam_axes(const Mesh& mesh, int cell, const Eigen::Vector3d& y_direction) {
-  const Eigen::Vector3d x = own_axes(mesh, cell).row(0);
+Eigen::Matrix3d beam_axes(const Mesh& mesh, int cell, int node, const Eigen::Vector3d& y_direction) {
+  const double sense = mesh.cell(cell)[0] == node ? -1.0 : 1.0;
+  const Eigen::Vector3d x = sense * own_axes(mesh, cell).row(0);
   const Eigen::Vector3d across = y_direction - x * x.dot(y_direction);
   if (!(across.norm() > negligible_component * y_direction.norm())) {
     throw Error("zero-vector",

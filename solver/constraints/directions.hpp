@@ -19,10 +19,9 @@ enum class Motion : std::uint8_t { translation, rotation };
 LinearRelation along(int node, Motion motion, const Eigen::Vector3d& direction, double value,
                      const FieldFunction& function, const Origin& origin);
 
-/// Axes (rows) of a beam at one of its nodes: x along the cell from its first node to its second, y the part of
-/// `y_direction` across x, z = x cross y (U4.44.01, DDL_POUTRE/VECT_Y). Throws Error `zero-vector` when that part
-/// vanishes.
-Eigen::Matrix3d beam_axes(const Mesh& mesh, int cell, const Eigen::Vector3d& y_direction);
+/// Axes (rows) of a beam at one of its nodes: x along the cell towards the node, y the part of `y_direction` across x,
+/// z = x cross y (U4.44.01, DDL_POUTRE/VECT_Y). Throws Error `zero-vector` when that part vanishes.
+Eigen::Matrix3d beam_axes(const Mesh& mesh, int cell, int node, const Eigen::Vector3d& y_direction);
 
 /// The one bar or beam cell that ends at a node, among `candidates` or, if that is empty, all cells of the model.
 /// Throws Error `ambiguous-axes` when there is none or several.

@@ -84,7 +84,8 @@ AnyField map_tensors(const AnyField& field, std::span<const std::string_view> na
   result.values.assign(places * new_width, absent);
   for (std::size_t place = 0; place < places; ++place) {
     const double* value = field.values.data() + place * width;
-    if (std::isnan(value[columns[0]])) continue;
+    // A strain along a bar alone is no tensor.
+    if (std::isnan(value[columns[0]]) || std::isnan(value[columns[1]])) continue;
     const auto entry = [&](int i) { return columns[i] < 0 || std::isnan(value[columns[i]]) ? 0.0 : value[columns[i]]; };
     Eigen::Matrix3d tensor;
     tensor << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5), entry(2);

@@ -115,7 +115,7 @@ NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const 
     Eigen::Matrix3d axes;
     axes.row(0) = radial.normalized();
     axes.row(1) = along;
-    axes.row(2) = radial.normalized().cross(along);
+    axes.row(2) = along.cross(radial.normalized());
     return axes;
   };
 }

@@ -18,8 +18,9 @@ using NodeAxes = std::function<Eigen::Matrix3d(int node)>;
 /// a node carries in part, the missing components count as 0, and all of them come out.
 NodalField in_axes(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes);
 
-/// The axes of bodies of revolution about the line through `origin` along `axis`: r away from the line, z along it,
-/// and the third, about it, right-handed with these two (the order of axisymmetric models). Throws Error `zero-vector`
+/// The axes of bodies of revolution about the line through `origin` along `axis`: r away from the line, z along it, and
+/// third the direction in which a right-handed screw along the axis turns (the order of axisymmetric models, which makes
+/// the three left-handed). Throws Error `zero-vector`
 /// for an axis without length, and when asked for a node on the line.
 NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis);
 

@@ -48,7 +48,7 @@ TEST_CASE("a direction's components that are rounding are left out, so that plan
   CHECK_THROWS_AS(along(3, Motion::rotation, {0, 0, 0}, 0.5, {}, origin), Error);
 }
 
-TEST_CASE("a beam's axes at its end: x along the cell, y in the plane of the direction given") {
+TEST_CASE("a beam's axes at its end: x along the cell towards the node, y in the plane of the direction given") {
   Model model;
   model.mesh = std::make_shared<Mesh>();
   model.mesh->nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -59,10 +59,14 @@ TEST_CASE("a beam's axes at its end: x along the cell, y in the plane of the dir
   CHECK(beam_at_node(model, 1, std::vector{0}) == 0);
   CHECK_THROWS_WITH(beam_at_node(model, 1), Catch::Contains("several") && Catch::Contains("N2"));
   CHECK_THROWS_WITH(beam_at_node(model, 2, std::vector{0}), Catch::Contains("no beams"));
-  const Eigen::Matrix3d axes = beam_axes(*model.mesh, 1, {3.0, 0.0, 2.0});
+  const Eigen::Matrix3d axes = beam_axes(*model.mesh, 1, 2, {3.0, 0.0, 2.0});
   CHECK((axes.row(1) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-15);
   CHECK((axes.row(2) - Eigen::RowVector3d(0, -1, 0)).norm() < 1e-15);
-  CHECK_THROWS_AS(beam_axes(*model.mesh, 1, {1.0, 0.0, 0.0}), Error);
+  const Eigen::Matrix3d other_end = beam_axes(*model.mesh, 1, 1, {3.0, 0.0, 2.0});
+  CHECK((other_end.row(0) - Eigen::RowVector3d(-1, 0, 0)).norm() < 1e-15);
+  CHECK((other_end.row(1) - axes.row(1)).norm() < 1e-15);
+  CHECK((other_end.row(2) + axes.row(2)).norm() < 1e-15);
+  CHECK_THROWS_AS(beam_axes(*model.mesh, 1, 2, {1.0, 0.0, 0.0}), Error);
 }
 
 TEST_CASE("normals at the nodes of a quadratic circle point outwards; at a corner they are halved") {

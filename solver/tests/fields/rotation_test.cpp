@@ -45,6 +45,15 @@ TEST_CASE("a hoop stress stands in the third place of axes of revolution", "[fie
   CHECK(turned.at(0, turned.component("SIYY")) == Approx(0.0).margin(1e-14));
 }
 
+TEST_CASE("the third axis of revolution turns as a screw along the axis does", "[fields]") {
+  // At the point (2, 0, 0) about Z the turn goes along Y: a shear of XY is one between r and the turn, of the same sign.
+  const Mesh mesh = nodes_at({{2, 0, 0}});
+  const NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {0.0, 0.0, 0.0, 5.0}};
+  const std::vector<int> nodes = {0};
+  const NodalField turned = in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  CHECK(turned.at(0, turned.component("SIXZ")) == Approx(5.0));
+}
+
 TEST_CASE("a node on the axis of revolution is named", "[fields]") {
   const Mesh mesh = nodes_at({{0, 0, 3}});
   const auto axes = revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());

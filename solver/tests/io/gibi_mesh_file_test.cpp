@@ -1,8 +1,12 @@
 #include "solver/io/gibi_mesh_file.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/mesh/reference_cell.hpp"
 
 using namespace comma::solver;
 using Group = std::vector<int>;
@@ -77,6 +81,29 @@ TEST_CASE("a mesh of Cast3M is read with its named objects", "[io]") {
   CHECK(mesh.node_group("ENDS") == Group{0, 9});
   CHECK(mesh.node_group("ORIGIN") == Group{0});
   CHECK_FALSE(mesh.cell_groups.contains("ENDS"));
+}
+
+TEST_CASE("a hexahedron of Cast3M goes round its levels, then over its faces", "[io]") {
+  const std::vector<std::array<int, 2>> ring = {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
+  std::vector<std::array<int, 3>> points;
+  for (const auto& [x, y] : ring) points.push_back({x, y, -1});
+  for (const int corner : {0, 2, 4, 6}) points.push_back({ring[corner][0], ring[corner][1], 0});
+  for (const auto& [x, y] : ring) points.push_back({x, y, 1});
+  for (const int side : {1, 3, 5, 7}) points.push_back({ring[side][0], ring[side][1], 0});
+  points.insert(points.end(), {{0, 0, -1}, {0, 0, 1}, {0, 0, 0}});
+  std::string cell, coordinates;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cell += fmt::format(" {}", i + 1);
+    coordinates += fmt::format(" {} {} {} 0", points[i][0], points[i][1], points[i][2]);
+  }
+  const std::string text = " ENREGISTREMENT DE TYPE   4\n NIVEAU  11 NIVEAU ERREUR   0 DIMENSION   3\n ENREGISTREMENT DE TYPE   2\n"
+                           " PILE NUMERO   1NBRE OBJETS NOMMES       1NBRE OBJETS       1\n BLOCK\n 1\n 33 0 0 27 1\n 0\n" + cell +
+                           "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  32NBRE OBJETS NOMMES       0NBRE OBJETS      27\n 27\n" + cell +
+                           "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  33NBRE OBJETS NOMMES       0NBRE OBJETS       1\n 108\n" + coordinates +
+                           "\n ENREGISTREMENT DE TYPE   5\n";
+  const Mesh mesh = parse_gibi_mesh(text, "block.mgib");
+  const auto expected = reference_points(CellType::hexa27);
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])] == expected[i]);
 }
 
 TEST_CASE("a damaged file of Cast3M is an error with its place", "[io]") {

@@ -1,0 +1,20 @@
+#include "commands/commands.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+constexpr int text_unit = 8;
+
+}  // namespace
+
+// comma opens a file when a command writes to it and closes it again, so LIBERER finds everything written. ASSOCIER empties
+// the file: what is written next starts anew (U4.12.03).
+Product defi_fichier(const Call& call, Context& context) {
+  if (call.text("ACTION") != "ASSOCIER" || call.text("TYPE") == "LIBRE") return nullptr;
+  const auto path = context.files.output(static_cast<int>(call.integer("UNITE")), "resu", text_unit);
+  context.written.erase(path.string());
+  return nullptr;
+}
+
+}  // namespace comma::commands
