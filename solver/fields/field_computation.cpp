@@ -92,6 +92,8 @@ Field FieldComputation::compute(std::string_view name, std::size_t step, std::op
     const auto skin = cells ? std::vector<int>(cells->begin(), cells->end()) : skin_cells(*problem_.model);
     return surface_stresses(result_.mesh(), element_field("SIGM_ELNO", step), skin);
   }
+  // Only sections that are asked for need an outline.
+  if (name == "SIPM_ELNO" && cells) return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
   if (ends(name, "_NOEU")) return nodal_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
   Field field;
   if (const auto rule = rules().find(name); rule != rules().end()) {
