@@ -281,10 +281,15 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
         slender_strains[cell].cell = cell;
         override_given(slender, slender_strains[cell].strain, slender_strains[cell].functions);
       }
+      // A bar has its elongation under the name that solids have (U4.44.01, PRE_EPSI).
+      if (amounts[0] && solver::is_bar(formulation)) {
+        slender_strains[cell].cell = cell;
+        override_given<3>({amounts[0], std::nullopt, std::nullopt}, slender_strains[cell].strain, slender_strains[cell].functions);
+      }
     }
     if (strains.empty() && slender_strains.empty()) {
       throw DiagnosticError("no-element", "PRE_EPSI: none of these cells can have such a strain", occurrence.span,
-                            "EPXX ... are for solids and plane bodies, EPX, KY, KZ for bars and beams");
+                            "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams");
     }
   }
   append(load.initial_strains, std::move(strains));
