@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/equivalent.hpp"
 
@@ -24,11 +25,13 @@ Corners sorted_corners(std::span<const int> nodes, int count) {
   return corners;
 }
 
-Eigen::Vector3d normal_of(const Mesh& mesh, std::span<const int> nodes, int corners) {
-  const auto at = [&](int i) { return Eigen::Vector3d(mesh.nodes[nodes[i]].data()); };
-  if (corners == 2) return (at(1) - at(0)).cross(Eigen::Vector3d::UnitZ()).normalized();
-  const Eigen::Vector3d normal =
-      corners == 4 ? (at(2) - at(0)).cross(at(3) - at(1)) : (at(1) - at(0)).cross(at(2) - at(0));
+/// The mean normal of a face or edge, its curvature included.
+Eigen::Vector3d normal_of(const Mesh& mesh, int face, CellSamples& samples) {
+  const CellType type = mesh.cell_types[face];
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const CellSample& sample : samples.of(type, CellRole::skin)) {
+    normal += sample.weight * locate(mesh, face, sample).normal(dimension(type));
+  }
   return normal.normalized();
 }
 
@@ -45,10 +48,10 @@ class BoundedCells {
   }
 
   /// The cell whose outward normal the face has, else the one on its other side; -1 if there is none.
-  int behind(int face) const {
+  int behind(int face) {
     const auto found = bounded_.find(key_of(face));
     if (found == bounded_.end() || found->second.empty()) return -1;
-    const Eigen::Vector3d normal = normal_of(mesh_, mesh_.cell(face), corner_count(mesh_.cell_types[face]));
+    const Eigen::Vector3d normal = normal_of(mesh_, face, samples_);
     const Eigen::Vector3d centre = centre_of(face);
     for (const int cell : found->second) {
       if (normal.dot(centre - centre_of(cell)) > 0.0) return cell;
@@ -78,6 +81,7 @@ class BoundedCells {
   }
 
   const Mesh& mesh_;
+  CellSamples samples_;
   std::map<Corners, std::vector<int>> bounded_;
 };
 
@@ -150,14 +154,15 @@ ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, st
                        "SIG_T1Z", "SIG_T1", "SIG_T2X", "SIG_T2Y", "SIG_T2Z", "SIG_T2", "SIG_TN"},
                       std::vector<int>(mesh.cell_types.size() + 1, 0),
                       {}};
-  const BoundedCells bounded(mesh, stresses, faces);
+  BoundedCells bounded(mesh, stresses, faces);
+  CellSamples samples;
   std::vector<int> sorted(faces.begin(), faces.end());
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   for (const int face : sorted) {
     const int cell = dimension(mesh.cell_types[face]) > 0 ? bounded.behind(face) : -1;
     if (cell < 0) continue;
-    const Eigen::Vector3d normal = normal_of(mesh, mesh.cell(face), corner_count(mesh.cell_types[face]));
+    const Eigen::Vector3d normal = normal_of(mesh, face, samples);
     const Eigen::Matrix3d stress = mean_stress(mesh, stresses, columns, cell, face);
     const Values values =
         dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal);

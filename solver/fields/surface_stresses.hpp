@@ -8,8 +8,8 @@
 namespace comma::solver {
 
 /// One value on each of the `faces` (skin cells: faces of solids, edges of plane bodies) that bounds a cell with
-/// stresses S at element nodes (SIGM_ELNO): their mean over the nodes of the face. The normal n of a face follows the
-/// right-hand rule; that of an edge is its tangent t turned by -90 degrees. Where cells lie on both sides, that whose
+/// stresses S at element nodes (SIGM_ELNO): their mean over the nodes of the face. The normal n of a face, the mean over
+/// it where it is curved, follows the right-hand rule; that of an edge is its tangent t turned by -90 degrees. Where cells lie on both sides, that whose
 /// outward normal is n counts.
 ///
 /// Faces: SIG_NX SIG_NY SIG_NZ: (n . S n) n, and SIG_N = n . S n; SIG_TX SIG_TY SIG_TZ: S n - (n . S n) n. The stress

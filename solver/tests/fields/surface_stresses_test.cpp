@@ -55,3 +55,29 @@ TEST_CASE("a uniform stress on an edge of a plane body", "[fields]") {
   CHECK(value(skin, 1, "SIG_TX") == Approx(50));
   CHECK(value(skin, 1, "SIG_TN") == Approx(50));
 }
+
+TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
+  // A quadratic tetrahedron with the middle of one edge of a face pushed out, and that face. The vector area of a
+  // surface is half the integral of x cross dx round it; an edge that is a parabola with its middle off the chord by s
+  // adds 2/3 s x chord to the triangle of the corners.
+  const auto places = reference_nodes(CellType::tetra10);
+  Mesh mesh;
+  for (const auto& at : places) mesh.nodes.push_back({at[0], at[1], at[2]});
+  mesh.add_cell(CellType::tetra10, std::array{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  const BoundaryFacet& facet = boundary_facets(CellType::tetra10)[0];
+  std::array<int, 6> face{};
+  std::copy_n(facet.nodes.begin(), 6, face.begin());
+  mesh.add_cell(CellType::tria6, face);
+  const Eigen::Vector3d bump(0.2, -0.1, 0.15);
+  for (int i = 0; i < 3; ++i) mesh.nodes[face[3]][i] += bump[i];
+  const auto at = [&](int i) { return Eigen::Vector3d(mesh.nodes[face[i]].data()); };
+  const Eigen::Vector3d area = 0.5 * (at(1) - at(0)).cross(at(2) - at(0)) + 2.0 / 3.0 * bump.cross(at(1) - at(0));
+  const Eigen::Vector3d n = area.normalized();
+  ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 10, 10}, {}};
+  for (int i = 0; i < 10; ++i) stress.values.insert(stress.values.end(), {3, -2, 5, 1, 4, -1});
+  Eigen::Matrix3d tensor;
+  tensor << 3, 1, 4, 1, -2, -1, 4, -1, 5;
+  const ElementField skin = surface_stresses(mesh, stress, std::array{1});
+  CHECK(value(skin, 1, "SIG_N") == Approx(n.dot(tensor * n)));
+  CHECK(value(skin, 1, "SIG_NX") == Approx(n.dot(tensor * n) * n[0]));
+}
