@@ -7,6 +7,7 @@
 
 #include "solver/contact/box_tree.hpp"
 #include "solver/contact/projection.hpp"
+#include "solver/contact/straight_faces.hpp"
 
 namespace comma::solver {
 namespace {
@@ -138,7 +139,7 @@ std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, cons
   std::vector<ContactPair> pairs;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     const ZonePairing pairing(definition.zones[zone], static_cast<int>(zone), mesh, positions);
-    for (const int slave : mesh.nodes_of_cells(definition.zones[zone].slave_cells)) pairs.push_back(pairing.pair(slave));
+    for (const int slave : contact_nodes(mesh, definition.zones[zone])) pairs.push_back(pairing.pair(slave));
   }
   return pairs;
 }

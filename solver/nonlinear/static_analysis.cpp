@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/contact/contact_field.hpp"
+#include "solver/contact/straight_faces.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/newton.hpp"
@@ -31,7 +32,7 @@ class StaticAnalysis {
         counters_(counters),
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
-        elimination_(mesh_, dofs_, problem.loads),
+        elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {}
@@ -47,6 +48,16 @@ class StaticAnalysis {
   }
 
  private:
+  /// The loads, and the relations that contact faces bring along.
+  std::vector<AppliedLoad> with_contact_relations() const {
+    std::vector<AppliedLoad> loads = problem_.loads;
+    if (!problem_.contact) return loads;
+    auto ties = std::make_shared<Load>();
+    ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
+    if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
+    return loads;
+  }
+
   std::vector<int> nodes_of_contact() const {
     std::set<int> nodes;
     if (problem_.contact)

@@ -1,0 +1,101 @@
+#include "solver/contact/straight_faces.hpp"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "solver/mesh/reference_cell.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// Two HEXA20 of edge 2, the upper one on the lower one without sharing nodes.
+struct TwoBricks {
+  std::shared_ptr<Mesh> mesh = std::make_shared<Mesh>();
+  ContactZone zone;
+
+  TwoBricks() {
+    mesh->dimension = 3;
+    for (const double height : {0.0, 2.0}) {
+      std::vector<int> nodes;
+      for (Point at : reference_points(CellType::hexa20)) {
+        at[2] += height;
+        nodes.push_back(mesh->node_count());
+        mesh->nodes.push_back(at);
+      }
+      mesh->add_cell(CellType::hexa20, nodes);
+    }
+    zone.master_cells = {add_face(0)};
+    zone.slave_cells = {add_face(1)};
+  }
+
+  /// The face of a brick at z = 1, turned outwards.
+  int add_face(int brick) {
+    for (const BoundaryFacet& facet : boundary_facets(CellType::hexa20)) {
+      std::vector<int> nodes;
+      for (int i = 0; i < node_count(facet.type); ++i) nodes.push_back(mesh->cell(brick)[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
+      if (std::ranges::all_of(nodes, [&](int node) { return mesh->nodes[node][2] == 1.0; })) return mesh->add_cell(facet.type, nodes);
+    }
+    return -1;
+  }
+
+  std::vector<int> level(double z) const {
+    std::vector<int> nodes;
+    for (int node = 0; node < mesh->node_count(); ++node) {
+      if (mesh->nodes[node][2] == z) nodes.push_back(node);
+    }
+    return nodes;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the corners of an eight-node face make contact, its edges stay straight", "[contact]") {
+  const TwoBricks bricks;
+  CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 4);
+  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
+  const DofMap dofs(*model);
+  ContactDefinition contact;
+  contact.zones = {bricks.zone};
+  const auto relations = straight_edges(*bricks.mesh, dofs, contact);
+  REQUIRE(relations.size() == 2 * 4 * 3);
+  for (const LinearRelation& relation : relations) {
+    Eigen::Vector3d gap = Eigen::Vector3d::Zero();
+    for (const auto& term : relation.terms) gap += term.coefficient * Eigen::Map<const Eigen::Vector3d>(bricks.mesh->nodes[term.node].data());
+    CHECK(gap.norm() == 0.0);
+  }
+}
+
+TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[contact]") {
+  const TwoBricks bricks;
+  StaticProblem problem;
+  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
+  problem.model = model;
+  auto material = std::make_shared<Material>();
+  IsotropicElasticity elasticity;
+  elasticity.young = 2e5;
+  material->elasticity = elasticity;
+  auto materials = std::make_shared<MaterialField>();
+  materials->by_cell.assign(4, material);
+  problem.materials = materials;
+  problem.properties = std::make_shared<const ElementProperties>();
+  auto load = std::make_shared<Load>();
+  const auto origin = std::make_shared<const std::string>("test");
+  for (const auto& [z, moved] : {std::pair(-1.0, 0.0), std::pair(3.0, -0.2)}) {
+    for (const int node : bricks.level(z)) {
+      load->relations.push_back({{{node, Component::dx, 1.0}}, 0.0, {}, origin});
+      load->relations.push_back({{{node, Component::dy, 1.0}}, 0.0, {}, origin});
+      load->relations.push_back({{{node, Component::dz, 1.0}}, moved, {}, origin});
+    }
+  }
+  problem.loads.push_back({load, {}});
+  problem.contact.emplace();
+  problem.contact->zones = {bricks.zone};
+  Result result;
+  Counters counters;
+  solve_static(problem, {0.0, 1.0}, {}, result, counters);
+  const auto& displacement = std::get<NodalField>(result.steps.back().fields.at("DEPL"));
+  for (const int node : bricks.level(1.0)) CHECK(displacement.at(node, displacement.component("DZ")) == Approx(-0.1).epsilon(1e-10));
+}
