@@ -22,7 +22,7 @@ std::vector<FieldSource> field_sources(const Keywords& keywords) {
   const auto& handle = keywords.concept_of("RESULTAT");
   const solver::Result& result = interpreter::data_of<ResultConcept>(handle, "RESULTAT").result;
   std::vector<FieldSource> sources;
-  for (const solver::ResultStep* step : selected_steps(keywords, result)) {
+  for (const solver::ResultStep* step : steps_with_field(keywords, result)) {
     sources.push_back({field_of(keywords, *step),
                        result.mesh(),
                        result.model.get(),

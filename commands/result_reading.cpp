@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "interpreter/diagnostic.hpp"
@@ -82,6 +83,17 @@ const ResultStep& only_step(const Keywords& keywords, const solver::Result& resu
   if (steps.size() == 1) return *steps.front();
   throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; {}", steps.size(), reason), keywords.span,
                         "give INST or NUME_ORDRE");
+}
+
+std::vector<const ResultStep*> steps_with_field(const Keywords& keywords, const solver::Result& result) {
+  auto steps = selected_steps(keywords, result);
+  const bool named = std::ranges::any_of(std::array{"INST", "LIST_INST", "NUME_ORDRE"}, [&](const char* name) { return keywords.given(name); });
+  if (named) return steps;
+  const std::string& field = keywords.text("NOM_CHAM");
+  const auto lacks = [&](const ResultStep* step) { return !step->fields.contains(field); };
+  // Where none has it, reading the first one says what there is.
+  if (!std::ranges::all_of(steps, lacks)) std::erase_if(steps, lacks);
+  return steps;
 }
 
 const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
