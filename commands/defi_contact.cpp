@@ -69,6 +69,8 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   }
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
+  if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
+  if (keywords.has("TOLE_INTERP")) zone.interpenetration_tolerance = keywords.real("TOLE_INTERP");
   if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }

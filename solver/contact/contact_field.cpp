@@ -29,13 +29,13 @@ NodalField contact_field(std::span<const ContactPair> pairs, std::span<const dou
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const ContactPair& pair = pairs[k];
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
-    if (pair.status != PairingStatus::paired) {
+    if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
       // A node that another zone holds keeps what that zone says.
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;
     }
     const double force = multipliers[static_cast<Eigen::Index>(k)];
-    row[cont] = force > 0.0 ? sliding : open;
+    row[cont] = pair.status == PairingStatus::watched ? not_paired : force > 0.0 ? sliding : open;
     row[jeu] = gaps[k];
     row[rn] = row[r] = force;
     for (const Column tangential : {rtax, rtay, rtaz, rtgx, rtgy, rtgz}) row[tangential] = 0.0;

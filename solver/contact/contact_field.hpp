@@ -10,7 +10,7 @@
 
 namespace comma::solver {
 
-/// Components (U2.04.04): CONT: -1 not paired, 0 open, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
+/// Components (U2.04.04): CONT: -1 not paired or not enforced, 0 open, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
 /// force on the slave node, positive in compression, and its components RNX RNY RNZ; the tangential forces of sticking RTAX..
 /// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
 /// foot on the master surface. What is not computed here stays absent: GLIX GLIY GLI (sliding, with friction), HN, and the

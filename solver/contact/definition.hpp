@@ -32,6 +32,8 @@ struct ContactZone {
   std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
   std::vector<int> excluded_slave_nodes;   ///< SANS_GROUP_NO
   double projection_tolerance = 0.5;       ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
+  bool resolved = true;                    ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
+  double interpenetration_tolerance = 0.0; ///< TOLE_INTERP: how deep a node of a watched zone may go
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
 };
 
@@ -42,7 +44,7 @@ struct ContactDefinition {
   int max_geometry_updates = 10;     ///< ITER_GEOM_MAXI
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
-  bool stop_on_interpenetration = false;
+  bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
   std::vector<ContactZone> zones;
 };
 

@@ -42,7 +42,7 @@ class ZonePairing {
     if (result.status != PairingStatus::outside) return result;
     const Candidate best = nearest_facet(slave);
     if (best.facet < 0 || is_outside(best.projection)) return result;
-    result.status = PairingStatus::paired;
+    result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
     result.facet = best.facet;
     result.weights = best.projection.weights;
     result.foot = best.projection.foot;

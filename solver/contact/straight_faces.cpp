@@ -41,6 +41,7 @@ std::vector<LinearRelation> straight_edges(const Mesh& mesh, const DofMap& dofs,
   std::set<int> tied;
   std::vector<LinearRelation> relations;
   for (const ContactZone& zone : contact.zones) {
+    if (!zone.resolved) continue;
     for (const auto* cells : {&zone.master_cells, &zone.slave_cells}) {
       for (const int cell : *cells) {
         if (mesh.cell_types[cell] == CellType::quad8) tie_edges(mesh, dofs, cell, origin, tied, relations);

@@ -17,7 +17,7 @@ namespace comma::solver {
 /// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes of QUAD8 faces.
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone);
 
-/// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of all zones, for the translations that
+/// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of the zones that are resolved, for the translations that
 /// the nodes carry.
 std::vector<LinearRelation> straight_edges(const Mesh& mesh, const DofMap& dofs, const ContactDefinition& contact);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -42,6 +43,7 @@ class StaticAnalysis {
     start(instants.front());
     for (std::size_t k = 1; k < instants.size(); ++k) {
       const int iterations = solve_step(instants[k]);
+      if (problem_.contact) check_watched_zones(instants[k]);
       newton_.accept_step();
       archive(instants[k], iterations);
     }
@@ -231,6 +233,40 @@ class StaticAnalysis {
     result_.steps.push_back(std::move(step));
   }
 
+  /// Along the pair's normal; negative where the node has gone into the facet.
+  double gap_now(const ContactPair& pair, const std::vector<Vector3d>& now) const {
+    Vector3d apart = now[static_cast<std::size_t>(pair.slave)];
+    const auto facet = mesh_.cell(pair.facet);
+    for (std::size_t a = 0; a < facet.size(); ++a) apart -= pair.weights[a] * now[static_cast<std::size_t>(facet[a])];
+    return apart.dot(pair.normal);
+  }
+
+  /// The pairs of zones where contact is not enforced, by their number, as they stand now.
+  std::map<std::size_t, ContactPair> watched_pairs(const std::vector<Vector3d>& now) const {
+    std::map<std::size_t, ContactPair> watched;
+    const auto& zones = problem_.contact->zones;
+    if (std::ranges::all_of(zones, [](const ContactZone& zone) { return zone.resolved; })) return watched;
+    const auto pairs = pair_surfaces(*problem_.contact, mesh_, now);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (pairs[k].status == PairingStatus::watched) watched.emplace(k, pairs[k]);
+    }
+    return watched;
+  }
+
+  /// STOP_INTERP (U4.44.11): the nodes of zones where contact is not enforced must not go too deep.
+  void check_watched_zones(double instant) const {
+    if (!problem_.contact->stop_on_interpenetration) return;
+    const std::vector<Vector3d> now = positions();
+    for (const auto& [k, pair] : watched_pairs(now)) {
+      const double depth = -gap_now(pair, now);
+      if (depth <= problem_.contact->zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
+      throw Error("contact-interpenetration",
+                  fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, where contact is not enforced", instant,
+                              mesh_.node_name(pair.slave), depth, mesh_.cell_name(pair.facet)),
+                  "enforce contact in that zone, or allow the depth");
+    }
+  }
+
   NodalField contact_state() const {
     const Eigen::VectorXd slack = conditions_.full.bounds - conditions_.full.rows * state_.u;
     std::vector<double> gaps(conditions_.pairs.size(), absent);
@@ -239,7 +275,12 @@ class StaticAnalysis {
       if (slot < static_cast<int>(gaps.size())) gaps[slot] = slack[static_cast<Eigen::Index>(row)];
     }
     const std::vector<Vector3d> now = positions();
-    return contact_field(conditions_.pairs, gaps, state_.multipliers, mesh_.node_count(), now);
+    std::vector<ContactPair> pairs = conditions_.pairs;
+    for (const auto& [k, pair] : watched_pairs(now)) {
+      pairs[k] = pair;
+      gaps[k] = gap_now(pair, now);
+    }
+    return contact_field(pairs, gaps, state_.multipliers, mesh_.node_count(), now);
   }
 
   const StaticProblem& problem_;

@@ -50,29 +50,10 @@ struct TwoBricks {
   }
 };
 
-}  // namespace
-
-TEST_CASE("the corners of an eight-node face make contact, its edges stay straight", "[contact]") {
-  const TwoBricks bricks;
-  CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 4);
-  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
-  const DofMap dofs(*model);
-  ContactDefinition contact;
-  contact.zones = {bricks.zone};
-  const auto relations = straight_edges(*bricks.mesh, dofs, contact);
-  REQUIRE(relations.size() == 2 * 4 * 3);
-  for (const LinearRelation& relation : relations) {
-    Eigen::Vector3d gap = Eigen::Vector3d::Zero();
-    for (const auto& term : relation.terms) gap += term.coefficient * Eigen::Map<const Eigen::Vector3d>(bricks.mesh->nodes[term.node].data());
-    CHECK(gap.norm() == 0.0);
-  }
-}
-
-TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[contact]") {
-  const TwoBricks bricks;
+/// The lower brick held at its bottom, the top of the upper one moved down by 0.2, no Poisson effect.
+StaticProblem pressed(const TwoBricks& bricks) {
   StaticProblem problem;
-  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
-  problem.model = model;
+  problem.model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
   auto material = std::make_shared<Material>();
   IsotropicElasticity elasticity;
   elasticity.young = 2e5;
@@ -93,9 +74,55 @@ TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[co
   problem.loads.push_back({load, {}});
   problem.contact.emplace();
   problem.contact->zones = {bricks.zone};
+  return problem;
+}
+
+Result solved(const StaticProblem& problem) {
   Result result;
   Counters counters;
   solve_static(problem, {0.0, 1.0}, {}, result, counters);
-  const auto& displacement = std::get<NodalField>(result.steps.back().fields.at("DEPL"));
+  return result;
+}
+
+const NodalField& last(const Result& result, const char* field) { return std::get<NodalField>(result.steps.back().fields.at(field)); }
+
+}  // namespace
+
+TEST_CASE("the corners of an eight-node face make contact, its edges stay straight", "[contact]") {
+  const TwoBricks bricks;
+  CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 4);
+  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
+  const DofMap dofs(*model);
+  ContactDefinition contact;
+  contact.zones = {bricks.zone};
+  const auto relations = straight_edges(*bricks.mesh, dofs, contact);
+  REQUIRE(relations.size() == 2 * 4 * 3);
+  for (const LinearRelation& relation : relations) {
+    Eigen::Vector3d gap = Eigen::Vector3d::Zero();
+    for (const auto& term : relation.terms) gap += term.coefficient * Eigen::Map<const Eigen::Vector3d>(bricks.mesh->nodes[term.node].data());
+    CHECK(gap.norm() == 0.0);
+  }
+}
+
+TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[contact]") {
+  const TwoBricks bricks;
+  const Result result = solved(pressed(bricks));
+  const auto& displacement = last(result, "DEPL");
   for (const int node : bricks.level(1.0)) CHECK(displacement.at(node, displacement.component("DZ")) == Approx(-0.1).epsilon(1e-10));
+}
+
+TEST_CASE("where contact is not enforced, nodes go through and their depth is told", "[contact]") {
+  TwoBricks bricks;
+  bricks.zone.resolved = false;
+  StaticProblem problem = pressed(bricks);
+  const Result result = solved(problem);
+  const auto& contact = last(result, "CONT_NOEU");
+  for (const int node : contact_nodes(*bricks.mesh, bricks.zone)) {
+    CHECK(contact.at(node, contact.component("CONT")) == -1.0);
+    CHECK(contact.at(node, contact.component("JEU")) == Approx(-0.2).epsilon(1e-10));
+  }
+  problem.contact->stop_on_interpenetration = true;
+  CHECK_THROWS_WITH(solved(problem), Catch::Contains("deep in facet"));
+  problem.contact->zones[0].interpenetration_tolerance = 0.21;
+  CHECK_NOTHROW(solved(problem));
 }
