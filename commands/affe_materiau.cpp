@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
+#include "commands/function_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -23,11 +24,6 @@ struct VariableName {
 constexpr VariableName variables[] = {
     {"TEMP", Parameter::temperature, "TEMP"}, {"SECH", Parameter::drying, "TEMP"},     {"HYDR", Parameter::hydration, "HYDR_ELNO"},
     {"NEUT1", Parameter::neutral_1, "NEUT"},  {"NEUT2", Parameter::neutral_2, "NEUT"}, {"NEUT3", Parameter::neutral_3, "NEUT"}};
-
-solver::Extension extension(const std::string& word) {
-  if (word == "CONSTANT") return solver::Extension::constant;
-  return word == "LINEAIRE" ? solver::Extension::linear : solver::Extension::excluded;
-}
 
 std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
   std::vector<solver::VariableSnapshot> found;
@@ -51,8 +47,8 @@ solver::CommandVariable command_variable(const Keywords& assignment, const solve
     return variable;
   }
   variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name->field);
-  variable.left = extension(assignment.text("PROL_GAUCHE"));
-  variable.right = extension(assignment.text("PROL_DROITE"));
+  variable.left = extension_named(assignment.text("PROL_GAUCHE"));
+  variable.right = extension_named(assignment.text("PROL_DROITE"));
   return variable;
 }
 

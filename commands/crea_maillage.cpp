@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/occurrences.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/error.hpp"
 #include "solver/mesh/conversion.hpp"
 
 namespace comma::commands {
@@ -36,18 +36,6 @@ solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) 
   keep_named(restriction, "GROUP_MA", "TOUT_GROUP_MA", result.cell_groups);
   keep_named(restriction, "GROUP_NO", "TOUT_GROUP_NO", result.node_groups);
   return result;
-}
-
-// The new mesh of one occurrence; an error of the solver is told there.
-template <class Make>
-void each_occurrence(const Call& call, const std::string& factor, Make make) {
-  for (const Keywords& occurrence : call.factors(factor)) {
-    try {
-      make(occurrence);
-    } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), fmt::format("CREA_MAILLAGE/{}: {}", factor, error.what()), occurrence.span, error.hint());
-    }
-  }
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/occurrences.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/error.hpp"
 #include "solver/mesh/axes.hpp"
 #include "solver/mesh/groups.hpp"
 
@@ -213,18 +213,6 @@ void remove_groups(const Keywords& removal, Groups& groups, const char* kind) {
   for (const std::string& name : removal.texts("NOM")) {
     if (groups.erase(name) > 0) continue;
     throw DiagnosticError("unknown-group", fmt::format("DEFI_GROUP: the mesh has no group {} of {} to remove", name, kind), removal.span_of("NOM"));
-  }
-}
-
-// An error of the solver in one occurrence is told there.
-template <class Make>
-void each_occurrence(const Call& call, const char* factor, Make make) {
-  for (const Keywords& occurrence : call.factors(factor)) {
-    try {
-      make(occurrence);
-    } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), fmt::format("DEFI_GROUP/{}: {}", factor, error.what()), occurrence.span, error.hint());
-    }
   }
 }
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/occurrences.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/error.hpp"
 #include "solver/mesh/orientation.hpp"
 #include "solver/mesh/transform.hpp"
 
@@ -100,18 +100,6 @@ void deform(const Keywords& deformation, solver::Mesh& mesh) {
                           "CREA_CHAMP with TYPE_CHAM=\"NOEU_DEPL_R\" makes one");
   }
   solver::displace(mesh, *field);
-}
-
-// An error of the solver in one occurrence is told there.
-template <class Change>
-void each_occurrence(const Call& call, const char* factor, Change change) {
-  for (const Keywords& occurrence : call.factors(factor)) {
-    try {
-      change(occurrence);
-    } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), fmt::format("MODI_MAILLAGE/{}: {}", factor, error.what()), occurrence.span, error.hint());
-    }
-  }
 }
 
 }  // namespace

@@ -36,13 +36,6 @@ void require_same_count(const Keywords& keywords, const std::string& keyword, st
                         "each term of the relation takes one");
 }
 
-int single_node(const Keywords& keywords, const LoadedModel& target, const std::string& group, const std::string& name) {
-  const auto nodes = listed_nodes(keywords, target.mesh, group, name);
-  if (nodes.size() == 1) return nodes.front();
-  const std::string& keyword = keywords.given(group) ? group : name;
-  throw DiagnosticError("wrong-count", fmt::format("{} names {} nodes; one is meant", keyword, nodes.size()), keywords.span_of(keyword));
-}
-
 // LIAISON_DDL: one relation, a term for each node listed.
 Relations between_terms(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO", "NOEUD");
@@ -130,7 +123,7 @@ Relations rigid_body(const Keywords& keywords, const LoadedModel& target, const 
 // LIAISON_ELEM, 3D_POU and 2D_POU.
 Relations beam_on_section(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto section = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"});
-  const int node = single_node(keywords, target, "GROUP_NO_2", "NOEUD_2");
+  const int node = single_node(keywords, "NOEUD_2", "GROUP_NO_2", target.mesh);
   solver::SectionLink link = solver::section_link(target.mesh, section, node, origin);
   // U4.44.01, LIAISON_ELEM: the beam must end at the centroid of the section.
   constexpr double allowed_offset = 0.05;
@@ -155,7 +148,7 @@ solver::ComponentMask component_mask(const Keywords& keywords, const std::string
 }
 
 Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
-  const int follower = single_node(keywords, target, "GROUP_NO_MAIT", "NOEUD_MAIT");
+  const int follower = single_node(keywords, "NOEUD_MAIT", "GROUP_NO_MAIT", target.mesh);
   solver::ComponentMask following = 0;
   for (const std::string& name : keywords.texts("DDL_MAIT")) following |= solver::mask_of(component_named(keywords, "DDL_MAIT", name));
   const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO_ESCL", "NOEUD_ESCL");
