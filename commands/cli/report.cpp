@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace comma::commands {
@@ -58,7 +59,13 @@ ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
   return json;
 }
 
+/// The largest resident size. Not getrusage's: Linux keeps that one through exec, so that a program started by a large process
+/// would report the size of the latter.
 long peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (long kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss * 1024;  // Linux counts in KiB
