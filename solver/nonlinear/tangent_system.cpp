@@ -19,7 +19,23 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   return true;
 }
 
-void TangentSystem::factorise(const SymmetricMatrix& reduced) {
+/// Springs at the rows without a pivot, as stiff as the bodies are there. Whether there were any to add.
+bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& reduced) {
+  if (!may_add_springs_ || report.null_rows.empty()) return false;
+  const Eigen::VectorXd diagonal = reduced.diagonal();
+  const double otherwise = diagonal.size() ? diagonal.cwiseAbs().maxCoeff() : 0.0;
+  for (const int row : report.null_rows) {
+    const double own = diagonal[row];
+    springs_.emplace_back(row, own > 0.0 ? own : otherwise);
+    reduced.coeffRef(row, row) += springs_.back().second;
+  }
+  return true;
+}
+
+void TangentSystem::factorise(SymmetricMatrix reduced) {
+  // One round a rigid motion is enough: each takes at least one away.
+  constexpr int most_rounds = 12;
+  for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   if (!solver_) solver_ = make_linear_solver(options_.method.value_or(choose_method(reduced)), options_.linear);
   if (!analysed_) solver_->analyse(reduced);
   analysed_ = true;
@@ -29,6 +45,10 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced) {
     // The choice was ours and it does not pivot: the solver that does takes over.
     solver_ = make_linear_solver(LinearMethod::mumps, options_.linear);
     solver_->analyse(reduced);
+    report = solver_->factorise(reduced);
+    ++counters_.factorisations;
+  }
+  for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced); ++round) {
     report = solver_->factorise(reduced);
     ++counters_.factorisations;
   }
