@@ -93,7 +93,7 @@ solver::InitialContact initial_contact(const std::string& word) {
   return word == "NON" ? solver::InitialContact::none : solver::InitialContact::interpenetrating;
 }
 
-solver::MixedZone mixed_zone(const Keywords& keywords) {
+solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::MixedZone zone;
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
@@ -101,6 +101,14 @@ solver::MixedZone mixed_zone(const Keywords& keywords) {
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
+  if (!keywords.has("COULOMB")) return zone;
+  zone.friction = keywords.real("COULOMB");
+  zone.friction_augmentation = keywords.real("COEF_FROT");
+  zone.frictionless_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO_FR", "SANS_NOEUD_FR", "", ""});
+  if (keywords.has("DIRE_EXCL_FROT")) {
+    const auto direction = keywords.reals("DIRE_EXCL_FROT");
+    std::copy(direction.begin(), direction.end(), zone.frictionless_direction.begin());
+  }
   return zone;
 }
 
@@ -124,7 +132,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
   for (const Keywords& keywords : call.factors("ZONE")) {
     solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
-    if (is_mixed) zone.mixed = mixed_zone(keywords);
+    if (is_mixed) zone.mixed = mixed_zone(keywords, mesh);
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);

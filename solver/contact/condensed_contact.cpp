@@ -72,6 +72,8 @@ class CondensedSolver {
  private:
   int multiplier_index(int node, int component) const { return node * problem_.components + component; }
 
+  bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
+
   Vector3d multiplier_at(const CondensedPoint& point) const {
     Vector3d value = Vector3d::Zero();
     for (int i = 0; i < point.node_count; ++i)
@@ -101,9 +103,9 @@ class CondensedSolver {
       const bool open = state_.statuses[p] == ContactStatus::open;
       for (int c = 0; c < point.rows && !open; ++c) add_row(point.first_row + c);
       if (open && point.node_count == 1) continue;
-      const int components = point.law.friction > 0.0 ? problem_.components : 1;
       for (int i = 0; i < point.node_count; ++i)
-        for (int c = 0; c < components; ++c) multiplier_unknowns_[multiplier_index(point.nodes[i], c)] = 0;
+        for (int c = 0; c < (is_smooth(point.nodes[i]) ? 1 : point.components); ++c)
+          multiplier_unknowns_[multiplier_index(point.nodes[i], c)] = 0;
     }
     for (const CondensedSpring& spring : problem_.springs) add_row(spring.row);
     unknowns_ = static_cast<int>(unknown_rows_.size());
@@ -248,7 +250,8 @@ class CondensedSolver {
     const double pressure = (point.law.penalised ? 0.0 : multiplier[0]) - point.law.augmentation * jump[0];
     if (now == ContactStatus::open) return pressure > status_tolerance * point.law.augmentation * scale_;
     if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
-    return true;
+    const double beyond = std::abs(shear_beyond_limit(point.law, multiplier, jump));
+    return beyond > status_tolerance * point.law.friction * pressure_scale_;
   }
 
   ContactStatus wanted_status(std::size_t p) const {

@@ -15,7 +15,8 @@ namespace comma::solver {
 /// A point of the condensed system. Its jumps (gap, slips) are `rows` consecutive rows of the Schur complement.
 struct CondensedPoint {
   int first_row = -1;
-  int rows = 0;                                 ///< 0: nothing can touch it
+  int rows = 0;                                 ///< as many as components; 0: nothing can touch it
+  int components = 1;                           ///< of its traction: 1 without friction, 2 or 3 with it
   std::array<int, max_facet_nodes> nodes{};     ///< of the multipliers
   std::array<double, max_facet_nodes> shape{};
   int node_count = 0;
@@ -40,6 +41,7 @@ struct CondensedProblem {
   Eigen::VectorXd held;         ///< forces on the rows
   int node_count = 0;
   int components = 1;           ///< of a multiplier: 1, 2 or 3
+  std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;
 };
 

@@ -81,8 +81,11 @@ ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d&
   const double pressure = trial_pressure(law, multiplier, jump);
   if (!closed && !(pressure > 0.0)) return ContactStatus::open;
   if (!(law.friction > 0.0)) return ContactStatus::sliding;
-  const double limit = law.friction * std::max(0.0, pressure);
-  return trial_shear(law, multiplier, jump).norm() <= limit ? ContactStatus::sticking : ContactStatus::sliding;
+  return shear_beyond_limit(law, multiplier, jump) <= 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+}
+
+double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return trial_shear(law, multiplier, jump).norm() - law.friction * std::max(0.0, trial_pressure(law, multiplier, jump));
 }
 
 }  // namespace comma::solver

@@ -39,4 +39,7 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const E
 /// The status that the law gives a point. `closed` points stay so.
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
+/// By how much the shear that would stick exceeds the limit of friction.
+double shear_beyond_limit(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
 }  // namespace comma::solver

@@ -38,6 +38,10 @@ struct MixedZone {
   bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
+  double friction = 0.0;             ///< COULOMB
+  double friction_augmentation = 100.0;  ///< COEF_FROT, COEF_PENA_FROT: of the shear, as a share of friction * pressure, by the slip (1 / length)
+  std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
+  std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
 };
 
 /// A pair of surfaces. Slave nodes may not enter master facets.

@@ -45,8 +45,16 @@ ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
   law.augmentation = zone.mixed.augmentation;
   law.penalised = zone.mixed.penalised;
+  law.friction = zone.mixed.friction;
+  law.friction_augmentation = zone.mixed.augmentation;
   return law;
 }
+
+bool has_friction(const ContactDefinition& definition) {
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
+}
+
+bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
 }  // namespace
 
@@ -65,15 +73,19 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
 }
 
 void MixedContact::number_multipliers() {
+  bool is_solid = false;
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
     const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
-      if (!excluded.contains(node))
-        multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(multiplier_numbers_.size()));
+      if (!excluded.contains(node) &&
+          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(multiplier_numbers_.size())).second)
+        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || contains(each.mixed.frictionless_nodes, node));
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
   }
+  dimension_ = is_solid ? 3 : 2;
   problem_.node_count = static_cast<int>(multiplier_numbers_.size());
-  problem_.components = 1;
+  problem_.components = has_friction(definition_) ? dimension_ : 1;
   problem_.max_iterations = most_condensed_iterations;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
 }
@@ -81,6 +93,7 @@ void MixedContact::number_multipliers() {
 void MixedContact::pair(Positions positions, double time) {
   points_ = contact_points(definition_, model_, positions, time);
   ++counters_.pairings;
+  if (zone_directions_.empty()) choose_directions();
   build_rows();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
@@ -95,6 +108,9 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   result.weight = point.weight;
   result.law = law_of(zone);
   result.bilateral = zone.mixed.bilateral;
+  if (point.node >= 0 && contains(zone.mixed.frictionless_nodes, point.node)) result.law.friction = 0.0;
+  const bool one_direction = dimension_ == 2 || Eigen::Map<const Vector3d>(zone.mixed.frictionless_direction.data()).norm() > 0.0;
+  if (result.law.friction > 0.0) result.components = one_direction ? 2 : 3;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (point.node >= 0 && nodes[i] != point.node) continue;
@@ -125,7 +141,33 @@ void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& d
   for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i]);
 }
 
-/// Jumps are base + R u: the gap along the normal.
+/// One direction of space for all tangents of a zone, away from its normals: shears at the nodes of a face then speak of the same
+/// directions.
+void MixedContact::choose_directions() {
+  std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
+  for (const ContactPoint& point : points_)
+    spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
+  for (const Vector3d& each : spread) {
+    Index axis = 0;
+    each.minCoeff(&axis);
+    zone_directions_.push_back(Vector3d::Unit(axis));
+  }
+}
+
+MixedContact::Directions MixedContact::directions(const ContactPoint& point) const {
+  const Vector3d& normal = point.normal;
+  if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
+  const auto& given = definition_.zones[static_cast<std::size_t>(point.zone)].mixed.frictionless_direction;
+  const Vector3d excluded = Eigen::Map<const Vector3d>(given.data());
+  const Vector3d second = excluded.norm() > 0.0 ? excluded : zone_directions_[static_cast<std::size_t>(point.zone)];
+  const Vector3d along = second - normal.dot(second) * normal;
+  if (!(along.norm() > empty_row_tolerance * second.norm()))
+    throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
+                "give a direction along the surface (DIRE_EXCL_FROT)");
+  return {normal, along.normalized().cross(normal), along.normalized()};
+}
+
+/// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
 void MixedContact::build_rows() {
   problem_.points.clear();
   std::vector<Eigen::Triplet<double>> entries;
@@ -135,20 +177,25 @@ void MixedContact::build_rows() {
     CondensedPoint each = condensed(point);
     if (point.status == PairingStatus::paired) {
       each.first_row = static_cast<int>(base.size());
-      each.rows = 1;
+      each.rows = each.components;
+      const Directions along = directions(point);
       Vector3d apart = Vector3d::Zero();
       const auto slave = mesh_.cell(point.cell);
       for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * initial(slave[i]);
       const auto master = mesh_.cell(point.facet);
       for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * initial(master[i]);
-      add_row(each.first_row, point, point.normal, entries);
+      for (int c = 0; c < each.rows; ++c) add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
       base.push_back(point.normal.dot(apart) - point.thickness);
+      base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
     }
     problem_.points.push_back(each);
   }
   rows_.resize(static_cast<Index>(base.size()), dofs_.size());
   rows_.setFromTriplets(entries.begin(), entries.end());
   base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
+  const Eigen::VectorXd before = rows_ * reference_;
+  for (const CondensedPoint& point : problem_.points)
+    for (int c = 1; c < point.rows; ++c) base_[point.first_row + c] = -before[point.first_row + c];
   reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
   settle_blocked_points();
 }
@@ -185,7 +232,7 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
     const InitialContact initial = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.initial;
     const bool touches = jumps[point.first_row] <= touching * size_of(mesh_, points_[p].cell);
     if (initial == InitialContact::all || (initial == InitialContact::interpenetrating && touches))
-      state_.statuses[p] = ContactStatus::sliding;
+      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }
 
@@ -199,7 +246,21 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * size_of(mesh_, points_[p].cell))
-      state_.statuses[p] = ContactStatus::sliding;
+      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+}
+
+/// Where points lie on nodes the solution does not depend on the augmentation; one as stiff as the bodies suits any unit of length.
+void MixedContact::add_natural_augmentation() {
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (points_[p].node < 0 || point.rows == 0 || point.law.penalised) continue;
+    double stiffness = 0.0;
+    for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+      stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
+    point.law.augmentation = stiffness / point.weight;
+    point.law.friction_augmentation = point.law.augmentation;
   }
 }
 
@@ -210,9 +271,16 @@ Eigen::VectorXd MixedContact::held_forces() const {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
     for (int i = 0; i < point.node_count; ++i)
-      forces[point.first_row] += point.weight * point.shape[i] * state_.multipliers[point.nodes[i] * problem_.components];
+      for (int c = 0; c < point.rows; ++c)
+        forces[point.first_row + c] += (c == 0 ? 1.0 : -1.0) * point.weight * point.shape[i] * multiplier(point.nodes[i])[c];
   }
   return forces;
+}
+
+Vector3d MixedContact::multiplier(int number) const {
+  Vector3d value = Vector3d::Zero();
+  value.head(problem_.components) = state_.multipliers.segment(number * problem_.components, problem_.components);
+  return value;
 }
 
 Eigen::VectorXd MixedContact::forces() const { return reduced_rows_.transpose() * forces_; }
@@ -249,6 +317,7 @@ void MixedContact::forget() {
 
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   update_schur();
+  add_natural_augmentation();
   const Eigen::VectorXd free = jumps(elimination_.transformation() * corrected + offset);
   check_blocked_points(free);
   const Index point_rows = rows_.rows();
@@ -280,45 +349,51 @@ int MixedContact::closed_count() const {
 }
 
 void MixedContact::add_multipliers(NodalField& displacements) const {
+  constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
+  const auto added = static_cast<std::size_t>(problem_.components);
   const std::size_t before = displacements.components.size();
-  const std::size_t nodes = before > 0 ? displacements.values.size() / before : 0;
-  std::vector<double> values;
-  values.reserve(displacements.values.size() + nodes);
-  for (std::size_t node = 0; node < nodes; ++node) {
-    const auto first = displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before);
-    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(before));
-    values.push_back(absent);
-  }
-  displacements.components.emplace_back("LAGS_C");
-  displacements.values = std::move(values);
-  const auto place = [&](int node) -> double& { return displacements.values[static_cast<std::size_t>(node) * (before + 1) + before]; };
+  const std::size_t all = before + added;
+  const std::size_t nodes = displacements.values.size() / before;
+  std::vector<double> values(nodes * all, absent);
+  for (std::size_t node = 0; node < nodes; ++node)
+    std::copy_n(displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before), before,
+                values.begin() + static_cast<std::ptrdiff_t>(node * all));
+  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + problem_.components);
+  const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
   for (const ContactZone& zone : definition_.zones)
-    for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) place(node) = 0.0;
-  for (const auto& [key, number] : multiplier_numbers_) place(key.second) -= state_.multipliers[number * problem_.components];
+    for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
+  for (const auto& [key, number] : multiplier_numbers_) {
+    const Vector3d value = multiplier(number);
+    const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
+    place(key.second)[0] -= value[0];
+    for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
+  }
+  displacements.values = std::move(values);
 }
 
 NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
-  const Eigen::VectorXd gaps = jumps(u);
-  std::vector<ContactPair> pairs;
-  std::vector<double> pair_gaps;
-  std::vector<double> pair_forces;
+  const Eigen::VectorXd now = jumps(u);
+  std::vector<NodeContact> contacts;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
+    const CondensedPoint& condensed = problem_.points[p];
     if (point.node < 0) continue;
-    ContactPair pair;
-    pair.zone = point.zone;
-    pair.slave = point.node;
-    pair.status = point.status;
-    pair.facet = point.facet;
-    pair.normal = point.normal;
-    pair.foot = point.foot;
-    const int row = problem_.points[p].first_row;
-    pairs.push_back(pair);
-    pair_gaps.push_back(row >= 0 ? gaps[row] : absent);
-    pair_forces.push_back(row >= 0 ? forces_[row] : 0.0);
+    NodeContact contact;
+    contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
+    if (condensed.first_row >= 0) {
+      contact.gap = now[condensed.first_row];
+      contact.normal_force = forces_[condensed.first_row];
+      contact.sticking = state_.statuses[p] == ContactStatus::sticking;
+    }
+    if (problem_.components > 1) contact.slip.setZero();
+    const Directions along = condensed.rows > 1 ? directions(point) : Directions();
+    for (int c = 1; c < condensed.rows; ++c) {
+      contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
+      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
+    }
+    contacts.push_back(contact);
   }
-  const Eigen::VectorXd forces = Eigen::Map<const Eigen::VectorXd>(pair_forces.data(), static_cast<Index>(pair_forces.size()));
-  return contact_field(pairs, pair_gaps, forces, mesh_.node_count(), positions);
+  return contact_field(contacts, mesh_.node_count(), positions);
 }
 
 }  // namespace comma::solver

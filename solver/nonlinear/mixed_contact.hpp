@@ -1,6 +1,7 @@
 // The mixed formulation of contact (R5.03.52) within Newton's iterations: points, multipliers, forces.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -45,19 +46,26 @@ class MixedContact {
 
   int closed_count() const;
 
-  /// Adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open; absent but at slave nodes.
+  /// Adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
+  /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
   void add_multipliers(NodalField& displacements) const;
   /// CONT_NOEU (see contact_field.hpp) at u.
   NodalField contact_state(const Eigen::VectorXd& u, Positions positions) const;
 
  private:
   using Key = std::pair<int, int>;  ///< zone, node
+  /// Normal, then the tangents along which friction acts.
+  using Directions = std::array<Eigen::Vector3d, 3>;
 
   void number_multipliers();
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
+  void choose_directions();
+  Directions directions(const ContactPoint& point) const;
+  void add_natural_augmentation();
+  Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void settle_blocked_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
@@ -75,6 +83,8 @@ class MixedContact {
   const std::vector<int> support_;
 
   std::map<Key, int> multiplier_numbers_;
+  int dimension_ = 3;
+  std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   CondensedProblem problem_;
   CondensedState state_;

@@ -102,7 +102,7 @@ class StaticAnalysis {
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(state_.u)));
     step.parameters["ITER_GLOB"] = 0.0;
@@ -150,6 +150,8 @@ class StaticAnalysis {
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
     if (mixed_) mixed_->start_step(state_.u);
+    start_.clear();
+    for (const int node : contact_nodes_) start_.push_back(displacement(node));
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
@@ -160,7 +162,8 @@ class StaticAnalysis {
         resize_multipliers(next);
         conditions_ = std::move(next);
         const int limit = active_set_limit();
-        iterations += newton_.solve(time, external, offset, conditions_, limit, state_);
+        const int done = newton_.solve(time, external, offset, conditions_, limit, state_);
+        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -203,7 +206,7 @@ class StaticAnalysis {
     for (const int node : contact_nodes_) reference_.push_back(displacement(node));
   }
 
-  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing (U4.44.11), or the
+  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing, displacement being that of this step (U4.44.11), or the
   /// prescribed number of updates is done.
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
@@ -213,7 +216,7 @@ class StaticAnalysis {
       const double change = (now - reference_[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
-      largest = std::max(largest, now.cwiseAbs().maxCoeff());
+      largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
     history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
@@ -234,14 +237,20 @@ class StaticAnalysis {
     visited.push_back(conditions_);
   }
 
+  /// The multipliers of the mixed formulation are unknowns beside them.
+  NodalField displacements() const {
+    NodalField field = to_field(state_.u, dofs_, "DEPL_R");
+    if (mixed_) mixed_->add_multipliers(field);
+    return field;
+  }
+
   void archive(double instant, int iterations) {
     ResultStep step;
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u, problem_.loads, instant));
     if (mixed_) {
-      mixed_->add_multipliers(std::get<NodalField>(step.fields.at("DEPL")));
       step.fields.emplace("CONT_NOEU", mixed_->contact_state(state_.u, positions()));
     } else if (problem_.contact) {
       step.fields.emplace("CONT_NOEU", contact_state());
@@ -315,6 +324,7 @@ class StaticAnalysis {
   NewtonState state_;
   bool paired_ = false;
   std::vector<ContactPair> pairs_;
+  std::vector<Vector3d> start_;      ///< displacement of the contact nodes at the beginning of the step
   std::vector<Vector3d> reference_;  ///< displacement of the contact nodes at the last pairing
   ConditionSet conditions_;
 };
