@@ -17,6 +17,10 @@ namespace comma::solver {
 /// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant.
 class TangentSystem {
  public:
+  /// From this many unknowns on multigrid is faster than a factor, for a solid and few right-hand sides
+  /// (docs/linear_solvers.md).
+  static constexpr int large_solid = 10000;
+
   /// Keeps references to its arguments.
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                 const NewtonOptions& options, Counters& counters);
@@ -31,14 +35,20 @@ class TangentSystem {
   const std::vector<std::pair<int, double>>& springs() const { return springs_; }
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
-  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const;
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns);
+
+  /// Whether a factor stands behind the solutions, so that another one costs little.
+  bool has_factor() const { return solver_ && solver_->method() != LinearMethod::multigrid; }
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
 
  private:
+  SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
   void factorise(SymmetricMatrix reduced);
   bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);
+  LinearMethod chosen_method(const SymmetricMatrix& reduced);
+  FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
 
   const Model& model_;
@@ -47,9 +57,9 @@ class TangentSystem {
   const Elimination& elimination_;
   const NewtonOptions& options_;
   Counters& counters_;
+  LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
   Eigen::VectorXd row_sizes_;
-  bool analysed_ = false;
   bool factorised_ = false;
   bool may_add_springs_ = false;
   std::vector<std::pair<int, double>> springs_;
