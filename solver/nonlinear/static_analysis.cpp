@@ -38,7 +38,12 @@ class StaticAnalysis {
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
-        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {}
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    if (!is_mixed()) return;
+    tangent_.allow_springs();
+    mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
+    newton_.attach(mixed_.get());
+  }
 
   void run(const StepPlan& plan) {
     if (plan.instants.empty()) return;
@@ -67,6 +72,7 @@ class StaticAnalysis {
   /// The number of iterations; nothing when the step has failed and is cut. Throws what a step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence) {
     Progress before = now_;
+    if (mixed_) mixed_->remember();
     try {
       const int iterations = solve_step(instant);
       if (problem_.contact) check_watched_zones(instant);
@@ -74,6 +80,10 @@ class StaticAnalysis {
     } catch (const Error& error) {
       if (!is_failure_of_step(error.code()) || !sequence.cut()) throw;
       now_ = std::move(before);
+      if (mixed_) {
+        mixed_->restore();
+        now_.paired = false;
+      }
       if (observer_) observer_(cut_report(instant, sequence.target()));
       return std::nullopt;
     }
@@ -90,11 +100,12 @@ class StaticAnalysis {
     report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
     return report;
   }
+  bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact) return loads;
+    if (!problem_.contact || is_mixed()) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -136,7 +147,7 @@ class StaticAnalysis {
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(now_.state.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
@@ -183,17 +194,21 @@ class StaticAnalysis {
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
+    if (mixed_) mixed_->start_step(now_.state.u);
+    start_.clear();
+    for (const int node : contact_nodes_) start_.push_back(displacement(node));
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
     for (int update = 0;; ++update) {
-      if (updates || !now_.paired) pair();
+      if (updates || !now_.paired) pair(time);
       ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
-      if (update == 0 || !same_rows(next, now_.conditions)) {
+      if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
         now_.conditions = std::move(next);
         const int limit = active_set_limit();
-        iterations += newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -219,20 +234,24 @@ class StaticAnalysis {
     return factor * std::max(1, now_.conditions.slot_count);
   }
 
-  void pair() {
+  void pair(double time) {
     if (!problem_.contact) {
       now_.paired = true;
       return;
     }
     const std::vector<Vector3d> now = positions();
-    now_.pairs = pair_surfaces(*problem_.contact, mesh_, now);
-    ++counters_.pairings;
+    if (mixed_) {
+      mixed_->pair(now, time);
+    } else {
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now);
+      ++counters_.pairings;
+    }
     now_.paired = true;
     now_.reference.clear();
     for (const int node : contact_nodes_) now_.reference.push_back(displacement(node));
   }
 
-  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing (U4.44.11), or the
+  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing, displacement being that of this step (U4.44.11), or the
   /// prescribed number of updates is done.
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
@@ -242,7 +261,7 @@ class StaticAnalysis {
       const double change = (now - now_.reference[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
-      largest = std::max(largest, now.cwiseAbs().maxCoeff());
+      largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
     history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
@@ -263,13 +282,24 @@ class StaticAnalysis {
     visited.push_back(now_.conditions);
   }
 
+  /// The multipliers of the mixed formulation are unknowns beside them.
+  NodalField displacements() const {
+    NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
+    if (mixed_) mixed_->add_multipliers(field);
+    return field;
+  }
+
   void archive(double instant, int iterations) {
     ResultStep step;
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(now_.state.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
-    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    if (mixed_) {
+      step.fields.emplace("CONT_NOEU", mixed_->contact_state(now_.state.u, positions()));
+    } else if (problem_.contact) {
+      step.fields.emplace("CONT_NOEU", contact_state());
+    }
     step.parameters["ITER_GLOB"] = iterations;
     result_.steps.push_back(std::move(step));
   }
@@ -335,8 +365,10 @@ class StaticAnalysis {
   std::vector<int> contact_nodes_;
   const IterationObserver& observer_;
   NewtonSolver newton_;
+  std::unique_ptr<MixedContact> mixed_;
 
   Progress now_;
+  std::vector<Vector3d> start_;  ///< displacement of the contact nodes at the beginning of the step
 };
 
 }  // namespace
