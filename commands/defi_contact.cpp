@@ -98,6 +98,11 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
+  const std::string adaptation = keywords.text("ADAPTATION");
+  if (zone.penalised && (adaptation == "ADAPT_COEF" || adaptation == "TOUT")) {
+    throw DiagnosticError("unsupported", "comma does not support ADAPTATION='" + adaptation + "' with ALGO_CONT='PENALISATION' yet",
+                          keywords.span_of("ADAPTATION"), "give the penalty itself (COEF_PENA_CONT)");
+  }
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
