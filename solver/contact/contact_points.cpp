@@ -145,4 +145,33 @@ std::vector<ContactPoint> contact_points(const ContactDefinition& definition, co
   return points;
 }
 
+std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
+  std::map<std::pair<int, int>, std::pair<int, int>> places;  // zone and node: slave cell and corner
+  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone)
+    for (const int cell : definition.zones[zone].slave_cells) {
+      const auto nodes = mesh.cell(cell);
+      for (std::size_t corner = 0; corner < nodes.size(); ++corner)
+        places.emplace(std::pair(static_cast<int>(zone), nodes[corner]), std::pair(cell, static_cast<int>(corner)));
+    }
+  std::vector<ContactPoint> points;
+  for (const ContactPair& pair : pair_surfaces(definition, mesh, positions, time)) {
+    if (pair.status == PairingStatus::excluded) continue;
+    const auto [cell, corner] = places.at({pair.zone, pair.slave});
+    ContactPoint point;
+    point.zone = pair.zone;
+    point.cell = cell;
+    point.node = pair.slave;
+    point.shape[static_cast<std::size_t>(corner)] = 1.0;
+    point.weight = 1.0;
+    point.status = pair.status;
+    point.facet = pair.facet;
+    point.master_shape = pair.weights;
+    point.normal = pair.normal;
+    point.foot = pair.foot;
+    point.thickness = pair.thickness;
+    points.push_back(point);
+  }
+  return points;
+}
+
 }  // namespace comma::solver

@@ -33,4 +33,7 @@ struct ContactPoint {
 /// Throws what face_rule, projections and normals throw.
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time);
 
+/// The pairs of the discrete formulation as points of weight one on their slave nodes.
+std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time);
+
 }  // namespace comma::solver

@@ -1,6 +1,7 @@
 // Contact as the user describes it, in the solver's words.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -18,7 +19,8 @@ struct UnilateralCondition {
   FieldFunction bound;
 };
 
-enum class ContactAlgorithm : std::uint8_t { active_set };
+/// How the inequalities of the discrete formulation are solved.
+enum class ContactAlgorithm : std::uint8_t { active_set, projected_gradient };
 /// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a weak form
 /// (R5.03.52).
 enum class ContactFormulation : std::uint8_t { discrete, mixed };
@@ -39,6 +41,7 @@ struct MixedZone {
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;             ///< COULOMB
+  bool friction_penalised = false;   ///< the shear is `friction_augmentation` times the slip while it sticks (ALGO_FROT='PENALISATION')
   double friction_augmentation = 100.0;  ///< COEF_FROT, COEF_PENA_FROT: of the shear, as a share of friction * pressure, by the slip (1 / length)
   std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
   std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
@@ -58,7 +61,8 @@ struct ContactZone {
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
-  MixedZone mixed;                 ///< for ContactFormulation::mixed
+  bool node_to_node = false;       ///< APPARIEMENT='NODAL'
+  MixedZone mixed;                 ///< for what is solved by the law at points (solved_at_points())
 };
 
 struct ContactDefinition {
@@ -71,7 +75,18 @@ struct ContactDefinition {
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
   bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
+  double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
+  int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number
+  bool gradient_scaled = false;      ///< PRE_COND
   std::vector<ContactZone> zones;
+
+  /// Whether a law at points is solved: always in the mixed formulation; in the discrete one where a zone has a penalty (forces a
+  /// length then, each slave node being a point of weight one), friction, or contact that does not open again.
+  bool solved_at_points() const {
+    return formulation == ContactFormulation::mixed || std::ranges::any_of(zones, [](const ContactZone& zone) {
+             return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0;
+           });
+  }
 };
 
 }  // namespace comma::solver

@@ -46,7 +46,8 @@ ContactLaw law_of(const ContactZone& zone) {
   law.augmentation = zone.mixed.augmentation;
   law.penalised = zone.mixed.penalised;
   law.friction = zone.mixed.friction;
-  law.friction_augmentation = zone.mixed.augmentation;
+  law.friction_penalised = zone.mixed.friction_penalised;
+  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_augmentation : zone.mixed.augmentation;
   return law;
 }
 
@@ -91,7 +92,8 @@ void MixedContact::number_multipliers() {
 }
 
 void MixedContact::pair(Positions positions, double time) {
-  points_ = contact_points(definition_, model_, positions, time);
+  points_ = definition_.formulation == ContactFormulation::mixed ? contact_points(definition_, model_, positions, time)
+                                                                : nodal_points(definition_, mesh_, positions, time);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();

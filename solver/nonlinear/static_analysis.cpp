@@ -39,7 +39,8 @@ class StaticAnalysis {
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
-    if (!is_mixed()) return;
+    if (problem.contact) newton_.use_algorithm(*problem.contact);
+    if (!solved_at_points()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
     newton_.attach(mixed_.get());
@@ -101,6 +102,7 @@ class StaticAnalysis {
     return report;
   }
   bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
+  bool solved_at_points() const { return problem_.contact && problem_.contact->solved_at_points(); }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
@@ -243,7 +245,7 @@ class StaticAnalysis {
     if (mixed_) {
       mixed_->pair(now, time);
     } else {
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
       ++counters_.pairings;
     }
     now_.paired = true;
@@ -285,7 +287,7 @@ class StaticAnalysis {
   /// The multipliers of the mixed formulation are unknowns beside them.
   NodalField displacements() const {
     NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
-    if (mixed_) mixed_->add_multipliers(field);
+    if (is_mixed()) mixed_->add_multipliers(field);
     return field;
   }
 
