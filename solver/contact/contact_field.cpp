@@ -19,8 +19,11 @@ constexpr double not_paired = -1.0;
 constexpr double open = 0.0;
 constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
+constexpr double interpenetrating = 3.0;
 
 double status_of(const NodeContact& contact) {
+  if (contact.pair.status == PairingStatus::too_deep) return interpenetrating;
+  if (contact.pair.status == PairingStatus::watched) return not_paired;
   if (contact.sticking) return sticking;
   return contact.normal_force > 0.0 ? sliding : open;
 }
@@ -35,12 +38,12 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
   for (const NodeContact& contact : contacts) {
     const ContactPair& pair = contact.pair;
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
-    if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
+    if (pair.facet < 0) {
       // A node that another zone holds keeps what that zone says.
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;
     }
-    row[cont] = pair.status == PairingStatus::watched ? not_paired : status_of(contact);
+    row[cont] = status_of(contact);
     row[jeu] = contact.gap;
     row[rn] = contact.normal_force;
     const Eigen::Vector3d whole = contact.normal_force * pair.normal + contact.shear_force;

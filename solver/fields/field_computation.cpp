@@ -1,5 +1,7 @@
 #include "solver/fields/field_computation.hpp"
 
+#include <cmath>
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -68,6 +70,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPOT_ELEM", &F::potential_energy_of_cells},
       {"ETOT_ELGA", &F::total_energy},
       {"ETOT_ELEM", &F::total_energy_of_cells},
+      {"VARI_ELGA", &F::internal_variables},
       {"FORC_NODA", &F::internal_forces},
       {"REAC_NODA", &F::reactions},
   };
@@ -141,6 +144,22 @@ FieldInput FieldComputation::input() const {
 
 Field FieldComputation::stresses(std::size_t step) {
   return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
+}
+
+// Elasticity has no memory: Code_Aster gives it one variable, which stays zero (U4.51.11).
+Field FieldComputation::internal_variables(std::size_t step) {
+  ElementField field = element_field("SIEF_ELGA", step);
+  const std::size_t stresses = field.components.size();
+  for (std::size_t k = 0; k < field.values.size() / stresses; ++k) {
+    const bool exists = std::any_of(field.values.begin() + static_cast<std::ptrdiff_t>(k * stresses),
+                                    field.values.begin() + static_cast<std::ptrdiff_t>((k + 1) * stresses),
+                                    [](double value) { return !std::isnan(value); });
+    field.values[k] = exists ? 0.0 : absent;
+  }
+  field.values.resize(field.values.size() / stresses);
+  field.components = {"V1"};
+  field.quantity = "VARI_R";
+  return field;
 }
 
 Field FieldComputation::continuum_stress_field(std::size_t step) {

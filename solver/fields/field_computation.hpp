@@ -61,6 +61,7 @@ class FieldComputation {
   Field potential_energy_of_cells(std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
+  Field internal_variables(std::size_t step);
   Field internal_forces(std::size_t step);
   Field reactions(std::size_t step);
 

@@ -83,7 +83,7 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
   if (!schur_) {
     schur_ = std::make_unique<SchurComplement>(
-        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); }, support_);
+        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_);
   } else {
     schur_->replace_rows(reduced_.inequalities.rows);
   }
@@ -189,7 +189,7 @@ ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem
 
 Eigen::VectorXd NewtonSolver::compliance_times(const Eigen::VectorXd& multipliers) {
   Eigen::MatrixXd push = reduced_.inequalities.rows.transpose() * multipliers;
-  tangent_.solve(push);
+  tangent_.solve_once(push);
   return reduced_.inequalities.rows * push;
 }
 

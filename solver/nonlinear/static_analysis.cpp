@@ -352,6 +352,8 @@ class StaticAnalysis {
     for (const auto& [k, pair] : watched_pairs(now)) {
       pairs[k] = pair;
       gaps[k] = gap_now(pair, now);
+      if (-gaps[k] > problem_.contact->zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance)
+        pairs[k].status = PairingStatus::too_deep;
     }
     return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
   }
