@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 
 from charts import series_of
@@ -34,7 +35,7 @@ def _head(seconds: float, quick: bool) -> str:
         f"# Error against time and memory\n\nWritten by `./comma bench{' --quick' if quick else ''}` ({mode}{seconds:.0f} s, "
         f"{machine()}). Every run is a whole process; its time leaves out the commands that measure the error. Errors are "
         "relative; that in the energy norm is the root of the relative error of the energy. An order is the slope over "
-        "the three finest meshes; **bold**: more than 1/4 under theory. All runs: runs.csv.\n"
+        "the three finest meshes, that of theory in brackets; **bold**: more than 1/4 under it. All runs: runs.csv.\n"
     )
 
 
@@ -108,11 +109,20 @@ def _limit_part(limit: Limit, rows: list[tuple[str, float, Measurement]]) -> str
     for label in dict.fromkeys(row[0] for row in rows):
         cells = [_cell(limit, run) for name, _, run in rows if name == label]
         text += f"| {label} | " + " | ".join(cells) + " |\n"
-    said = list(dict.fromkeys((run.status, run.said) for _, _, run in rows if run.said))
-    text += "".join(f"\nExit {status}: \"{message}\"\n" for status, message in said[:6])
+    said = _different_sayings(rows)
+    text += "".join(f"\nExit {status}{'*' if status == 0 else ''}: \"{message}\"\n" for status, message in said)
     silent = silent_errors(limit, rows)
     bound = WRONG_IF_EXACT if limit.exact else WRONG
     return text + f"\nWrong by more than {bound:g} without a word: {len(silent)} of {len(rows)}.\n"
+
+
+def _different_sayings(rows: list[tuple[str, float, Measurement]]) -> list[tuple[int, str]]:
+    """Exit status and message, one of each kind: those that differ in numbers and names alone count as one."""
+    kinds: dict[tuple[int, str], str] = {}
+    for _, _, run in rows:
+        if run.said:
+            kinds.setdefault((run.status, re.sub(r"[A-Z]*[0-9].*", "", run.said)), run.said)
+    return [(status, message) for (status, _), message in kinds.items()]
 
 
 def _cell(limit: Limit, run: Measurement) -> str:
