@@ -95,6 +95,10 @@ std::string to_json(const Report& report) {
                                {"newton_iterations", counters.newton_iterations},
                                {"contact_iterations", counters.contact_iterations},
                                {"pairings", counters.pairings}}},
+                             {"phases",
+                              {{"assembling", counters.assembling},
+                               {"factorising", counters.factorising},
+                               {"solving", counters.solving}}},
                              {"peak_memory_bytes", peak_memory_bytes()},
                              {"seconds", report.seconds}};
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
