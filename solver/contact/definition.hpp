@@ -19,9 +19,30 @@ struct UnilateralCondition {
 };
 
 enum class ContactAlgorithm : std::uint8_t { active_set };
+/// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a weak form
+/// (R5.03.52).
+enum class ContactFormulation : std::uint8_t { discrete, mixed };
+/// How slave faces are integrated; see face_rule.hpp.
+enum class ContactRule : std::uint8_t { automatic, gauss, simpson, newton_cotes };
+/// Which points count as closed before the first solution.
+enum class InitialContact : std::uint8_t { none, all, interpenetrating };
 enum class GeometryUpdate : std::uint8_t { none, automatic, controlled };
 enum class NormalRule : std::uint8_t { automatic, fixed, along_y };
 enum class NormalSide : std::uint8_t { master, slave, average };
+
+/// What the mixed formulation needs to know of a zone. Coefficients are pressures a unit of length.
+struct MixedZone {
+  ContactRule rule = ContactRule::automatic;
+  int rule_order = 0;                ///< 0: the rule's default
+  double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
+  bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
+  InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
+  bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
+  double friction = 0.0;             ///< COULOMB
+  double friction_augmentation = 100.0;  ///< COEF_FROT, COEF_PENA_FROT: of the shear, as a share of friction * pressure, by the slip (1 / length)
+  std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
+  std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
+};
 
 /// A pair of surfaces. Slave nodes may not enter master facets.
 struct ContactZone {
@@ -35,9 +56,13 @@ struct ContactZone {
   bool resolved = true;                    ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
   double interpenetration_tolerance = 0.0; ///< TOLE_INTERP: how deep a node of a watched zone may go
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
+  FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
+  FieldFunction slave_thickness;   ///< DIST_ESCL
+  MixedZone mixed;                 ///< for ContactFormulation::mixed
 };
 
 struct ContactDefinition {
+  ContactFormulation formulation = ContactFormulation::discrete;
   ContactAlgorithm algorithm = ContactAlgorithm::active_set;
   GeometryUpdate geometry_update = GeometryUpdate::automatic;
   int controlled_updates = 2;        ///< NB_ITER_GEOM, for GeometryUpdate::controlled
@@ -45,6 +70,7 @@ struct ContactDefinition {
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
+  bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
   std::vector<ContactZone> zones;
 };
 

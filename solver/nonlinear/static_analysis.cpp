@@ -36,7 +36,12 @@ class StaticAnalysis {
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
-        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {}
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    if (!is_mixed()) return;
+    tangent_.allow_springs();
+    mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
+    newton_.attach(mixed_.get());
+  }
 
   void run(const std::vector<double>& instants) {
     if (instants.empty()) return;
@@ -50,10 +55,12 @@ class StaticAnalysis {
   }
 
  private:
+  bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
+
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact) return loads;
+    if (!problem_.contact || is_mixed()) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -95,7 +102,7 @@ class StaticAnalysis {
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(state_.u)));
     step.parameters["ITER_GLOB"] = 0.0;
@@ -142,17 +149,21 @@ class StaticAnalysis {
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
+    if (mixed_) mixed_->start_step(state_.u);
+    start_.clear();
+    for (const int node : contact_nodes_) start_.push_back(displacement(node));
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
     for (int update = 0;; ++update) {
-      if (updates || !paired_) pair();
+      if (updates || !paired_) pair(time);
       ConditionSet next = make_conditions(pairs_, problem_.unilateral, mesh_, dofs_, time);
-      if (update == 0 || !same_rows(next, conditions_)) {
+      if (update == 0 || mixed_ || !same_rows(next, conditions_)) {
         resize_multipliers(next);
         conditions_ = std::move(next);
         const int limit = active_set_limit();
-        iterations += newton_.solve(time, external, offset, conditions_, limit, state_);
+        const int done = newton_.solve(time, external, offset, conditions_, limit, state_);
+        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -178,20 +189,24 @@ class StaticAnalysis {
     return factor * std::max(1, conditions_.slot_count);
   }
 
-  void pair() {
+  void pair(double time) {
     if (!problem_.contact) {
       paired_ = true;
       return;
     }
     const std::vector<Vector3d> now = positions();
-    pairs_ = pair_surfaces(*problem_.contact, mesh_, now);
-    ++counters_.pairings;
+    if (mixed_) {
+      mixed_->pair(now, time);
+    } else {
+      pairs_ = pair_surfaces(*problem_.contact, mesh_, now);
+      ++counters_.pairings;
+    }
     paired_ = true;
     reference_.clear();
     for (const int node : contact_nodes_) reference_.push_back(displacement(node));
   }
 
-  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing (U4.44.11), or the
+  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing, displacement being that of this step (U4.44.11), or the
   /// prescribed number of updates is done.
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
@@ -201,7 +216,7 @@ class StaticAnalysis {
       const double change = (now - reference_[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
-      largest = std::max(largest, now.cwiseAbs().maxCoeff());
+      largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
     history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
@@ -222,13 +237,24 @@ class StaticAnalysis {
     visited.push_back(conditions_);
   }
 
+  /// The multipliers of the mixed formulation are unknowns beside them.
+  NodalField displacements() const {
+    NodalField field = to_field(state_.u, dofs_, "DEPL_R");
+    if (mixed_) mixed_->add_multipliers(field);
+    return field;
+  }
+
   void archive(double instant, int iterations) {
     ResultStep step;
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u, problem_.loads, instant));
-    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    if (mixed_) {
+      step.fields.emplace("CONT_NOEU", mixed_->contact_state(state_.u, positions()));
+    } else if (problem_.contact) {
+      step.fields.emplace("CONT_NOEU", contact_state());
+    }
     step.parameters["ITER_GLOB"] = iterations;
     result_.steps.push_back(std::move(step));
   }
@@ -293,10 +319,12 @@ class StaticAnalysis {
   TangentSystem tangent_;
   std::vector<int> contact_nodes_;
   NewtonSolver newton_;
+  std::unique_ptr<MixedContact> mixed_;
 
   NewtonState state_;
   bool paired_ = false;
   std::vector<ContactPair> pairs_;
+  std::vector<Vector3d> start_;      ///< displacement of the contact nodes at the beginning of the step
   std::vector<Vector3d> reference_;  ///< displacement of the contact nodes at the last pairing
   ConditionSet conditions_;
 };

@@ -29,7 +29,22 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
 
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
   const Stopwatch stopwatch(counters_.assembling);
-  return elimination_.reduce(assembler_.stiffness(u));
+  SymmetricMatrix reduced = elimination_.reduce(assembler_.stiffness(u));
+  for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
+  return reduced;
+}
+
+/// Springs at the rows without a pivot, as stiff as the bodies are there. Whether there were any to add.
+bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& reduced) {
+  if (!may_add_springs_ || report.null_rows.empty()) return false;
+  const Eigen::VectorXd diagonal = reduced.diagonal();
+  const double otherwise = diagonal.size() ? diagonal.cwiseAbs().maxCoeff() : 0.0;
+  for (const int row : report.null_rows) {
+    const double own = diagonal[row];
+    springs_.emplace_back(row, own > 0.0 ? own : otherwise);
+    reduced.coeffRef(row, row) += springs_.back().second;
+  }
+  return true;
 }
 
 /// Multigrid where it is the fastest and safe, else what suits the matrix.
@@ -51,11 +66,16 @@ FactorReport TangentSystem::factorise_with(LinearMethod method, const SymmetricM
   return solver_->factorise(reduced);
 }
 
-void TangentSystem::factorise(const SymmetricMatrix& reduced) {
+void TangentSystem::factorise(SymmetricMatrix reduced) {
+  // One round a rigid motion is enough: each takes at least one away.
+  constexpr int most_rounds = 12;
   FactorReport report = factorise_with(solver_ ? solver_->method() : chosen_method(reduced), reduced);
   if (report.verdict == FactorVerdict::indefinite && !options_.method && solver_->method() != LinearMethod::mumps) {
     // The choice was ours and it does not pivot: the solver that does takes over.
     report = factorise_with(LinearMethod::mumps, reduced);
+  }
+  for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced); ++round) {
+    report = factorise_with(solver_->method(), reduced);
   }
   // Iterations have no pivots: what moves freely is looked for before they start.
   const int digits = linear_.singular_digits;
