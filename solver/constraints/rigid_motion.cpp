@@ -20,8 +20,8 @@ constexpr std::size_t most_nodes_shown = 6;
 constexpr std::size_t most_dofs_shown = 4;
 /// Entries of a null vector below this part of its largest belong to nodes that follow rather than move.
 constexpr double moving = 1e-3;
-/// A motion that takes more energy than this, relative to the stiffness, is held by something: rounding makes less.
-constexpr double rounding = 1e-13;
+/// A motion is held by something if it takes more energy than rounding makes: this for each unknown, relative to the stiffness.
+constexpr double rounding = 1e-14;
 
 /// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by
 /// conditions).
@@ -155,8 +155,9 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
     part.nodes = nodes_moved(dofs, elimination, unknowns);
     for (const RigidMotion& motion : motions) part.motions.push_back(motion.text(mesh.dimension));
     part.remedy = remedy_for(motions);
+    const double noise = rounding * static_cast<double>(unknowns.size());
     part.held_weakly =
-        free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, rounding).size() < motions.size();
+        free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, noise).size() < motions.size();
     if (part.held_weakly) part.remedy += weakness_remedy(tolerance);
     result.push_back(std::move(part));
   }
