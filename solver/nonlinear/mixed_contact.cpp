@@ -27,7 +27,7 @@ constexpr double touching = 1e-6;
 constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
-constexpr int most_condensed_iterations = 200;
+constexpr int most_condensed_iterations = 60;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;

@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 
 /// Pairings that return within this many updates are in a cycle.
 constexpr int cycle_length_limit = 4;
+/// Displacements of a step below this share of the whole ones are rounding.
+constexpr double rounding_share = 1e-11;
 
 class StaticAnalysis {
  public:
@@ -211,14 +213,17 @@ class StaticAnalysis {
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
     double largest = 0.0;
+    double whole = 0.0;
     for (std::size_t k = 0; k < contact_nodes_.size(); ++k) {
       const Vector3d now = displacement(contact_nodes_[k]);
       const double change = (now - reference_[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
+      whole = std::max(whole, now.cwiseAbs().maxCoeff());
       largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
-    history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
+    // Nothing is asked of a step that only rounding moves.
+    history.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
       return update + 1 >= std::max(1, problem_.contact->controlled_updates);
     return history.changes.back() <= problem_.contact->geometry_tolerance;
