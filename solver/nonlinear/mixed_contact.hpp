@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,9 @@ class MixedContact {
 
   /// A step begins at u: slips are counted from there.
   void start_step(const Eigen::VectorXd& u) { reference_ = u; }
+  /// Pressures and statuses as they are before a step, and back to them when it fails; points must be faced anew then.
+  void remember() { remembered_ = {state_, started_}; }
+  void restore() { std::tie(state_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time);
   /// After a new factorisation.
@@ -89,6 +93,7 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
+  std::pair<CondensedState, bool> remembered_;
   std::size_t spring_count_ = 0;
   RowMatrix rows_;                 ///< R, over all degrees of freedom
   RowMatrix reduced_rows_;         ///< A

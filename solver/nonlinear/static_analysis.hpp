@@ -13,6 +13,7 @@
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"
+#include "solver/nonlinear/step_sequence.hpp"
 
 namespace comma::solver {
 
@@ -55,16 +56,17 @@ struct IterationReport {
   std::string worst;         ///< "DY at N12": where the residual is largest
   int active_conditions = 0;
   int contact_changes = 0;
+  std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 
-/// Called after each Newton iteration and at the end of each step; may be empty.
+/// Called after each Newton iteration and when a step is cut; may be empty.
 using IterationObserver = std::function<void(const IterationReport&)>;
 
-/// Solves the steps at `instants` (the first is the initial state, archived as order 0) and appends each converged one to
+/// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
 /// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
 /// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
-void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
+void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                   Result& result, Counters& counters, const IterationObserver& observer = {});
 
 }  // namespace comma::solver
