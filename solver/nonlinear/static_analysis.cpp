@@ -102,12 +102,12 @@ class StaticAnalysis {
     report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
     return report;
   }
-  bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
+  bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact || is_mixed()) return loads;
+    if (!problem_.contact || problem_.contact->formulation == ContactFormulation::mixed) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -245,7 +245,7 @@ class StaticAnalysis {
     if (mixed_) {
       mixed_->pair(now, time);
     } else {
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
       ++counters_.pairings;
     }
     now_.paired = true;
