@@ -1,5 +1,6 @@
 #include "solver/contact/pairing.hpp"
 
+#include <optional>
 #include <unordered_set>
 
 #include "solver/contact/facet_search.hpp"
@@ -12,11 +13,12 @@ using Eigen::Vector3d;
 
 class ZonePairing {
  public:
-  ZonePairing(const ContactDefinition& definition, int index, const Mesh& mesh, Positions positions)
+  ZonePairing(const ContactDefinition& definition, int index, const Mesh& mesh, Positions positions, double time)
       : zone_(definition.zones[static_cast<std::size_t>(index)]),
         index_(index),
         positions_(positions),
-        search_(zone_, definition.smooth_normals, mesh, positions),
+        time_(time),
+        search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()) {
     if (zone_.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions);
   }
@@ -30,21 +32,28 @@ class ZonePairing {
       result.status = PairingStatus::excluded;
     } else if (search_.too_far(at)) {
       result.status = PairingStatus::too_far;
-    } else if (const auto hit = search_.nearest(at, std::span(&slave, 1))) {
+    } else if (const auto hit = place_on_master(slave)) {
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
       result.foot = hit->projection.foot;
       const auto own = slave_normals_.find(slave);
       result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
+      result.thickness = thickness_at(zone_, at, result.foot, time_);
     }
     return result;
   }
 
  private:
+  std::optional<FacetSearch::Hit> place_on_master(int slave) const {
+    const std::span own(&slave, 1);
+    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own) : search_.nearest(positions_[slave], own);
+  }
+
   const ContactZone& zone_;
   int index_;
   Positions positions_;
+  double time_;
   FacetSearch search_;
   std::unordered_set<int> excluded_;
   std::unordered_map<int, Vector3d> slave_normals_;
@@ -52,10 +61,10 @@ class ZonePairing {
 
 }  // namespace
 
-std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions) {
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
   std::vector<ContactPair> pairs;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
-    const ZonePairing pairing(definition, static_cast<int>(zone), mesh, positions);
+    const ZonePairing pairing(definition, static_cast<int>(zone), mesh, positions, time);
     for (const int slave : contact_nodes(mesh, definition.zones[zone])) pairs.push_back(pairing.pair(slave));
   }
   return pairs;

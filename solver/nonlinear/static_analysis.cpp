@@ -23,6 +23,8 @@ using Eigen::Vector3d;
 
 /// Pairings that return within this many updates are in a cycle.
 constexpr int cycle_length_limit = 4;
+/// Displacements of a step below this share of the whole ones are rounding.
+constexpr double rounding_share = 1e-11;
 
 class StaticAnalysis {
  public:
@@ -100,12 +102,12 @@ class StaticAnalysis {
     report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
     return report;
   }
-  bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
+  bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact || is_mixed()) return loads;
+    if (!problem_.contact || problem_.contact->formulation == ContactFormulation::mixed) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -243,7 +245,7 @@ class StaticAnalysis {
     if (mixed_) {
       mixed_->pair(now, time);
     } else {
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
       ++counters_.pairings;
     }
     now_.paired = true;
@@ -256,14 +258,17 @@ class StaticAnalysis {
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
     double largest = 0.0;
+    double whole = 0.0;
     for (std::size_t k = 0; k < contact_nodes_.size(); ++k) {
       const Vector3d now = displacement(contact_nodes_[k]);
       const double change = (now - now_.reference[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
+      whole = std::max(whole, now.cwiseAbs().maxCoeff());
       largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
-    history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
+    // Nothing is asked of a step that only rounding moves.
+    history.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
       return update + 1 >= std::max(1, problem_.contact->controlled_updates);
     return history.changes.back() <= problem_.contact->geometry_tolerance;
