@@ -71,9 +71,9 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
   if (keywords.has("TOLE_INTERP")) zone.interpenetration_tolerance = keywords.real("TOLE_INTERP");
+  if (keywords.text("APPARIEMENT") == "NODAL") zone.pairing = solver::PairingRule::node;
   if (keywords.has("DIST_ESCL")) zone.slave_thickness = field_function(keywords.concept_of("DIST_ESCL"), keywords.span_of("DIST_ESCL"));
   if (keywords.has("DIST_MAIT")) zone.master_thickness = field_function(keywords.concept_of("DIST_MAIT"), keywords.span_of("DIST_MAIT"));
-  zone.node_to_node = keywords.text("APPARIEMENT") == "NODAL";
   if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }
@@ -109,7 +109,6 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
   if (!keywords.has("COULOMB")) return zone;
   zone.friction = keywords.real("COULOMB");
-  zone.friction_augmentation = keywords.real("COEF_FROT");
   zone.frictionless_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO_FR", "SANS_NOEUD_FR", "", ""});
   if (keywords.has("DIRE_EXCL_FROT")) {
     const auto direction = keywords.reals("DIRE_EXCL_FROT");
@@ -118,8 +117,8 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   return zone;
 }
 
-// Slave nodes as points: coefficients are forces a length. Without a penalty on the contact the shear has none to come from.
-solver::MixedZone nodal_zone(const Keywords& keywords) {
+// A discrete zone with a penalty, or one that never opens again.
+solver::MixedZone discrete_zone(const Keywords& keywords) {
   solver::MixedZone zone;
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   if (zone.penalised) zone.augmentation = keywords.real("E_N");
@@ -127,7 +126,7 @@ solver::MixedZone nodal_zone(const Keywords& keywords) {
   if (!keywords.has("COULOMB")) return zone;
   zone.friction = keywords.real("COULOMB");
   zone.friction_penalised = true;
-  zone.friction_augmentation = keywords.real("E_T");
+  zone.friction_penalty = keywords.real("E_T");
   return zone;
 }
 
@@ -176,7 +175,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   }
   for (const Keywords& keywords : call.factors("ZONE")) {
     solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
-    zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : nodal_zone(keywords);
+    zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : discrete_zone(keywords);
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);

@@ -51,17 +51,16 @@ class CondensedSolver {
     assert(state.statuses.size() == problem.points.size());
   }
 
+  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all.
   CondensedSolution run() {
     CondensedSolution solution;
+    const Eigen::VectorXd multipliers = state_.multipliers;
     bool solved = false;
-    while (!solved && solution.iterations < problem_.max_iterations) {
-      ++solution.iterations;
-      number_unknowns();
-      correct();
-      evaluate();
-      const bool settled = !update_statuses();
-      solved = settled && is_solved();
-      if (!settled) same_statuses_ = 0;
+    for (const Rubbing start : {Rubbing::by_law, Rubbing::never_slides, Rubbing::never_rubs}) {
+      if (solution.iterations > 0) restart(multipliers);
+      const bool prepared = start == Rubbing::by_law || settle(start, solution.iterations);
+      solved = prepared && settle(Rubbing::by_law, solution.iterations);
+      if (solved) break;
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
@@ -70,6 +69,39 @@ class CondensedSolver {
   }
 
  private:
+  /// What closed points do along the surface.
+  enum class Rubbing : std::uint8_t { by_law, never_slides, never_rubs };
+
+  void restart(const Eigen::VectorXd& multipliers) {
+    state_.multipliers = multipliers;
+    state_.statuses = start_;
+    jumps_ = problem_.free;
+    forces_ = problem_.held;
+  }
+
+  /// Iterates until statuses stay and nothing is left of the equations; counts on.
+  bool settle(Rubbing rubbing, int& iterations) {
+    rubbing_ = rubbing;
+    one_at_a_time_ = false;
+    visited_.clear();
+    for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
+    for (int iteration = 0; iteration < problem_.max_iterations; ++iteration) {
+      ++iterations;
+      number_unknowns();
+      correct();
+      evaluate();
+      const bool settled = !update_statuses();
+      if (settled && is_solved()) return true;
+      if (!settled) same_statuses_ = 0;
+    }
+    return false;
+  }
+
+  ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const {
+    if (status == ContactStatus::open || rubbing_ == Rubbing::by_law || !(point.law.friction > 0.0)) return status;
+    return rubbing_ == Rubbing::never_slides ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+
   int multiplier_index(int node, int component) const { return node * problem_.components + component; }
 
   bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
@@ -90,7 +122,9 @@ class CondensedSolver {
 
   ContactLawValue law_at(std::size_t p) const {
     const CondensedPoint& point = problem_.points[p];
-    return contact_law(point.law, state_.statuses[p], multiplier_at(point), jump_at(point));
+    ContactLaw law = point.law;
+    if (rubbing_ == Rubbing::never_rubs) law.friction = 0.0;
+    return contact_law(law, state_.statuses[p], multiplier_at(point), jump_at(point));
   }
 
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -259,7 +293,7 @@ class CondensedSolver {
     const ContactStatus now = state_.statuses[p];
     if (point.rows == 0) return ContactStatus::open;
     const bool stays_closed = point.bilateral && now != ContactStatus::open;
-    const ContactStatus wanted = contact_status(point.law, stays_closed, multiplier_at(point), jump_at(point));
+    const ContactStatus wanted = restricted(contact_status(point.law, stays_closed, multiplier_at(point), jump_at(point)), point);
     return wanted == now || is_meant(point, now, wanted) ? wanted : now;
   }
 
@@ -296,6 +330,7 @@ class CondensedSolver {
   double pressure_scale_ = 0.0;
   int same_statuses_ = 0;
   bool one_at_a_time_ = false;
+  Rubbing rubbing_ = Rubbing::by_law;
   std::set<std::vector<ContactStatus>> visited_;
 };
 

@@ -42,7 +42,7 @@ struct CondensedProblem {
   int node_count = 0;
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
-  int max_iterations = 200;
+  int max_iterations = 200;     ///< of each attempt
 };
 
 struct CondensedState {

@@ -110,16 +110,12 @@ class ZonePoints {
     point.foot = hit->projection.foot;
     const bool needs_own = zone_.normal_side != NormalSide::master;
     point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
-    point.thickness = thickness(zone_.slave_thickness, here) + thickness(zone_.master_thickness, point.foot);
+    point.thickness = thickness_at(zone_, here, point.foot, time_);
   }
 
   /// A node of both surfaces cannot face the facets that it belongs to.
   std::span<const int> own_nodes(const ContactPoint& point) const {
     return point.node >= 0 ? std::span(&point.node, 1) : mesh_.cell(point.cell);
-  }
-
-  double thickness(const FieldFunction& function, const Vector3d& at) const {
-    return function ? function({at[0], at[1], at[2]}, time_) : 0.0;
   }
 
   const ContactZone& zone_;
@@ -134,34 +130,21 @@ class ZonePoints {
   std::map<int, std::size_t> at_nodes_;
 };
 
-}  // namespace
-
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time) {
-  std::vector<ContactPoint> points;
-  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
-    ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);
-    for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
-  }
-  return points;
-}
-
+/// Slave nodes as points of weight one, whose tractions are forces.
 std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
-  std::map<std::pair<int, int>, std::pair<int, int>> places;  // zone and node: slave cell and corner
+  std::map<std::pair<int, int>, int> cells;  // of a zone's node: one of its slave faces
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone)
-    for (const int cell : definition.zones[zone].slave_cells) {
-      const auto nodes = mesh.cell(cell);
-      for (std::size_t corner = 0; corner < nodes.size(); ++corner)
-        places.emplace(std::pair(static_cast<int>(zone), nodes[corner]), std::pair(cell, static_cast<int>(corner)));
-    }
+    for (const int cell : definition.zones[zone].slave_cells)
+      for (const int node : mesh.cell(cell)) cells.emplace(std::pair(static_cast<int>(zone), node), cell);
   std::vector<ContactPoint> points;
   for (const ContactPair& pair : pair_surfaces(definition, mesh, positions, time)) {
     if (pair.status == PairingStatus::excluded) continue;
-    const auto [cell, corner] = places.at({pair.zone, pair.slave});
     ContactPoint point;
     point.zone = pair.zone;
-    point.cell = cell;
+    point.cell = cells.at({pair.zone, pair.slave});
     point.node = pair.slave;
-    point.shape[static_cast<std::size_t>(corner)] = 1.0;
+    const auto nodes = mesh.cell(point.cell);
+    point.shape[static_cast<std::size_t>(std::ranges::find(nodes, pair.slave) - nodes.begin())] = 1.0;
     point.weight = 1.0;
     point.status = pair.status;
     point.facet = pair.facet;
@@ -170,6 +153,18 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
     point.foot = pair.foot;
     point.thickness = pair.thickness;
     points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time) {
+  if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time);
+  std::vector<ContactPoint> points;
+  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
+    ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);
+    for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
   }
   return points;
 }

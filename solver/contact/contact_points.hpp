@@ -29,11 +29,9 @@ struct ContactPoint {
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
-/// is the same discrete problem. Excluded nodes have no point. `time`: at which thicknesses are read.
+/// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
+/// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
 /// Throws what face_rule, projections and normals throw.
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time);
-
-/// The pairs of the discrete formulation as points of weight one on their slave nodes.
-std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time);
 
 }  // namespace comma::solver

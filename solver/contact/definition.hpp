@@ -32,7 +32,8 @@ enum class GeometryUpdate : std::uint8_t { none, automatic, controlled };
 enum class NormalRule : std::uint8_t { automatic, fixed, along_y };
 enum class NormalSide : std::uint8_t { master, slave, average };
 
-/// What the mixed formulation needs to know of a zone. Coefficients are pressures a unit of length.
+/// How a zone presses and rubs, beyond inequalities. Coefficients are pressures a unit of length in the mixed formulation, forces a
+/// unit of length in the discrete one.
 struct MixedZone {
   ContactRule rule = ContactRule::automatic;
   int rule_order = 0;                ///< 0: the rule's default
@@ -41,16 +42,20 @@ struct MixedZone {
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;             ///< COULOMB
-  bool friction_penalised = false;   ///< the shear is `friction_augmentation` times the slip while it sticks (ALGO_FROT='PENALISATION')
-  double friction_augmentation = 100.0;  ///< COEF_FROT, COEF_PENA_FROT: of the shear, as a share of friction * pressure, by the slip (1 / length)
+  bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T)
+  double friction_penalty = 0.0;
   std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
   std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
 };
+
+/// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').
+enum class PairingRule : std::uint8_t { facet, node };
 
 /// A pair of surfaces. Slave nodes may not enter master facets.
 struct ContactZone {
   std::vector<int> master_cells;
   std::vector<int> slave_cells;
+  PairingRule pairing = PairingRule::facet;
   NormalSide normal_side = NormalSide::master;
   NormalRule master_normal = NormalRule::automatic;
   std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
@@ -61,8 +66,7 @@ struct ContactZone {
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
-  bool node_to_node = false;       ///< APPARIEMENT='NODAL'
-  MixedZone mixed;                 ///< for what is solved by the law at points (solved_at_points())
+  MixedZone mixed;                 ///< for zones that is_condensed() speaks of
 };
 
 struct ContactDefinition {
@@ -79,14 +83,13 @@ struct ContactDefinition {
   int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number
   bool gradient_scaled = false;      ///< PRE_COND
   std::vector<ContactZone> zones;
-
-  /// Whether a law at points is solved: always in the mixed formulation; in the discrete one where a zone has a penalty (forces a
-  /// length then, each slave node being a point of weight one), friction, or contact that does not open again.
-  bool solved_at_points() const {
-    return formulation == ContactFormulation::mixed || std::ranges::any_of(zones, [](const ContactZone& zone) {
-             return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0;
-           });
-  }
 };
+
+/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, or that never open
+/// again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand for forces.
+inline bool is_condensed(const ContactDefinition& definition) {
+  if (definition.formulation == ContactFormulation::mixed) return true;
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.bilateral; });
+}
 
 }  // namespace comma::solver

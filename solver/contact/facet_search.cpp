@@ -74,6 +74,34 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
   return best;
 }
 
+std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
+  int nearest = -1;
+  double distance = infinite;
+  nodes_.search(point, [&](int item) {
+    const int node = master_nodes_[item];
+    const double away = (positions_[node] - point).norm();
+    if (away < distance && std::ranges::find(own, node) == own.end()) {
+      distance = away;
+      nearest = node;
+    }
+    return distance;
+  });
+  for (const int facet : zone_.master_cells) {
+    const auto nodes = mesh_.cell(facet);
+    const auto found = std::ranges::find(nodes, nearest);
+    if (nearest < 0 || found == nodes.end()) continue;
+    Hit hit;
+    hit.facet = facet;
+    const auto local = static_cast<int>(found - nodes.begin());
+    hit.projection.xi = facet_node(mesh_.cell_types[facet], local);
+    hit.projection.weights[static_cast<std::size_t>(local)] = 1.0;
+    hit.projection.foot = positions_[nearest];
+    hit.projection.distance = distance;
+    return hit;
+  }
+  return std::nullopt;
+}
+
 void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int facet, Hit& best) const {
   const auto cell = mesh_.cell(facet);
   if (share_a_node(own, cell)) return;
@@ -104,6 +132,13 @@ Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) cons
                               ? master_normal(zone_, mesh_, hit.facet, hit.projection.xi, positions_)
                               : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
   return contact_normal(zone_.normal_side, master, slave_outward);
+}
+
+double thickness_at(const ContactZone& zone, const Vector3d& slave, const Vector3d& foot, double time) {
+  const auto value = [time](const FieldFunction& function, const Vector3d& at) {
+    return function ? function({at[0], at[1], at[2]}, time) : 0.0;
+  };
+  return value(zone.slave_thickness, slave) + value(zone.master_thickness, foot);
 }
 
 Vector3d FacetSearch::slave_normal(int cell, const Eigen::Vector2d& xi) const {

@@ -34,6 +34,9 @@ class FacetSearch {
   /// projection falls outside that facet by more than the zone's tolerance.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own) const;
 
+  /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
+  std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
+
   /// Unit normal from master to slave at a hit. `slave_outward`: the slave's own unit normal, read where the zone asks for it.
   Eigen::Vector3d normal(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
 
@@ -55,5 +58,8 @@ class FacetSearch {
   std::unordered_map<int, Eigen::Vector3d> master_normals_;  ///< of the nodes; empty unless smoothed
   std::unordered_map<int, Eigen::Vector3d> slave_normals_;   ///< likewise
 };
+
+/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT).
+double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, const Eigen::Vector3d& foot, double time);
 
 }  // namespace comma::solver

@@ -27,7 +27,7 @@ constexpr double touching = 1e-6;
 constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
-constexpr int most_condensed_iterations = 200;
+constexpr int most_condensed_iterations = 60;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;
@@ -47,7 +47,7 @@ ContactLaw law_of(const ContactZone& zone) {
   law.penalised = zone.mixed.penalised;
   law.friction = zone.mixed.friction;
   law.friction_penalised = zone.mixed.friction_penalised;
-  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_augmentation : zone.mixed.augmentation;
+  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_penalty : zone.mixed.augmentation;
   return law;
 }
 
@@ -92,8 +92,7 @@ void MixedContact::number_multipliers() {
 }
 
 void MixedContact::pair(Positions positions, double time) {
-  points_ = definition_.formulation == ContactFormulation::mixed ? contact_points(definition_, model_, positions, time)
-                                                                : nodal_points(definition_, mesh_, positions, time);
+  points_ = contact_points(definition_, model_, positions, time);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();
@@ -257,12 +256,12 @@ void MixedContact::add_natural_augmentation() {
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
-    if (points_[p].node < 0 || point.rows == 0 || point.law.penalised) continue;
+    if (points_[p].node < 0 || point.rows == 0) continue;
     double stiffness = 0.0;
     for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
       stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
-    point.law.augmentation = stiffness / point.weight;
-    point.law.friction_augmentation = point.law.augmentation;
+    if (!point.law.penalised) point.law.augmentation = stiffness / point.weight;
+    if (!point.law.friction_penalised) point.law.friction_augmentation = stiffness / point.weight;
   }
 }
 
@@ -351,6 +350,7 @@ int MixedContact::closed_count() const {
 }
 
 void MixedContact::add_multipliers(NodalField& displacements) const {
+  if (definition_.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
   const auto added = static_cast<std::size_t>(problem_.components);
   const std::size_t before = displacements.components.size();

@@ -20,6 +20,8 @@
 
 namespace comma::solver {
 
+/// Discrete contact that is more than inequalities (see is_condensed) is the same with points at the slave nodes and forces for
+/// pressures.
 /// Pressures live at the slave nodes of each zone, the law holds at the integration points of the slave faces. An iteration of
 /// Newton's method on the bodies solves the contact law exactly, on the contact rows alone:
 ///     K dq = T^T (f_ext - f_int(u)) + A^T w t(multipliers, jumps),   jumps = base + R u
@@ -50,7 +52,7 @@ class MixedContact {
 
   int closed_count() const;
 
-  /// Adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
+  /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
   /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
   void add_multipliers(NodalField& displacements) const;
   /// CONT_NOEU (see contact_field.hpp) at u.

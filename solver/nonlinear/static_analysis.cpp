@@ -23,6 +23,8 @@ using Eigen::Vector3d;
 
 /// Pairings that return within this many updates are in a cycle.
 constexpr int cycle_length_limit = 4;
+/// Displacements of a step below this share of the whole ones are rounding.
+constexpr double rounding_share = 1e-11;
 
 class StaticAnalysis {
  public:
@@ -40,7 +42,7 @@ class StaticAnalysis {
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
     if (problem.contact) newton_.use_algorithm(*problem.contact);
-    if (!solved_at_points()) return;
+    if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
     newton_.attach(mixed_.get());
@@ -101,13 +103,12 @@ class StaticAnalysis {
     report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
     return report;
   }
-  bool is_mixed() const { return problem_.contact && problem_.contact->formulation == ContactFormulation::mixed; }
-  bool solved_at_points() const { return problem_.contact && problem_.contact->solved_at_points(); }
+  bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact || is_mixed()) return loads;
+    if (!problem_.contact || problem_.contact->formulation == ContactFormulation::mixed) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -258,14 +259,17 @@ class StaticAnalysis {
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
     double largest = 0.0;
+    double whole = 0.0;
     for (std::size_t k = 0; k < contact_nodes_.size(); ++k) {
       const Vector3d now = displacement(contact_nodes_[k]);
       const double change = (now - now_.reference[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
+      whole = std::max(whole, now.cwiseAbs().maxCoeff());
       largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
-    history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
+    // Nothing is asked of a step that only rounding moves.
+    history.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
       return update + 1 >= std::max(1, problem_.contact->controlled_updates);
     return history.changes.back() <= problem_.contact->geometry_tolerance;
@@ -287,7 +291,7 @@ class StaticAnalysis {
   /// The multipliers of the mixed formulation are unknowns beside them.
   NodalField displacements() const {
     NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
-    if (is_mixed()) mixed_->add_multipliers(field);
+    if (mixed_) mixed_->add_multipliers(field);
     return field;
   }
 
