@@ -21,6 +21,10 @@ constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
 constexpr double interpenetrating = 3.0;
 
+bool faces_master(PairingStatus status) {
+  return status == PairingStatus::paired || status == PairingStatus::watched || status == PairingStatus::too_deep;
+}
+
 double status_of(const NodeContact& contact) {
   if (contact.pair.status == PairingStatus::too_deep) return interpenetrating;
   if (contact.pair.status == PairingStatus::watched) return not_paired;
@@ -38,7 +42,7 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
   for (const NodeContact& contact : contacts) {
     const ContactPair& pair = contact.pair;
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
-    if (pair.facet < 0) {
+    if (!faces_master(pair.status)) {
       // A node that another zone holds keeps what that zone says.
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;
