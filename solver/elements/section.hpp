@@ -60,6 +60,11 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                                       DiscreteFrame frame, const Orientation& orientation = {});
 
+/// From all values of the matrix, column by column: k^2 of them on a point, 4 k^2 on a segment (U4.42.01, SYME='NON'). It need not be
+/// symmetric.
+DiscreteStiffness unsymmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                                        DiscreteFrame frame, const Orientation& orientation = {});
+
 /// What is known of a section's outline: enough to say where its axial stress is largest.
 enum class SectionShape : std::uint8_t { general, rectangle, circle };
 
@@ -98,6 +103,10 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
 /// From the upper triangle of the symmetric matrix, as symmetric_stiffness (M_T_N, M_TR_N, M_T_L, M_TR_L).
 DiscreteMass symmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                             DiscreteFrame frame, const Orientation& orientation = {});
+
+/// From all values, as unsymmetric_stiffness.
+DiscreteMass unsymmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                              DiscreteFrame frame, const Orientation& orientation = {});
 
 /// Characteristics by cell index. Discrete elements without an entry in `masses` have none.
 struct ElementProperties {

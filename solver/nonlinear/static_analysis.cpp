@@ -36,7 +36,11 @@ class StaticAnalysis {
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
-        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {}
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    if (assembler_.is_symmetric() || (!problem.contact && problem.unilateral.empty())) return;
+    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
+                "leave out the unsymmetric element or the conditions");
+  }
 
   void run(const std::vector<double>& instants) {
     if (instants.empty()) return;

@@ -8,11 +8,13 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
 #include "solver/linear/linear_solver.hpp"
+#include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
 
-/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant.
+/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant. Where an element is
+/// unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
 class TangentSystem {
  public:
   /// Keeps references to its arguments.
@@ -20,7 +22,8 @@ class TangentSystem {
                 const NewtonOptions& options, Counters& counters);
 
   /// Factorises the tangent at u unless it is known already, for the assembler's instant too. Returns whether it was factorised. Throws Error
-  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds.
+  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds; `unsupported` for conjugate gradients
+  /// with an unsymmetric tangent.
   bool refresh(const Eigen::VectorXd& u);
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
@@ -31,6 +34,7 @@ class TangentSystem {
 
  private:
   void factorise(const SymmetricMatrix& reduced);
+  void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
   void measure_rows(const SymmetricMatrix& reduced);
 
   const Model& model_;
@@ -40,6 +44,7 @@ class TangentSystem {
   const NewtonOptions& options_;
   Counters& counters_;
   std::unique_ptr<LinearSolver> solver_;
+  std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   bool analysed_ = false;
   bool factorised_ = false;
