@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace comma::commands {
@@ -58,7 +59,13 @@ ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
   return json;
 }
 
+/// The largest resident size. Not getrusage's: Linux keeps that one through exec, so that a program started by a large process
+/// would report the size of the latter.
 long peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (long kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss * 1024;  // Linux counts in KiB
@@ -87,6 +94,10 @@ std::string to_json(const Report& report) {
                                {"newton_iterations", counters.newton_iterations},
                                {"contact_iterations", counters.contact_iterations},
                                {"pairings", counters.pairings}}},
+                             {"phases",
+                              {{"assembling", counters.assembling},
+                               {"factorising", counters.factorising},
+                               {"solving", counters.solving}}},
                              {"peak_memory_bytes", peak_memory_bytes()},
                              {"seconds", report.seconds}};
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

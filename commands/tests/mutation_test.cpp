@@ -78,8 +78,10 @@ bool mesh_is_small(const fs::path& scene) {
 std::vector<fs::path> scenes() {
   const fs::path root = COMMA_SOURCE_DIR;
   std::vector<fs::path> found = {root / "commands/tests/wrong/sound.comm"};
-  for (const auto& entry : fs::recursive_directory_iterator(root / "testcases")) {
-    if (entry.path().extension() == ".comm" && mesh_is_small(entry.path())) found.push_back(entry.path());
+  // testcases/SCENE/NAME.comm; what lies deeper is part of a command file (bench).
+  for (auto entry = fs::recursive_directory_iterator(root / "testcases"); entry != fs::recursive_directory_iterator(); ++entry) {
+    const fs::path& path = entry->path();
+    if (entry.depth() == 1 && path.extension() == ".comm" && mesh_is_small(path)) found.push_back(path);
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -62,8 +62,10 @@ Outcome run(const fs::path& file, bool only_tests) {
 
 std::vector<fs::path> scenes() {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(COMMA_SOURCE_DIR) / "testcases")) {
-    if (entry.path().extension() == ".comm") found.push_back(entry.path());
+  // testcases/SCENE/NAME.comm; what lies deeper is part of a command file (bench).
+  const fs::path root = fs::path(COMMA_SOURCE_DIR) / "testcases";
+  for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry.depth() == 1 && entry->path().extension() == ".comm") found.push_back(entry->path());
   }
   std::sort(found.begin(), found.end());
   return found;

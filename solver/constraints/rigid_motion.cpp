@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "solver/constraints/rigid_modes.hpp"
+#include "solver/mesh/disjoint_sets.hpp"
 #include "solver/linear/equilibration.hpp"
 
 namespace comma::solver {
@@ -20,21 +20,6 @@ constexpr std::size_t most_nodes_shown = 6;
 constexpr std::size_t most_dofs_shown = 4;
 /// Entries of a null vector below this part of its largest belong to nodes that follow rather than move.
 constexpr double moving = 1e-3;
-
-/// Sets that grow together.
-class DisjointSets {
- public:
-  explicit DisjointSets(int size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by
 /// conditions).

@@ -4,6 +4,7 @@
 #include "solver/linear/cholmod_solver.hpp"
 #include "solver/linear/conjugate_gradient_solver.hpp"
 #include "solver/linear/eigen_ldlt_solver.hpp"
+#include "solver/linear/multigrid_solver.hpp"
 #include "solver/linear/mumps_solver.hpp"
 
 namespace comma::solver {
@@ -18,6 +19,8 @@ std::string_view name_of(LinearMethod method) {
       return "LDLT";
     case LinearMethod::conjugate_gradient:
       return "GCPC";
+    case LinearMethod::multigrid:
+      return "multigrid";
   }
   return "";
 }
@@ -32,6 +35,8 @@ std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const Line
       return make_eigen_ldlt_solver(options);
     case LinearMethod::conjugate_gradient:
       return make_conjugate_gradient_solver(options);
+    case LinearMethod::multigrid:
+      return make_multigrid_solver(options);
   }
   throw Error("unsupported", "no such linear solver");
 }

@@ -19,8 +19,15 @@ namespace comma::solver {
 /// Symmetric; only the lower triangle is stored, diagonal included (an explicit entry on every row).
 using SymmetricMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-enum class LinearMethod : std::uint8_t { mumps, cholmod, eigen_ldlt, conjugate_gradient };
+enum class LinearMethod : std::uint8_t { mumps, cholmod, eigen_ldlt, conjugate_gradient, multigrid };
 std::string_view name_of(LinearMethod method);
+
+/// Where the unknowns of a solid lie, for the method that asks: three translations a node at most.
+struct SolidUnknowns {
+  std::vector<int> nodes;             ///< of each row: 0, 1, ...
+  std::vector<int> axes;              ///< of each row: 0, 1, 2
+  std::vector<Eigen::Vector3d> places;  ///< of each node, m
+};
 
 enum class FactorVerdict : std::uint8_t { ok, indefinite, singular };
 
@@ -45,6 +52,8 @@ struct LinearOptions {
   /// iterations they may take (NMAX_ITER; 0: half the unknowns).
   double iteration_tolerance = 1e-6;
   int most_iterations = 0;
+  /// Multigrid alone, which needs it.
+  std::shared_ptr<const SolidUnknowns> solid;
 };
 
 class LinearSolver {

@@ -16,13 +16,16 @@
 
 namespace comma::solver {
 
-/// Work counters, as in the JSON report.
+/// Work counters, as in the JSON report, and the seconds spent on the parts of a solution.
 struct Counters {
   long factorisations = 0;
   long solves = 0;
   long newton_iterations = 0;
   long contact_iterations = 0;
   long pairings = 0;
+  double assembling = 0.0;   ///< s: pattern, element matrices and their reduction
+  double factorising = 0.0;  ///< s: analysis and factor, or the grids of multigrid
+  double solving = 0.0;      ///< s: right-hand sides, refinement
 };
 
 struct StaticProblem {
@@ -40,6 +43,7 @@ struct NewtonOptions {
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
+  bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };
 
 /// One line of the live table.

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "solver/constraints/rigid_motion.hpp"
+#include "solver/constraints/solid_unknowns.hpp"
 #include "solver/error.hpp"
+#include "solver/stopwatch.hpp"
 
 namespace comma::solver {
 
@@ -17,13 +19,19 @@ constexpr int most_gram_digits = 15;
 
 TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler,
                              const Elimination& elimination, const NewtonOptions& options, Counters& counters)
-    : model_(model), dofs_(dofs), assembler_(assembler), elimination_(elimination), options_(options), counters_(counters) {}
+    : model_(model),
+      dofs_(dofs),
+      assembler_(assembler),
+      elimination_(elimination),
+      options_(options),
+      counters_(counters),
+      linear_(options.linear) {}
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
-  const SymmetricMatrix reduced = elimination_.reduce(assembler_.stiffness(u));
+  const SymmetricMatrix reduced = assembled(u);
   if (assembler_.is_symmetric())
     factorise(reduced);
   else
@@ -33,23 +41,40 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   return true;
 }
 
-void TangentSystem::factorise(const SymmetricMatrix& reduced) {
-  if (!solver_) solver_ = make_linear_solver(options_.method.value_or(choose_method(reduced)), options_.linear);
-  if (!analysed_) solver_->analyse(reduced);
-  analysed_ = true;
-  FactorReport report = solver_->factorise(reduced);
+SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
+  const Stopwatch stopwatch(counters_.assembling);
+  return elimination_.reduce(assembler_.stiffness(u));
+}
+
+/// Multigrid where it is the fastest and safe, else what suits the matrix.
+LinearMethod TangentSystem::chosen_method(const SymmetricMatrix& reduced) {
+  if (options_.method) return *options_.method;
+  const LinearMethod direct = choose_method(reduced);
+  if (direct == LinearMethod::mumps || !options_.few_solutions || reduced.rows() < large_solid) return direct;
+  linear_.solid = solid_unknowns(model_, dofs_, elimination_);
+  return linear_.solid ? LinearMethod::multigrid : direct;
+}
+
+FactorReport TangentSystem::factorise_with(LinearMethod method, const SymmetricMatrix& reduced) {
+  const Stopwatch stopwatch(counters_.factorising);
+  if (!solver_ || solver_->method() != method) {
+    solver_ = make_linear_solver(method, linear_);
+    solver_->analyse(reduced);
+  }
   ++counters_.factorisations;
+  return solver_->factorise(reduced);
+}
+
+void TangentSystem::factorise(const SymmetricMatrix& reduced) {
+  FactorReport report = factorise_with(solver_ ? solver_->method() : chosen_method(reduced), reduced);
   if (report.verdict == FactorVerdict::indefinite && !options_.method && solver_->method() != LinearMethod::mumps) {
     // The choice was ours and it does not pivot: the solver that does takes over.
-    solver_ = make_linear_solver(LinearMethod::mumps, options_.linear);
-    solver_->analyse(reduced);
-    report = solver_->factorise(reduced);
-    ++counters_.factorisations;
+    report = factorise_with(LinearMethod::mumps, reduced);
   }
   // Iterations have no pivots: what moves freely is looked for before they start.
-  const int digits = options_.linear.singular_digits;
-  if (solver_->method() == LinearMethod::conjugate_gradient &&
-      !find_free_parts(*model_.mesh, dofs_, elimination_, reduced, {}, digits).empty()) {
+  const int digits = linear_.singular_digits;
+  const bool has_pivots = solver_->method() != LinearMethod::conjugate_gradient && solver_->method() != LinearMethod::multigrid;
+  if (!has_pivots && !find_free_parts(*model_.mesh, dofs_, elimination_, reduced, {}, digits).empty()) {
     report.verdict = FactorVerdict::singular;
   }
   if (report.verdict == FactorVerdict::singular) {
@@ -63,8 +88,11 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& 
                 "choose a direct solver");
   }
   if (!unsymmetric_) unsymmetric_ = std::make_unique<UnsymmetricSolver>(options_.linear);
-  const FactorReport report = unsymmetric_->factorise(reduced, skew);
   ++counters_.factorisations;
+  const FactorReport report = [&] {
+    const Stopwatch stopwatch(counters_.factorising);
+    return unsymmetric_->factorise(reduced, skew);
+  }();
   if (report.verdict != FactorVerdict::singular) return;
   // Energies are those of K^T K, where a support's digits count twice.
   const int digits = std::min(2 * std::max(0, options_.linear.singular_digits), most_gram_digits);
@@ -81,13 +109,28 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
     }
 }
 
-void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) const {
+void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
   if (columns.rows() == 0) return;
-  if (unsymmetric_)
-    unsymmetric_->solve(columns);
-  else
-    solver_->solve(columns);
   counters_.solves += columns.cols();
+  if (unsymmetric_) {
+    const Stopwatch stopwatch(counters_.solving);
+    unsymmetric_->solve(columns);
+    return;
+  }
+  const Eigen::MatrixXd loads = has_factor() ? Eigen::MatrixXd() : Eigen::MatrixXd(columns);
+  try {
+    const Stopwatch stopwatch(counters_.solving);
+    solver_->solve(columns);
+  } catch (const Error& error) {
+    if (has_factor() || error.code() != "no-convergence") throw;
+    // Multigrid was our choice: what it cannot solve goes to the method that needs more time and memory.
+    columns = loads;
+    solver_.reset();
+    linear_.solid.reset();
+    factorise_with(LinearMethod::cholmod, assembled(Eigen::VectorXd::Zero(elimination_.full_size())));
+    const Stopwatch stopwatch(counters_.solving);
+    solver_->solve(columns);
+  }
 }
 
 }  // namespace comma::solver

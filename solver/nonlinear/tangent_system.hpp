@@ -17,6 +17,10 @@ namespace comma::solver {
 /// unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
 class TangentSystem {
  public:
+  /// From this many unknowns on multigrid is faster than a factor, for a solid and few right-hand sides
+  /// (docs/linear_solvers.md).
+  static constexpr int large_solid = 10000;
+
   /// Keeps references to its arguments.
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                 const NewtonOptions& options, Counters& counters);
@@ -27,14 +31,20 @@ class TangentSystem {
   bool refresh(const Eigen::VectorXd& u);
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
-  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const;
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns);
+
+  /// Whether a factor stands behind the solutions, so that another one costs little.
+  bool has_factor() const { return unsymmetric_ || (solver_ && solver_->method() != LinearMethod::multigrid); }
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
 
  private:
+  SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
   void factorise(const SymmetricMatrix& reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
+  LinearMethod chosen_method(const SymmetricMatrix& reduced);
+  FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
 
   const Model& model_;
@@ -43,10 +53,10 @@ class TangentSystem {
   const Elimination& elimination_;
   const NewtonOptions& options_;
   Counters& counters_;
+  LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
-  bool analysed_ = false;
   bool factorised_ = false;
   int version_ = 0;  ///< of the assembler's stiffness, when last factorised
 };
