@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/archiving.hpp"
 #include "commands/commands.hpp"
+#include "commands/observation.hpp"
 #include "commands/problem_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -60,6 +62,7 @@ solver::NewtonOptions newton_options(const Call& call) {
     if (relative) options.relative_residual = convergence.real("RESI_GLOB_RELA");
     if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
     if (absolute && !relative) options.relative_residual.reset();
+    options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
   }
   const SolverChoice choice = solver_choice(call);
@@ -92,7 +95,15 @@ Product stat_non_line(const Call& call, Context& context) {
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
-  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context));
+  const Observer observer(call, product->result.mesh());
+  if (!observer.empty()) product->observations.emplace();
+  Archive archive(call);
+  const auto after_step = [&, number = 0](solver::Result& result) mutable {
+    if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
+    ++number;
+    archive.update(result);
+  };
+  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
   return product;
 }
 

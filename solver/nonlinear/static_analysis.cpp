@@ -26,8 +26,9 @@ constexpr int cycle_length_limit = 4;
 class StaticAnalysis {
  public:
   StaticAnalysis(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
-                 const IterationObserver& observer)
+                 const IterationObserver& observer, const StepObserver& after_step)
       : problem_(problem),
+        after_step_(after_step),
         mesh_(*problem.model->mesh),
         result_(result),
         counters_(counters),
@@ -103,7 +104,7 @@ class StaticAnalysis {
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(state_.u)));
     step.parameters["ITER_GLOB"] = 0.0;
-    result_.steps.push_back(std::move(step));
+    append(std::move(step));
   }
 
   /// The body starts without stress even where its first temperature is not that of reference.
@@ -234,7 +235,12 @@ class StaticAnalysis {
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u, problem_.loads, instant));
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     step.parameters["ITER_GLOB"] = iterations;
+    append(std::move(step));
+  }
+
+  void append(ResultStep step) {
     result_.steps.push_back(std::move(step));
+    if (after_step_) after_step_(result_);
   }
 
   /// Along the pair's normal; negative where the node has gone into the facet.
@@ -288,6 +294,7 @@ class StaticAnalysis {
   }
 
   const StaticProblem& problem_;
+  const StepObserver& after_step_;
   const Mesh& mesh_;
   Result& result_;
   Counters& counters_;
@@ -308,8 +315,8 @@ class StaticAnalysis {
 }  // namespace
 
 void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
-                  Result& result, Counters& counters, const IterationObserver& observer) {
-  StaticAnalysis(problem, options, result, counters, observer).run(instants);
+                  Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
+  StaticAnalysis(problem, options, result, counters, observer, after_step).run(instants);
 }
 
 }  // namespace comma::solver
