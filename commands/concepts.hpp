@@ -54,6 +54,11 @@ struct ListConcept : ConceptData {
   std::vector<double> values;
 };
 
+/// Instants with rules on how steps are cut and adapted.
+struct StepPlanConcept : ConceptData {
+  solver::StepPlan plan;
+};
+
 struct ContactConcept : ConceptData {
   std::variant<solver::ContactDefinition, std::vector<solver::UnilateralCondition>> conditions;
 };

@@ -71,6 +71,9 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
   if (keywords.has("TOLE_INTERP")) zone.interpenetration_tolerance = keywords.real("TOLE_INTERP");
+  if (keywords.text("APPARIEMENT") == "NODAL") zone.pairing = solver::PairingRule::node;
+  if (keywords.has("DIST_ESCL")) zone.slave_thickness = field_function(keywords.concept_of("DIST_ESCL"), keywords.span_of("DIST_ESCL"));
+  if (keywords.has("DIST_MAIT")) zone.master_thickness = field_function(keywords.concept_of("DIST_MAIT"), keywords.span_of("DIST_MAIT"));
   if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }
@@ -80,16 +83,74 @@ solver::GeometryUpdate geometry_update(const std::string& word) {
   return word == "CONTROLE" ? solver::GeometryUpdate::controlled : solver::GeometryUpdate::automatic;
 }
 
-solver::ContactDefinition discrete_contact(const Call& call, const solver::Mesh& mesh) {
+solver::ContactRule contact_rule(const std::string& word) {
+  if (word == "GAUSS") return solver::ContactRule::gauss;
+  if (word == "SIMPSON") return solver::ContactRule::simpson;
+  return word == "NCOTES" ? solver::ContactRule::newton_cotes : solver::ContactRule::automatic;
+}
+
+solver::InitialContact initial_contact(const std::string& word) {
+  if (word == "OUI") return solver::InitialContact::all;
+  return word == "NON" ? solver::InitialContact::none : solver::InitialContact::interpenetrating;
+}
+
+solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh) {
+  solver::MixedZone zone;
+  zone.rule = contact_rule(keywords.text("INTEGRATION"));
+  if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
+  zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
+  const std::string adaptation = keywords.text("ADAPTATION");
+  if (zone.penalised && (adaptation == "ADAPT_COEF" || adaptation == "TOUT")) {
+    throw DiagnosticError("unsupported", "comma does not support ADAPTATION='" + adaptation + "' with ALGO_CONT='PENALISATION' yet",
+                          keywords.span_of("ADAPTATION"), "give the penalty itself (COEF_PENA_CONT)");
+  }
+  zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
+  zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
+  zone.bilateral = keywords.text("GLISSIERE") == "OUI";
+  if (!keywords.has("COULOMB")) return zone;
+  zone.friction = keywords.real("COULOMB");
+  zone.frictionless_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO_FR", "SANS_NOEUD_FR", "", ""});
+  if (keywords.has("DIRE_EXCL_FROT")) {
+    const auto direction = keywords.reals("DIRE_EXCL_FROT");
+    std::copy(direction.begin(), direction.end(), zone.frictionless_direction.begin());
+  }
+  return zone;
+}
+
+// A discrete zone with a penalty, or one that never opens again.
+solver::MixedZone discrete_zone(const Keywords& keywords) {
+  solver::MixedZone zone;
+  zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
+  if (zone.penalised) zone.augmentation = keywords.real("E_N");
+  zone.bilateral = keywords.text("GLISSIERE") == "OUI";
+  if (!keywords.has("COULOMB")) return zone;
+  zone.friction = keywords.real("COULOMB");
+  zone.friction_penalised = true;
+  zone.friction_penalty = keywords.real("E_T");
+  return zone;
+}
+
+// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest.
+void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
+  constexpr int most_updates_by_newton = 100;
+  definition.max_geometry_updates = most_updates_by_newton;
+  definition.geometry_update = call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
+}
+
+solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   solver::ContactDefinition definition;
-  definition.geometry_update = geometry_update(call.text("REAC_GEOM"));
+  const bool is_mixed = call.text("FORMULATION") == "CONTINUE";
+  if (is_mixed) definition.formulation = solver::ContactFormulation::mixed;
+  definition.smooth_normals = call.text("LISSAGE") == "OUI";
+  set_geometry_update(call, definition);
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
   if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
   for (const Keywords& keywords : call.factors("ZONE")) {
-    const solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : discrete_zone(keywords);
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
@@ -107,7 +168,7 @@ Product defi_contact(const Call& call, Context&) {
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));
     product->conditions = std::move(conditions);
   } else {
-    product->conditions = discrete_contact(call, *model.mesh);
+    product->conditions = contact(call, *model.mesh);
   }
   return product;
 }

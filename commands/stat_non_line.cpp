@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "commands/observation.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -27,9 +28,16 @@ solver::StaticProblem problem_of(const Call& call) {
   return problem;
 }
 
-// The instants that INCREMENT keeps of its list; the first is the initial state.
-std::vector<double> instants(const Keywords& increment) {
-  const auto& all = increment.data<ListConcept>("LIST_INST").values;
+solver::StepPlan whole_plan(const Keywords& increment) {
+  const auto& list = increment.concept_of("LIST_INST");
+  if (const auto* plan = dynamic_cast<const StepPlanConcept*>(list->data.get())) return plan->plan;
+  return solver::StepPlan(increment.data<ListConcept>("LIST_INST").values);
+}
+
+// The plan with those instants that INCREMENT keeps of its list; the first is the initial state.
+solver::StepPlan steps_of(const Keywords& increment) {
+  solver::StepPlan plan = whole_plan(increment);
+  const std::vector<double> all = plan.instants;
   const auto index_of = [&](const char* number, const char* instant, std::size_t otherwise) {
     if (increment.given(number)) {
       const auto index = increment.integer(number);
@@ -50,7 +58,8 @@ std::vector<double> instants(const Keywords& increment) {
     throw DiagnosticError("wrong-order", "STAT_NON_LINE: INCREMENT leaves no step to compute", increment.span,
                           "the last instant must lie beyond the first");
   }
-  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last) + 1};
+  plan.instants.assign(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  return plan;
 }
 
 solver::NewtonOptions newton_options(const Call& call) {
@@ -79,6 +88,10 @@ void show_header(const Call& call, const Context& context) {
 solver::IterationObserver live_table(const Context& context) {
   if (context.console.verbosity() == Verbosity::quiet) return {};
   return [&context](const solver::IterationReport& report) {
+    if (!report.event.empty()) {
+      context.console.progress("  " + report.event);
+      return;
+    }
     context.console.progress(fmt::format("  {:>10.5g} {:>5} {:>10.2e} {:>10.2e}  {:<20} {:>7} {:>8}", report.instant, report.iteration,
                                          report.relative_residual, report.absolute_residual, report.worst,
                                          report.active_conditions, report.contact_changes));
@@ -91,10 +104,12 @@ Product stat_non_line(const Call& call, Context& context) {
   auto product = std::make_shared<ResultConcept>();
   product->problem = problem_of(call);
   product->result.model = product->problem.model;
-  const auto steps = instants(call.factor("INCREMENT"));
+  const auto steps = steps_of(call.factor("INCREMENT"));
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
+  warn_of_locking(call, product->problem, context);
+  const solver::Counters before = context.counters;
   const Observer observer(call, product->result.mesh());
   if (!observer.empty()) product->observations.emplace();
   Archive archive(call);
@@ -104,6 +119,7 @@ Product stat_non_line(const Call& call, Context& context) {
     archive.update(result);
   };
   solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
+  warn_of_indefinite_stiffness(call, before, context);
   return product;
 }
 

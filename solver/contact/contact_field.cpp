@@ -1,6 +1,7 @@
 #include "solver/contact/contact_field.hpp"
 
 #include <array>
+#include <vector>
 
 namespace comma::solver {
 namespace {
@@ -16,36 +17,55 @@ constexpr std::array<const char*, column_count> names = {
 
 constexpr double not_paired = -1.0;
 constexpr double open = 0.0;
+constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
+
+double status_of(const NodeContact& contact) {
+  if (contact.sticking) return sticking;
+  return contact.normal_force > 0.0 ? sliding : open;
+}
 
 }  // namespace
 
-NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps, const Eigen::VectorXd& multipliers,
-                         int node_count, Positions positions) {
+NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions) {
   NodalField field;
   field.quantity = "INFC_R";
   field.components.assign(names.begin(), names.end());
   field.values.assign(static_cast<std::size_t>(node_count) * column_count, absent);
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const ContactPair& pair = pairs[k];
+  for (const NodeContact& contact : contacts) {
+    const ContactPair& pair = contact.pair;
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
     if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
       // A node that another zone holds keeps what that zone says.
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;
     }
-    const double force = multipliers[static_cast<Eigen::Index>(k)];
-    row[cont] = pair.status == PairingStatus::watched ? not_paired : force > 0.0 ? sliding : open;
-    row[jeu] = gaps[k];
-    row[rn] = row[r] = force;
-    for (const Column tangential : {rtax, rtay, rtaz, rtgx, rtgy, rtgz}) row[tangential] = 0.0;
+    row[cont] = pair.status == PairingStatus::watched ? not_paired : status_of(contact);
+    row[jeu] = contact.gap;
+    row[rn] = contact.normal_force;
+    const Eigen::Vector3d whole = contact.normal_force * pair.normal + contact.shear_force;
+    row[r] = whole.norm();
     for (int axis = 0; axis < 3; ++axis) {
-      row[rnx + axis] = row[rx + axis] = force * pair.normal[axis];
+      row[rnx + axis] = contact.normal_force * pair.normal[axis];
+      row[rtax + axis] = contact.sticking ? contact.shear_force[axis] : 0.0;
+      row[rtgx + axis] = contact.sticking ? 0.0 : contact.shear_force[axis];
+      row[rx + axis] = whole[axis];
       row[pt_x + axis] = positions[pair.slave][axis];
       row[proj_x + axis] = pair.foot[axis];
     }
+    row[glix] = contact.slip[0];
+    row[gliy] = contact.slip[1];
+    row[gli] = contact.slip.norm();
   }
   return field;
+}
+
+NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps, const Eigen::VectorXd& multipliers,
+                         int node_count, Positions positions) {
+  std::vector<NodeContact> contacts;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    contacts.push_back({.pair = pairs[k], .gap = gaps[k], .normal_force = multipliers[static_cast<Eigen::Index>(k)]});
+  return contact_field(contacts, node_count, positions);
 }
 
 }  // namespace comma::solver

@@ -10,12 +10,25 @@
 
 namespace comma::solver {
 
-/// Components (U2.04.04): CONT: -1 not paired or not enforced, 0 open, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
+/// Contact at a slave node. `sticking`: friction holds it. Tangential forces of sliding are those of friction.
+struct NodeContact {
+  ContactPair pair;
+  double gap = absent;
+  double normal_force = 0.0;  ///< positive in compression
+  bool sticking = false;
+  Eigen::Vector3d shear_force = Eigen::Vector3d::Zero();  ///< on the slave
+  Eigen::Vector2d slip = Eigen::Vector2d::Constant(absent);  ///< along two tangents; absent without friction
+};
+
+/// Components (U2.04.04): CONT: -1 not paired or not enforced, 0 open, 1 sticking, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
 /// force on the slave node, positive in compression, and its components RNX RNY RNZ; the tangential forces of sticking RTAX..
 /// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
-/// foot on the master surface. What is not computed here stays absent: GLIX GLIY GLI (sliding, with friction), HN, and the
-/// percussions I IX IY IZ (dynamics). A node without a slave role carries nothing.
-/// `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the node is not paired.
+/// foot on the master surface. GLIX GLIY GLI: slip along two
+/// tangents and its size, with friction. What is not computed here stays absent: HN, and the percussions I IX IY IZ (dynamics). A
+/// node without a slave role carries nothing.
+NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions);
+
+/// The same without friction. `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the node is not paired.
 NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps, const Eigen::VectorXd& multipliers,
                          int node_count, Positions positions);
 

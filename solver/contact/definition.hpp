@@ -1,6 +1,7 @@
 // Contact as the user describes it, in the solver's words.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -19,14 +20,41 @@ struct UnilateralCondition {
 };
 
 enum class ContactAlgorithm : std::uint8_t { active_set };
+/// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a weak form
+/// (R5.03.52).
+enum class ContactFormulation : std::uint8_t { discrete, mixed };
+/// How slave faces are integrated; see face_rule.hpp.
+enum class ContactRule : std::uint8_t { automatic, gauss, simpson, newton_cotes };
+/// Which points count as closed before the first solution.
+enum class InitialContact : std::uint8_t { none, all, interpenetrating };
 enum class GeometryUpdate : std::uint8_t { none, automatic, controlled };
 enum class NormalRule : std::uint8_t { automatic, fixed, along_y };
 enum class NormalSide : std::uint8_t { master, slave, average };
+
+/// How a zone presses and rubs, beyond inequalities. Coefficients are pressures a unit of length in the mixed formulation, forces a
+/// unit of length in the discrete one.
+struct MixedZone {
+  ContactRule rule = ContactRule::automatic;
+  int rule_order = 0;                ///< 0: the rule's default
+  double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
+  bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
+  InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
+  bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
+  double friction = 0.0;             ///< COULOMB
+  bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T)
+  double friction_penalty = 0.0;
+  std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
+  std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
+};
+
+/// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').
+enum class PairingRule : std::uint8_t { facet, node };
 
 /// A pair of surfaces. Slave nodes may not enter master facets.
 struct ContactZone {
   std::vector<int> master_cells;
   std::vector<int> slave_cells;
+  PairingRule pairing = PairingRule::facet;
   NormalSide normal_side = NormalSide::master;
   NormalRule master_normal = NormalRule::automatic;
   std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
@@ -35,9 +63,13 @@ struct ContactZone {
   bool resolved = true;                    ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
   double interpenetration_tolerance = 0.0; ///< TOLE_INTERP: how deep a node of a watched zone may go
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
+  FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
+  FieldFunction slave_thickness;   ///< DIST_ESCL
+  MixedZone mixed;                 ///< for zones that is_condensed() speaks of
 };
 
 struct ContactDefinition {
+  ContactFormulation formulation = ContactFormulation::discrete;
   ContactAlgorithm algorithm = ContactAlgorithm::active_set;
   GeometryUpdate geometry_update = GeometryUpdate::automatic;
   int controlled_updates = 2;        ///< NB_ITER_GEOM, for GeometryUpdate::controlled
@@ -45,7 +77,15 @@ struct ContactDefinition {
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
+  bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
   std::vector<ContactZone> zones;
 };
+
+/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, or that never open
+/// again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand for forces.
+inline bool is_condensed(const ContactDefinition& definition) {
+  if (definition.formulation == ContactFormulation::mixed) return true;
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.bilateral; });
+}
 
 }  // namespace comma::solver

@@ -60,7 +60,7 @@ Inequalities gap_rows(std::span<const ContactPair> pairs, const Mesh& mesh, cons
       apart -= pair.weights[i] * initial(mesh, nodes[i]);
       builder.add(row, nodes[i], pair.weights[i] * pair.normal);
     }
-    bounds.push_back(pair.normal.dot(apart));
+    bounds.push_back(pair.normal.dot(apart) - pair.thickness);
     row_pairs.push_back(static_cast<int>(index));
   }
   return builder.finish(bounds);

@@ -12,7 +12,7 @@ namespace comma::solver {
 
 /// For each paired slave node s on a facet with weights N_i and normal n (from master to slave):
 ///
-///     -n . (u_s - sum N_i u_i) <= gap0,   gap0 = n . (X_s - sum N_i X_i)
+///     -n . (u_s - sum N_i u_i) <= gap0,   gap0 = n . (X_s - sum N_i X_i) - thickness
 ///
 /// with u the whole displacement and X the initial places, so that the right-hand side minus the left is the present gap
 /// (R5.03.50, section 4: the linearised gap, whose reference cancels since the rows are linear). A multiplier is the normal

@@ -64,6 +64,23 @@ std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<cons
   return normals;
 }
 
+Vector3d outward_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
+  require_plane_or_surface(mesh, facet);
+  return cleaned(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
+}
+
+Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
+                             const std::unordered_map<int, Vector3d>& normals) {
+  const FacetShape shape = facet_shape(mesh.cell_types[facet], xi);
+  const auto nodes = mesh.cell(facet);
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) normal += shape.values[i] * normals.at(nodes[i]);
+  if (!(normal.norm() > clean_normal_tolerance))
+    throw Error("degenerate-facet", fmt::format("the normals at the nodes of contact facet {} cancel", mesh.cell_name(facet)),
+                "refine the facet, or leave normals as they are (LISSAGE='NON')");
+  return cleaned(normal.normalized());
+}
+
 Vector3d master_normal(const ContactZone& zone, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
   switch (zone.master_normal) {
     case NormalRule::fixed: {
@@ -76,8 +93,7 @@ Vector3d master_normal(const ContactZone& zone, const Mesh& mesh, int facet, con
                   "give the normal itself (VECT_MAIT='FIXE')");
     case NormalRule::automatic: break;
   }
-  require_plane_or_surface(mesh, facet);
-  return cleaned(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
+  return outward_normal(mesh, facet, xi, positions);
 }
 
 Vector3d contact_normal(NormalSide side, const Vector3d& master, const Vector3d& slave) {

@@ -51,6 +51,11 @@ void throw_active_set_limit(int limit) {
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
 }
 
+void throw_condensed_limit(int limit) {
+  throw Error("contact-cycling", fmt::format("the contact status did not settle within {} iterations on the contact rows", limit),
+              "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)");
+}
+
 void throw_geometry_failure(double time, const GeometryHistory& history, const ContactDefinition& contact) {
   std::string changes;
   for (const double change : history.changes) changes += fmt::format("{}{:.3e}", changes.empty() ? "" : ", ", change);

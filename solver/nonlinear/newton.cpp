@@ -55,7 +55,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
   evaluate(state, external);
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
-    if (tangent_.refresh(state.u) && schur_) schur_->forget();
+    if (tangent_.refresh(state.u)) forget_compliance();
     ++counters_.newton_iterations;
     const Correction correction = correct(state, offset);
     evaluate(state, external);
@@ -69,6 +69,11 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     if (!std::isfinite(measure.absolute)) break;
   }
   fail(time, history);
+}
+
+void NewtonSolver::forget_compliance() {
+  if (schur_) schur_->forget();
+  if (mixed_) mixed_->forget();
 }
 
 void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state) {
@@ -94,6 +99,7 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
   const Eigen::VectorXd unbalanced = external - assembler_.internal_forces(state.u);
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
+  if (mixed_) residual_ += mixed_->forces();
   load_ = std::max(largest(external), largest(unbalanced));
 }
 
@@ -109,7 +115,10 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   Eigen::MatrixXd step = residual_;
   if (step.size()) tangent_.solve(step);
   Correction correction;
-  if (row_multipliers_.size()) {
+  if (mixed_) {
+    state.reduced = before + step;
+    correction.changes = mixed_->correct(before, offset, state.reduced);
+  } else if (row_multipliers_.size()) {
     correction = correct_with_conditions(state, before + step);
   } else {
     state.reduced = before + step;
@@ -182,7 +191,7 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
   line.relative_residual = measure.relative;
   line.absolute_residual = measure.absolute;
   line.worst = worst_place();
-  line.active_conditions = static_cast<int>(active_.size());
+  line.active_conditions = mixed_ ? mixed_->closed_count() : static_cast<int>(active_.size());
   line.contact_changes = changes;
   return line;
 }

@@ -12,6 +12,7 @@
 #include "solver/elements/assembler.hpp"
 #include "solver/nonlinear/condition_set.hpp"
 #include "solver/nonlinear/convergence.hpp"
+#include "solver/nonlinear/mixed_contact.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 #include "solver/unilateral/schur_complement.hpp"
@@ -45,6 +46,9 @@ class NewtonSolver {
   int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
             int active_set_limit, NewtonState& state);
 
+  /// Contact in the mixed formulation takes part in every solve from now on; null: none.
+  void attach(MixedContact* mixed) { mixed_ = mixed; }
+
   /// The step is accepted: its loads count in the criterion of later ones.
   void accept_step() { criterion_.accept(load_); }
 
@@ -55,6 +59,7 @@ class NewtonSolver {
   };
 
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
+  void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
@@ -75,6 +80,7 @@ class NewtonSolver {
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
 
+  MixedContact* mixed_ = nullptr;
   const ConditionSet* conditions_ = nullptr;
   int active_set_limit_ = 0;
   ReducedInequalities reduced_;

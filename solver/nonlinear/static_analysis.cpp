@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -22,6 +23,8 @@ using Eigen::Vector3d;
 
 /// Pairings that return within this many updates are in a cycle.
 constexpr int cycle_length_limit = 4;
+/// Displacements of a step below this share of the whole ones are rounding.
+constexpr double rounding_share = 1e-11;
 
 class StaticAnalysis {
  public:
@@ -37,28 +40,82 @@ class StaticAnalysis {
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
+        observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
-    if (assembler_.is_symmetric() || (!problem.contact && problem.unilateral.empty())) return;
-    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
-                "leave out the unsymmetric element or the conditions");
+    require_symmetry();
+    if (!is_mixed()) return;
+    tangent_.allow_springs();
+    mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
+    newton_.attach(mixed_.get());
   }
 
-  void run(const std::vector<double>& instants) {
-    if (instants.empty()) return;
-    start(instants.front());
-    for (std::size_t k = 1; k < instants.size(); ++k) {
-      const int iterations = solve_step(instants[k]);
-      if (problem_.contact) check_watched_zones(instants[k]);
+  void run(const StepPlan& plan) {
+    if (plan.instants.empty()) return;
+    start(plan.instants.front());
+    StepSequence sequence(plan);
+    while (!sequence.finished()) {
+      const double instant = sequence.target();
+      const std::optional<int> iterations = try_step(instant, sequence);
+      if (!iterations) continue;
       newton_.accept_step();
-      archive(instants[k], iterations);
+      archive(instant, *iterations);
+      sequence.accept(*iterations);
     }
   }
 
  private:
+  /// What a step changes before it is accepted.
+  struct Progress {
+    NewtonState state;
+    bool paired = false;
+    std::vector<ContactPair> pairs;
+    std::vector<Vector3d> reference;  ///< displacement of the contact nodes at the last pairing
+    ConditionSet conditions;
+  };
+
+  /// The number of iterations; nothing when the step has failed and is cut. Throws what a step that cannot be cut throws.
+  std::optional<int> try_step(double instant, StepSequence& sequence) {
+    Progress before = now_;
+    if (mixed_) mixed_->remember();
+    try {
+      const int iterations = solve_step(instant);
+      if (problem_.contact) check_watched_zones(instant);
+      return iterations;
+    } catch (const Error& error) {
+      if (!is_failure_of_step(error.code()) || !sequence.cut()) throw;
+      now_ = std::move(before);
+      if (mixed_) {
+        mixed_->restore();
+        now_.paired = false;
+      }
+      if (observer_) observer_(cut_report(instant, sequence.target()));
+      return std::nullopt;
+    }
+  }
+
+  /// What a shorter step may overcome.
+  static bool is_failure_of_step(std::string_view code) {
+    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix";
+  }
+
+  static IterationReport cut_report(double instant, double next) {
+    IterationReport report;
+    report.instant = instant;
+    report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
+    return report;
+  }
+  void require_symmetry() const {
+    if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
+    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
+                "leave out the unsymmetric element or the conditions");
+  }
+
+  bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
+
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
-    if (!problem_.contact) return loads;
+    if (!problem_.contact || problem_.contact->formulation == ContactFormulation::mixed) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
     if (!ties->relations.empty()) loads.push_back({std::move(ties), {}});
@@ -92,17 +149,17 @@ class StaticAnalysis {
 
   /// Unstressed and undisplaced, or where the result's last step left off.
   void start(double instant) {
-    state_.u = Eigen::VectorXd::Zero(dofs_.size());
+    now_.state.u = Eigen::VectorXd::Zero(dofs_.size());
     if (!result_.steps.empty()) take_last_step();
-    state_.reduced.resize(elimination_.reduced_size());
-    for (Eigen::Index i = 0; i < state_.reduced.size(); ++i) state_.reduced[i] = state_.u[elimination_.kept()[i]];
+    now_.state.reduced.resize(elimination_.reduced_size());
+    for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     if (!result_.steps.empty()) return;
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
+    step.fields.emplace("DEPL", displacements());
     assembler_.set_time(instant);
-    step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(state_.u)));
+    step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
     append(std::move(step));
   }
@@ -120,7 +177,7 @@ class StaticAnalysis {
     const auto& field = std::get<NodalField>(found->second);
     for (int dof = 0; dof < dofs_.size(); ++dof) {
       const int column = field.component(name_of(dofs_.component_of(dof)));
-      if (column >= 0) state_.u[dof] = field.at(dofs_.node_of(dof), column);
+      if (column >= 0) now_.state.u[dof] = field.at(dofs_.node_of(dof), column);
     }
   }
 
@@ -137,7 +194,7 @@ class StaticAnalysis {
     constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
     for (int axis = 0; axis < 3; ++axis) {
       const int dof = dofs_.dof(node, translations[axis]);
-      if (dof >= 0) result[axis] = state_.u[dof];
+      if (dof >= 0) result[axis] = now_.state.u[dof];
     }
     return result;
   }
@@ -147,17 +204,21 @@ class StaticAnalysis {
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
+    if (mixed_) mixed_->start_step(now_.state.u);
+    start_.clear();
+    for (const int node : contact_nodes_) start_.push_back(displacement(node));
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
     for (int update = 0;; ++update) {
-      if (updates || !paired_) pair();
-      ConditionSet next = make_conditions(pairs_, problem_.unilateral, mesh_, dofs_, time);
-      if (update == 0 || !same_rows(next, conditions_)) {
+      if (updates || !now_.paired) pair(time);
+      ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
+      if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
-        conditions_ = std::move(next);
+        now_.conditions = std::move(next);
         const int limit = active_set_limit();
-        iterations += newton_.solve(time, external, offset, conditions_, limit, state_);
+        const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -167,11 +228,11 @@ class StaticAnalysis {
   }
 
   void resize_multipliers(const ConditionSet& next) {
-    if (state_.multipliers.size() != next.slot_count) state_.multipliers = Eigen::VectorXd::Zero(next.slot_count);
+    if (now_.state.multipliers.size() != next.slot_count) now_.state.multipliers = Eigen::VectorXd::Zero(next.slot_count);
     // A slot that has lost its row holds nothing any more.
     Eigen::VectorXd kept = Eigen::VectorXd::Zero(next.slot_count);
-    for (const int slot : next.row_slots) kept[slot] = state_.multipliers[slot];
-    state_.multipliers = std::move(kept);
+    for (const int slot : next.row_slots) kept[slot] = now_.state.multipliers[slot];
+    now_.state.multipliers = std::move(kept);
   }
 
   int max_updates() const { return std::max(1, problem_.contact->max_geometry_updates); }
@@ -180,35 +241,42 @@ class StaticAnalysis {
   int active_set_limit() const {
     constexpr int generous = 30;
     const int factor = problem_.contact ? std::max(1, problem_.contact->active_set_factor) : generous;
-    return factor * std::max(1, conditions_.slot_count);
+    return factor * std::max(1, now_.conditions.slot_count);
   }
 
-  void pair() {
+  void pair(double time) {
     if (!problem_.contact) {
-      paired_ = true;
+      now_.paired = true;
       return;
     }
     const std::vector<Vector3d> now = positions();
-    pairs_ = pair_surfaces(*problem_.contact, mesh_, now);
-    ++counters_.pairings;
-    paired_ = true;
-    reference_.clear();
-    for (const int node : contact_nodes_) reference_.push_back(displacement(node));
+    if (mixed_) {
+      mixed_->pair(now, time);
+    } else {
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
+      ++counters_.pairings;
+    }
+    now_.paired = true;
+    now_.reference.clear();
+    for (const int node : contact_nodes_) now_.reference.push_back(displacement(node));
   }
 
-  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing (U4.44.11), or the
+  /// Whether the surfaces have moved by less than RESI_GEOM of their displacement since the last pairing, displacement being that of this step (U4.44.11), or the
   /// prescribed number of updates is done.
   bool geometry_settled(int update, GeometryHistory& history) const {
     double moved = 0.0;
     double largest = 0.0;
+    double whole = 0.0;
     for (std::size_t k = 0; k < contact_nodes_.size(); ++k) {
       const Vector3d now = displacement(contact_nodes_[k]);
-      const double change = (now - reference_[k]).cwiseAbs().maxCoeff();
+      const double change = (now - now_.reference[k]).cwiseAbs().maxCoeff();
       if (change > moved) history.worst = mesh_.node_name(contact_nodes_[k]);
       moved = std::max(moved, change);
-      largest = std::max(largest, now.cwiseAbs().maxCoeff());
+      whole = std::max(whole, now.cwiseAbs().maxCoeff());
+      largest = std::max(largest, (now - start_[k]).cwiseAbs().maxCoeff());
     }
-    history.changes.push_back(largest > 0.0 ? moved / largest : 0.0);
+    // Nothing is asked of a step that only rounding moves.
+    history.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
     if (problem_.contact->geometry_update == GeometryUpdate::controlled)
       return update + 1 >= std::max(1, problem_.contact->controlled_updates);
     return history.changes.back() <= problem_.contact->geometry_tolerance;
@@ -217,23 +285,34 @@ class StaticAnalysis {
   /// Facets that return after others took their place, several times over, will go on returning.
   void note_cycle(std::vector<ConditionSet>& visited, GeometryHistory& history) const {
     const auto same_facets = [&](const ConditionSet& other) {
-      return std::equal(other.pairs.begin(), other.pairs.end(), pairs_.begin(), pairs_.end(),
+      return std::equal(other.pairs.begin(), other.pairs.end(), now_.pairs.begin(), now_.pairs.end(),
                         [](const ContactPair& a, const ContactPair& b) { return a.facet == b.facet && a.status == b.status; });
     };
     const std::size_t count = visited.size();
     history.cycles = false;
     for (std::size_t back = 2; back <= std::min<std::size_t>(cycle_length_limit, count); ++back)
       history.cycles |= same_facets(visited[count - back]) && !same_facets(visited[count - 1]);
-    visited.push_back(conditions_);
+    visited.push_back(now_.conditions);
+  }
+
+  /// The multipliers of the mixed formulation are unknowns beside them.
+  NodalField displacements() const {
+    NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
+    if (mixed_) mixed_->add_multipliers(field);
+    return field;
   }
 
   void archive(double instant, int iterations) {
     ResultStep step;
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
-    step.fields.emplace("DEPL", to_field(state_.u, dofs_, "DEPL_R"));
-    step.fields.emplace("SIEF_ELGA", assembler_.stresses(state_.u, problem_.loads, instant));
-    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    step.fields.emplace("DEPL", displacements());
+    step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
+    if (mixed_) {
+      step.fields.emplace("CONT_NOEU", mixed_->contact_state(now_.state.u, positions()));
+    } else if (problem_.contact) {
+      step.fields.emplace("CONT_NOEU", contact_state());
+    }
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));
   }
@@ -278,19 +357,19 @@ class StaticAnalysis {
   }
 
   NodalField contact_state() const {
-    const Eigen::VectorXd slack = conditions_.full.bounds - conditions_.full.rows * state_.u;
-    std::vector<double> gaps(conditions_.pairs.size(), absent);
-    for (std::size_t row = 0; row < conditions_.row_slots.size(); ++row) {
-      const int slot = conditions_.row_slots[row];
+    const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
+    std::vector<double> gaps(now_.conditions.pairs.size(), absent);
+    for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
+      const int slot = now_.conditions.row_slots[row];
       if (slot < static_cast<int>(gaps.size())) gaps[slot] = slack[static_cast<Eigen::Index>(row)];
     }
     const std::vector<Vector3d> now = positions();
-    std::vector<ContactPair> pairs = conditions_.pairs;
+    std::vector<ContactPair> pairs = now_.conditions.pairs;
     for (const auto& [k, pair] : watched_pairs(now)) {
       pairs[k] = pair;
       gaps[k] = gap_now(pair, now);
     }
-    return contact_field(pairs, gaps, state_.multipliers, mesh_.node_count(), now);
+    return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
   }
 
   const StaticProblem& problem_;
@@ -303,20 +382,19 @@ class StaticAnalysis {
   Elimination elimination_;
   TangentSystem tangent_;
   std::vector<int> contact_nodes_;
+  const IterationObserver& observer_;
   NewtonSolver newton_;
+  std::unique_ptr<MixedContact> mixed_;
 
-  NewtonState state_;
-  bool paired_ = false;
-  std::vector<ContactPair> pairs_;
-  std::vector<Vector3d> reference_;  ///< displacement of the contact nodes at the last pairing
-  ConditionSet conditions_;
+  Progress now_;
+  std::vector<Vector3d> start_;  ///< displacement of the contact nodes at the beginning of the step
 };
 
 }  // namespace
 
-void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
+void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                   Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
-  StaticAnalysis(problem, options, result, counters, observer, after_step).run(instants);
+  StaticAnalysis(problem, options, result, counters, observer, after_step).run(plan);
 }
 
 }  // namespace comma::solver

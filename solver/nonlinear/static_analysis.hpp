@@ -13,12 +13,14 @@
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"
+#include "solver/nonlinear/step_sequence.hpp"
 
 namespace comma::solver {
 
 /// Work counters, as in the JSON report, and the seconds spent on the parts of a solution.
 struct Counters {
   long factorisations = 0;
+  long indefinite_factorisations = 0;  ///< of a reduced tangent that is not positive definite
   long solves = 0;
   long newton_iterations = 0;
   long contact_iterations = 0;
@@ -56,20 +58,21 @@ struct IterationReport {
   std::string worst;         ///< "DY at N12": where the residual is largest
   int active_conditions = 0;
   int contact_changes = 0;
+  std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 
-/// Called after each Newton iteration and at the end of each step; may be empty.
+/// Called after each Newton iteration and when a step is cut; may be empty.
 using IterationObserver = std::function<void(const IterationReport&)>;
 
 /// Called when a step has been appended to the result, the initial state included; may be empty. It may change what the result
 /// keeps of the steps, but must leave the last one at its end.
 using StepObserver = std::function<void(Result& result)>;
 
-/// Solves the steps at `instants` (the first is the initial state, archived as order 0) and appends each converged one to
+/// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
 /// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
 /// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
-void solve_static(const StaticProblem& problem, const std::vector<double>& instants, const NewtonOptions& options,
+void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                   Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});
 
 }  // namespace comma::solver

@@ -36,14 +36,27 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
     factorise(reduced);
   else
     factorise(reduced, elimination_.reduce_skew(assembler_.skew_stiffness(u)));
-  measure_rows(reduced);
-  factorised_ = true;
   return true;
 }
 
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
   const Stopwatch stopwatch(counters_.assembling);
-  return elimination_.reduce(assembler_.stiffness(u));
+  SymmetricMatrix reduced = elimination_.reduce(assembler_.stiffness(u));
+  for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
+  return reduced;
+}
+
+/// Springs at the rows without a pivot, as stiff as the bodies are there. Whether there were any to add.
+bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& reduced) {
+  if (!may_add_springs_ || report.null_rows.empty()) return false;
+  const Eigen::VectorXd diagonal = reduced.diagonal();
+  const double otherwise = diagonal.size() ? diagonal.cwiseAbs().maxCoeff() : 0.0;
+  for (const int row : report.null_rows) {
+    const double own = diagonal[row];
+    springs_.emplace_back(row, own > 0.0 ? own : otherwise);
+    reduced.coeffRef(row, row) += springs_.back().second;
+  }
+  return true;
 }
 
 /// Multigrid where it is the fastest and safe, else what suits the matrix.
@@ -65,11 +78,16 @@ FactorReport TangentSystem::factorise_with(LinearMethod method, const SymmetricM
   return solver_->factorise(reduced);
 }
 
-void TangentSystem::factorise(const SymmetricMatrix& reduced) {
+void TangentSystem::factorise(SymmetricMatrix reduced) {
+  // One round a rigid motion is enough: each takes at least one away.
+  constexpr int most_rounds = 12;
   FactorReport report = factorise_with(solver_ ? solver_->method() : chosen_method(reduced), reduced);
   if (report.verdict == FactorVerdict::indefinite && !options_.method && solver_->method() != LinearMethod::mumps) {
     // The choice was ours and it does not pivot: the solver that does takes over.
     report = factorise_with(LinearMethod::mumps, reduced);
+  }
+  for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced); ++round) {
+    report = factorise_with(solver_->method(), reduced);
   }
   // Iterations have no pivots: what moves freely is looked for before they start.
   const int digits = linear_.singular_digits;
@@ -80,6 +98,9 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced) {
   if (report.verdict == FactorVerdict::singular) {
     throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
+  if (report.verdict == FactorVerdict::indefinite) ++counters_.indefinite_factorisations;
+  measure_rows(reduced);
+  factorised_ = true;
 }
 
 void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew) {
@@ -93,10 +114,13 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& 
     const Stopwatch stopwatch(counters_.factorising);
     return unsymmetric_->factorise(reduced, skew);
   }();
-  if (report.verdict != FactorVerdict::singular) return;
-  // Energies are those of K^T K, where a support's digits count twice.
-  const int digits = std::min(2 * std::max(0, options_.linear.singular_digits), most_gram_digits);
-  throw singular_matrix_error(*model_.mesh, dofs_, elimination_, gram_matrix(full_matrix(reduced, skew)), report, digits);
+  if (report.verdict == FactorVerdict::singular) {
+    // Energies are those of K^T K, where a support's digits count twice.
+    const int digits = std::min(2 * std::max(0, options_.linear.singular_digits), most_gram_digits);
+    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, gram_matrix(full_matrix(reduced, skew)), report, digits);
+  }
+  measure_rows(reduced);
+  factorised_ = true;
 }
 
 /// Bounds what rounding of u alone does to the residual: a row of |K| times the largest displacement.

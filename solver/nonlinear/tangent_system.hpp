@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -30,6 +32,11 @@ class TangentSystem {
   /// with an unsymmetric tangent.
   bool refresh(const Eigen::VectorXd& u);
 
+  /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
+  void allow_springs() { may_add_springs_ = true; }
+  /// The reduced unknowns that hold a spring to the ground, and its stiffness.
+  const std::vector<std::pair<int, double>>& springs() const { return springs_; }
+
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
 
@@ -41,8 +48,9 @@ class TangentSystem {
 
  private:
   SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
-  void factorise(const SymmetricMatrix& reduced);
+  void factorise(SymmetricMatrix reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
+  bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);
   LinearMethod chosen_method(const SymmetricMatrix& reduced);
   FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
@@ -58,6 +66,8 @@ class TangentSystem {
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   bool factorised_ = false;
+  bool may_add_springs_ = false;
+  std::vector<std::pair<int, double>> springs_;
   int version_ = 0;  ///< of the assembler's stiffness, when last factorised
 };
 

@@ -80,7 +80,7 @@ StaticProblem pressed(const TwoBricks& bricks) {
 Result solved(const StaticProblem& problem) {
   Result result;
   Counters counters;
-  solve_static(problem, {0.0, 1.0}, {}, result, counters);
+  solve_static(problem, StepPlan({0.0, 1.0}), {}, result, counters);
   return result;
 }
 

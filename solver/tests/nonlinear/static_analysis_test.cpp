@@ -288,7 +288,7 @@ TEST_CASE("A result that has steps is gone on with") {
   scene.ground_spring("k", node, 1, 100);
   scene.impose({node}, Component::dy, 1.0, true);
   scene.solve(2);
-  solve_static(scene.problem, {2.0, 3.0}, {}, scene.result, scene.counters);
+  solve_static(scene.problem, StepPlan({2.0, 3.0}), {}, scene.result, scene.counters);
   REQUIRE(scene.result.steps.size() == 4);
   CHECK(scene.result.steps.back().order == 3);
   CHECK(scene.displacement(node, Component::dy) == Approx(3.0));

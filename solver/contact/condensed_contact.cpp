@@ -1,0 +1,343 @@
+#include "solver/contact/condensed_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Gaps, pressures and shears beyond zero by less than this share of the largest are rounding: they change no status.
+constexpr double status_tolerance = 1e-12;
+/// The system is solved when what is left of it is this share of the jumps.
+constexpr double residual_tolerance = 1e-12;
+/// Corrections with the same statuses: when this many do not halve the residual, rounding has been reached.
+constexpr int most_corrections = 8;
+/// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
+constexpr double singular_pivot = 1e-14;
+
+double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+
+/// Rows and columns are first brought to the size of one: pressures and lengths differ by any number of decades.
+Eigen::VectorXd solve_scaled(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
+  constexpr double tiny = std::numeric_limits<double>::min();
+  const Eigen::VectorXd columns = matrix.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(tiny).cwiseInverse();
+  matrix = matrix * columns.asDiagonal();
+  const Eigen::VectorXd rows = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(tiny).cwiseInverse();
+  matrix = rows.asDiagonal() * matrix;
+  rhs = rows.asDiagonal() * rhs;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
+  const Eigen::VectorXd pivots = factor.matrixLU().diagonal().cwiseAbs();
+  Eigen::VectorXd solution;
+  if (pivots.minCoeff() > singular_pivot * pivots.maxCoeff()) {
+    solution = factor.solve(rhs);
+    solution += factor.solve(rhs - matrix * solution);
+  } else {
+    solution = matrix.completeOrthogonalDecomposition().solve(rhs);
+  }
+  return columns.asDiagonal() * solution;
+}
+
+class CondensedSolver {
+ public:
+  CondensedSolver(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
+      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held) {
+    assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
+    assert(state.statuses.size() == problem.points.size());
+  }
+
+  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all.
+  CondensedSolution run() {
+    CondensedSolution solution;
+    const Eigen::VectorXd multipliers = state_.multipliers;
+    bool solved = false;
+    for (const Rubbing start : {Rubbing::by_law, Rubbing::never_slides, Rubbing::never_rubs}) {
+      if (solution.iterations > 0) restart(multipliers);
+      const bool prepared = start == Rubbing::by_law || settle(start, solution.iterations);
+      solved = prepared && settle(Rubbing::by_law, solution.iterations);
+      if (solved) break;
+    }
+    solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution.forces = forces_;
+    for (std::size_t p = 0; p < start_.size(); ++p) solution.changes += start_[p] != state_.statuses[p];
+    return solution;
+  }
+
+ private:
+  /// What closed points do along the surface.
+  enum class Rubbing : std::uint8_t { by_law, never_slides, never_rubs };
+
+  void restart(const Eigen::VectorXd& multipliers) {
+    state_.multipliers = multipliers;
+    state_.statuses = start_;
+    jumps_ = problem_.free;
+    forces_ = problem_.held;
+  }
+
+  /// Iterates until statuses stay and nothing is left of the equations; counts on.
+  bool settle(Rubbing rubbing, int& iterations) {
+    rubbing_ = rubbing;
+    one_at_a_time_ = false;
+    visited_.clear();
+    for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
+    for (int iteration = 0; iteration < problem_.max_iterations; ++iteration) {
+      ++iterations;
+      number_unknowns();
+      correct();
+      evaluate();
+      const bool settled = !update_statuses();
+      if (settled && is_solved()) return true;
+      if (!settled) same_statuses_ = 0;
+    }
+    return false;
+  }
+
+  ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const {
+    if (status == ContactStatus::open || rubbing_ == Rubbing::by_law || !(point.law.friction > 0.0)) return status;
+    return rubbing_ == Rubbing::never_slides ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+
+  int multiplier_index(int node, int component) const { return node * problem_.components + component; }
+
+  bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
+
+  Vector3d multiplier_at(const CondensedPoint& point) const {
+    Vector3d value = Vector3d::Zero();
+    for (int i = 0; i < point.node_count; ++i)
+      for (int c = 0; c < problem_.components; ++c)
+        value[c] += point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)];
+    return value;
+  }
+
+  Vector3d jump_at(const CondensedPoint& point) const {
+    Vector3d value = Vector3d::Zero();
+    for (int c = 0; c < point.rows; ++c) value[c] = jumps_[point.first_row + c];
+    return value;
+  }
+
+  ContactLawValue law_at(std::size_t p) const {
+    const CondensedPoint& point = problem_.points[p];
+    ContactLaw law = point.law;
+    if (rubbing_ == Rubbing::never_rubs) law.friction = 0.0;
+    return contact_law(law, state_.statuses[p], multiplier_at(point), jump_at(point));
+  }
+
+  /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
+  void number_unknowns() {
+    row_unknowns_.assign(static_cast<std::size_t>(schur_.size()), -1);
+    multiplier_unknowns_.assign(static_cast<std::size_t>(problem_.node_count * problem_.components), -1);
+    unknown_rows_.clear();
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      const CondensedPoint& point = problem_.points[p];
+      const bool open = state_.statuses[p] == ContactStatus::open;
+      for (int c = 0; c < point.rows && !open; ++c) add_row(point.first_row + c);
+      if (open && point.node_count == 1) continue;
+      for (int i = 0; i < point.node_count; ++i)
+        for (int c = 0; c < (is_smooth(point.nodes[i]) ? 1 : point.components); ++c)
+          multiplier_unknowns_[multiplier_index(point.nodes[i], c)] = 0;
+    }
+    for (const CondensedSpring& spring : problem_.springs) add_row(spring.row);
+    unknowns_ = static_cast<int>(unknown_rows_.size());
+    for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i) {
+      if (multiplier_unknowns_[i] < 0) state_.multipliers[static_cast<Index>(i)] = 0.0;
+      if (multiplier_unknowns_[i] == 0) multiplier_unknowns_[i] = unknowns_++;
+    }
+  }
+
+  void add_row(int row) {
+    row_unknowns_[row] = static_cast<int>(unknown_rows_.size());
+    unknown_rows_.push_back(row);
+  }
+
+  void require_columns() {
+    std::vector<int> needed = unknown_rows_;
+    for (Index row = 0; row < problem_.held.size(); ++row)
+      if (problem_.held[row] != 0.0 || forces_[row] != 0.0) needed.push_back(static_cast<int>(row));
+    schur_.require(needed);
+  }
+
+  /// One step of Newton's method for the jumps of closed points and springs and for the multipliers.
+  void correct() {
+    require_columns();
+    if (unknowns_ == 0) return;
+    matrix_ = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+    forces_.setZero();
+    balance_ = Eigen::VectorXd::Zero(unknowns_);
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) add_point(p);
+    for (const CondensedSpring& spring : problem_.springs) {
+      forces_[spring.row] += spring.stiffness * jumps_[spring.row];
+      add_force_derivative(spring.row, row_unknowns_[spring.row], spring.stiffness);
+    }
+    const Eigen::VectorXd balanced = balanced_jumps();
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) {
+      const int row = unknown_rows_[k];
+      matrix_(static_cast<Index>(k), static_cast<Index>(k)) += 1.0;
+      balance_[static_cast<Index>(k)] = jumps_[row] - balanced[row];
+    }
+    const Eigen::VectorXd step = solve_scaled(matrix_, balance_);
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= step[static_cast<Index>(k)];
+    for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i)
+      if (multiplier_unknowns_[i] >= 0) state_.multipliers[static_cast<Index>(i)] -= step[multiplier_unknowns_[i]];
+  }
+
+  void add_point(std::size_t p) {
+    const CondensedPoint& point = problem_.points[p];
+    const ContactLawValue value = law_at(p);
+    for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
+    if (state_.statuses[p] != ContactStatus::open) add_traction_derivatives(point, value);
+    add_law_rows(point, value);
+  }
+
+  /// d balance / d(unknown) where the force on a row is `derivative` times the unknown.
+  void add_force_derivative(int row, int unknown, double derivative) {
+    if (derivative == 0.0 || unknown < 0) return;
+    const Eigen::VectorXd& column = schur_.column(row);
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
+      matrix_(static_cast<Index>(k), unknown) -= column[unknown_rows_[k]] * derivative;
+  }
+
+  void add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value) {
+    for (int a = 0; a < point.rows; ++a) {
+      const int row = point.first_row + a;
+      for (int b = 0; b < point.rows; ++b)
+        add_force_derivative(row, row_unknowns_[point.first_row + b], point.weight * value.traction_by_jump(a, b));
+      for (int i = 0; i < point.node_count; ++i)
+        for (int b = 0; b < problem_.components; ++b)
+          add_force_derivative(row, multiplier_unknowns_[multiplier_index(point.nodes[i], b)],
+                               point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
+    }
+  }
+
+  void add_law_rows(const CondensedPoint& point, const ContactLawValue& value) {
+    for (int i = 0; i < point.node_count; ++i) {
+      for (int a = 0; a < problem_.components; ++a) {
+        const int equation = multiplier_unknowns_[multiplier_index(point.nodes[i], a)];
+        if (equation < 0) continue;
+        const double weight = point.weight * point.shape[i];
+        balance_[equation] += weight * value.residual[a];
+        for (int b = 0; b < point.rows; ++b) {
+          const int unknown = row_unknowns_[point.first_row + b];
+          if (unknown >= 0) matrix_(equation, unknown) += weight * value.residual_by_jump(a, b);
+        }
+        for (int j = 0; j < point.node_count; ++j)
+          for (int b = 0; b < problem_.components; ++b) {
+            const int unknown = multiplier_unknowns_[multiplier_index(point.nodes[j], b)];
+            if (unknown >= 0) matrix_(equation, unknown) += weight * point.shape[j] * value.residual_by_multiplier(a, b);
+          }
+      }
+    }
+  }
+
+  /// The jumps that go with the present forces.
+  Eigen::VectorXd balanced_jumps() {
+    Eigen::VectorXd jumps = problem_.free;
+    for (Index row = 0; row < forces_.size(); ++row) {
+      const double change = forces_[row] - problem_.held[row];
+      if (change != 0.0) jumps += change * schur_.column(static_cast<int>(row));
+    }
+    return jumps;
+  }
+
+  /// Forces, and what is left of the equations, at the present multipliers and jumps.
+  void evaluate() {
+    forces_.setZero();
+    Eigen::VectorXd law_residual = Eigen::VectorXd::Zero(state_.multipliers.size());
+    Eigen::VectorXd law_weight = law_residual;
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      const CondensedPoint& point = problem_.points[p];
+      const ContactLawValue value = law_at(p);
+      for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
+      for (int i = 0; i < point.node_count; ++i)
+        for (int c = 0; c < problem_.components; ++c) {
+          const int index = multiplier_index(point.nodes[i], c);
+          law_residual[index] += point.weight * point.shape[i] * value.residual[c];
+          law_weight[index] += point.weight * std::abs(point.shape[i]);
+        }
+    }
+    for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
+    const Eigen::VectorXd balanced = balanced_jumps();
+    scale_ = std::max(largest(problem_.free), largest(balanced - problem_.free));
+    residual_ = 0.0;
+    for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
+    for (Index i = 0; i < law_residual.size(); ++i)
+      if (multiplier_unknowns_[i] >= 0 && law_weight[i] > 0.0) residual_ = std::max(residual_, std::abs(law_residual[i]) / law_weight[i]);
+    for (Index row = 0; row < balanced.size(); ++row)
+      if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
+  }
+
+  bool is_solved() {
+    if (residual_ <= residual_tolerance * scale_) return true;
+    const bool stagnates = same_statuses_ > 0 && residual_ > 0.5 * last_residual_;
+    last_residual_ = residual_;
+    return stagnates || ++same_statuses_ > most_corrections;
+  }
+
+  /// Whether a status that the law asks for differs from the present one by more than rounding.
+  bool is_meant(const CondensedPoint& point, ContactStatus now, ContactStatus wanted) const {
+    const Vector3d multiplier = multiplier_at(point);
+    const Vector3d jump = jump_at(point);
+    const double pressure = (point.law.penalised ? 0.0 : multiplier[0]) - point.law.augmentation * jump[0];
+    if (now == ContactStatus::open) return pressure > status_tolerance * point.law.augmentation * scale_;
+    if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
+    const double beyond = std::abs(shear_beyond_limit(point.law, multiplier, jump));
+    return beyond > status_tolerance * point.law.friction * pressure_scale_;
+  }
+
+  ContactStatus wanted_status(std::size_t p) const {
+    const CondensedPoint& point = problem_.points[p];
+    const ContactStatus now = state_.statuses[p];
+    if (point.rows == 0) return ContactStatus::open;
+    const bool stays_closed = point.bilateral && now != ContactStatus::open;
+    const ContactStatus wanted = restricted(contact_status(point.law, stays_closed, multiplier_at(point), jump_at(point)), point);
+    return wanted == now || is_meant(point, now, wanted) ? wanted : now;
+  }
+
+  bool update_statuses() {
+    pressure_scale_ = 0.0;
+    for (int node = 0; node < problem_.node_count; ++node)
+      pressure_scale_ = std::max(pressure_scale_, std::abs(state_.multipliers[multiplier_index(node, 0)]));
+    bool changed = false;
+    std::vector<ContactStatus> next = state_.statuses;
+    for (std::size_t p = 0; p < next.size() && !(changed && one_at_a_time_); ++p) {
+      next[p] = wanted_status(p);
+      changed |= next[p] != state_.statuses[p];
+    }
+    if (changed && !visited_.insert(next).second) one_at_a_time_ = true;
+    state_.statuses = std::move(next);
+    return changed;
+  }
+
+  SchurComplement& schur_;
+  const CondensedProblem& problem_;
+  CondensedState& state_;
+  const std::vector<ContactStatus> start_;
+  Eigen::VectorXd jumps_;
+  Eigen::VectorXd forces_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd balance_;
+  std::vector<int> row_unknowns_;         ///< unknown of a row of the Schur complement, or -1
+  std::vector<int> multiplier_unknowns_;  ///< the same of a multiplier
+  std::vector<int> unknown_rows_;
+  int unknowns_ = 0;
+  double residual_ = 0.0;
+  double last_residual_ = 0.0;
+  double scale_ = 0.0;
+  double pressure_scale_ = 0.0;
+  int same_statuses_ = 0;
+  bool one_at_a_time_ = false;
+  Rubbing rubbing_ = Rubbing::by_law;
+  std::set<std::vector<ContactStatus>> visited_;
+};
+
+}  // namespace
+
+CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+  return CondensedSolver(schur, problem, state).run();
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,67 @@
+// The mixed system of contact on its own rows: what is left when the bodies are condensed.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/contact_law.hpp"
+#include "solver/contact/facet.hpp"
+#include "solver/unilateral/schur_complement.hpp"
+
+namespace comma::solver {
+
+/// A point of the condensed system. Its jumps (gap, slips) are `rows` consecutive rows of the Schur complement.
+struct CondensedPoint {
+  int first_row = -1;
+  int rows = 0;                                 ///< as many as components; 0: nothing can touch it
+  int components = 1;                           ///< of its traction: 1 without friction, 2 or 3 with it
+  std::array<int, max_facet_nodes> nodes{};     ///< of the multipliers
+  std::array<double, max_facet_nodes> shape{};
+  int node_count = 0;
+  double weight = 0.0;
+  ContactLaw law;
+  bool bilateral = false;                       ///< once closed it stays closed
+};
+
+/// A row whose force is `stiffness` times its own jump: springs that were added to the bodies come off again with it.
+struct CondensedSpring {
+  int row = -1;
+  double stiffness = 0.0;
+};
+
+/// Find multipliers and jumps d with
+///     d = free + S (w t(multiplier, d) - held),     sum over points of w N_i r(multiplier, d) = 0 for each node i,
+/// t and r being traction and residual of the law at the points, S the compliance of the rows.
+struct CondensedProblem {
+  std::vector<CondensedPoint> points;
+  std::vector<CondensedSpring> springs;
+  Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
+  Eigen::VectorXd held;         ///< forces on the rows
+  int node_count = 0;
+  int components = 1;           ///< of a multiplier: 1, 2 or 3
+  std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
+  int max_iterations = 200;     ///< of each attempt
+};
+
+struct CondensedState {
+  Eigen::VectorXd multipliers;          ///< node_count * components: pressure, then shear
+  std::vector<ContactStatus> statuses;  ///< one a point: the start, then the solution
+};
+
+enum class CondensedVerdict : std::uint8_t { solved, too_many_iterations };
+
+struct CondensedSolution {
+  CondensedVerdict verdict = CondensedVerdict::solved;
+  Eigen::VectorXd forces;  ///< on the rows
+  int iterations = 0;
+  int changes = 0;         ///< of status, beside the start
+};
+
+/// Newton's method with statuses held during an iteration (the primal-dual active set of Hintermueller, Ito and Kunisch, SIAM
+/// Journal on Optimization 13, 2002). All points that ask for it change status at once; once a set of statuses comes back,
+/// one at a time, the first in order, which is finite where the compliance is positive definite and nothing rubs (Murty, 1974).
+CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state);
+
+}  // namespace comma::solver

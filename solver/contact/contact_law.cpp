@@ -1,0 +1,91 @@
+#include "solver/contact/contact_law.hpp"
+
+#include <algorithm>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return (law.penalised ? 0.0 : multiplier[0]) - law.augmentation * jump[0];
+}
+
+Vector2d trial_shear(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  const Vector2d slip = law.friction_augmentation * jump.tail<2>();
+  if (law.friction_penalised) return slip;
+  return multiplier.tail<2>() + slip;
+}
+
+struct Shear {
+  Vector2d value = Vector2d::Zero();
+  Matrix2d by_trial = Matrix2d::Zero();
+  Vector2d by_pressure = Vector2d::Zero();
+};
+
+Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, const Vector2d& trial) {
+  Shear shear;
+  if (status == ContactStatus::sticking) {
+    shear.value = trial;
+    shear.by_trial.setIdentity();
+  } else if (status == ContactStatus::sliding && law.friction > 0.0 && trial.norm() > 0.0) {
+    const double size = trial.norm();
+    const Vector2d direction = trial / size;
+    const double limit = law.friction * std::max(0.0, pressure);
+    shear.value = limit * direction;
+    shear.by_trial = limit / size * (Matrix2d::Identity() - direction * direction.transpose());
+    shear.by_pressure = law.friction * direction;
+  }
+  return shear;
+}
+
+void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multiplier, ContactLawValue& value) {
+  const double by_multiplier = law.friction_penalised ? 0.0 : 1.0;
+  const double augmentation = law.friction_augmentation;
+  value.traction.tail<2>() = -shear.value;
+  value.traction_by_multiplier.bottomRightCorner<2, 2>() = -by_multiplier * shear.by_trial;
+  value.traction_by_jump.bottomRightCorner<2, 2>() = -augmentation * shear.by_trial;
+  const auto normal_by_multiplier = value.traction_by_multiplier(0, 0);
+  const auto normal_by_jump = value.traction_by_jump(0, 0);
+  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -normal_by_multiplier * shear.by_pressure;
+  value.traction_by_jump.bottomLeftCorner<2, 1>() = -normal_by_jump * shear.by_pressure;
+
+  value.residual.tail<2>() = (shear.value - multiplier.tail<2>()) / augmentation;
+  value.residual_by_multiplier.bottomRows<2>() = -value.traction_by_multiplier.bottomRows<2>() / augmentation;
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() -= Matrix2d::Identity() / augmentation;
+  value.residual_by_jump.bottomRows<2>() = -value.traction_by_jump.bottomRows<2>() / augmentation;
+}
+
+}  // namespace
+
+ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+  ContactLawValue value;
+  if (status != ContactStatus::open) {
+    value.traction[0] = trial_pressure(law, multiplier, jump);
+    value.traction_by_multiplier(0, 0) = law.penalised ? 0.0 : 1.0;
+    value.traction_by_jump(0, 0) = -law.augmentation;
+  }
+  value.residual[0] = (value.traction[0] - multiplier[0]) / law.augmentation;
+  value.residual_by_multiplier(0, 0) = (value.traction_by_multiplier(0, 0) - 1.0) / law.augmentation;
+  value.residual_by_jump(0, 0) = value.traction_by_jump(0, 0) / law.augmentation;
+  // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
+  if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
+  add_shear(law, shear_of(law, status, value.traction[0], trial_shear(law, multiplier, jump)), multiplier, value);
+  if (status == ContactStatus::sticking && !law.friction_penalised) value.residual.tail<2>() = jump.tail<2>();
+  return value;
+}
+
+ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d& multiplier, const Vector3d& jump) {
+  const double pressure = trial_pressure(law, multiplier, jump);
+  if (!closed && !(pressure > 0.0)) return ContactStatus::open;
+  if (!(law.friction > 0.0)) return ContactStatus::sliding;
+  return shear_beyond_limit(law, multiplier, jump) <= 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+}
+
+double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return trial_shear(law, multiplier, jump).norm() - law.friction * std::max(0.0, trial_pressure(law, multiplier, jump));
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,45 @@
+// Unilateral contact and Coulomb friction at a point, in augmented form.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Dense>
+
+namespace comma::solver {
+
+/// Coefficients are pressures a unit of length.
+struct ContactLaw {
+  double augmentation = 100.0;             ///< of the pressure by the gap
+  bool penalised = false;                  ///< the pressure is `augmentation` times the depth
+  double friction = 0.0;                   ///< Coulomb's coefficient
+  double friction_augmentation = 100.0;    ///< of the shear by the slip
+  bool friction_penalised = false;         ///< the shear is `friction_augmentation` times the slip while it sticks
+};
+
+enum class ContactStatus : std::uint8_t { open, sliding, sticking };
+
+/// At a point: the first component is along the normal, the others along two tangents.
+/// `traction`: what the master does to the slave: pressure, then shear (against the slip). `residual` (a length): zero in the
+/// integral sense once the law holds. Derivatives by the multiplier (pressure, then shear that resists) and by the jump (gap, then
+/// slip).
+struct ContactLawValue {
+  Eigen::Vector3d traction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d traction_by_multiplier = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d traction_by_jump = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d residual_by_multiplier = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d residual_by_jump = Eigen::Matrix3d::Zero();
+};
+
+/// The law of Alart and Curnier (Computer Methods in Applied Mechanics and Engineering 92, 1991; R5.03.52) with the status held:
+/// closed: pressure - augmentation * gap pushes, and the gap vanishes; open: the pressure vanishes. Shear: sticking, it is
+/// shear + friction_augmentation * slip, and the slip vanishes; sliding, it is cut down to friction * pressure.
+ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
+/// The status that the law gives a point. `closed` points stay so.
+ContactStatus contact_status(const ContactLaw& law, bool closed, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
+/// By how much the shear that would stick exceeds the limit of friction.
+double shear_beyond_limit(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
+}  // namespace comma::solver

@@ -1,0 +1,172 @@
+#include "solver/contact/contact_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_set>
+
+#include "solver/contact/face_rule.hpp"
+#include "solver/contact/facet_search.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A shape function this near to one belongs to the node on which the point lies.
+constexpr double at_node_tolerance = 1e-12;
+
+class ZonePoints {
+ public:
+  ZonePoints(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time)
+      : zone_(definition.zones[static_cast<std::size_t>(zone)]),
+        index_(zone),
+        model_(model),
+        mesh_(*model.mesh),
+        positions_(positions),
+        time_(time),
+        search_(zone_, definition.smooth_normals, mesh_, positions),
+        excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()),
+        merges_(zone_.normal_side == NormalSide::master || definition.smooth_normals) {}
+
+  void append(int cell, std::vector<ContactPoint>& points) {
+    const CellType type = mesh_.cell_types[cell];
+    for (const FacePoint& at : face_rule(type, zone_.mixed.rule, zone_.mixed.rule_order)) {
+      ContactPoint point = place(cell, type, at);
+      if (point.weight == 0.0 || (point.node >= 0 && excluded_.contains(point.node))) continue;
+      const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
+      if (known != at_nodes_.end()) {
+        points[known->second].weight += point.weight;
+        continue;
+      }
+      face_master(at, point);
+      if (point.node >= 0) at_nodes_.emplace(point.node, points.size());
+      points.push_back(point);
+    }
+  }
+
+ private:
+  ContactPoint place(int cell, CellType type, const FacePoint& at) const {
+    ContactPoint point;
+    point.zone = index_;
+    point.cell = cell;
+    point.shape = facet_shape(type, at.xi).values;
+    const auto nodes = mesh_.cell(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (std::abs(point.shape[i] - 1.0) < at_node_tolerance) point.node = nodes[i];
+    point.weight = at.weight * measure(cell, type, at.xi);
+    if (point.node >= 0 && point.weight == 0.0) point.weight = share_of(cell, type, point.node);
+    return point;
+  }
+
+  /// The integral of a node's shape function: what a point on the axis stands for, where the radius vanishes.
+  double share_of(int cell, CellType type, int node) const {
+    const auto nodes = mesh_.cell(cell);
+    const auto local = static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
+    double share = 0.0;
+    double whole = 0.0;
+    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0)) {
+      const double area = at.weight * measure(cell, type, at.xi);
+      share += area * facet_shape(type, at.xi).values[local];
+      whole += area;
+    }
+    return share > at_node_tolerance * whole ? share : 0.0;
+  }
+
+  Vector3d position(const ContactPoint& point) const {
+    Vector3d at = Vector3d::Zero();
+    const auto nodes = mesh_.cell(point.cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i) at += point.shape[i] * positions_[nodes[i]];
+    return at;
+  }
+
+  /// Of the present face: the pressure is that of Cauchy.
+  double measure(int cell, CellType type, const Eigen::Vector2d& xi) const {
+    std::array<Vector3d, max_facet_nodes> corners;
+    const auto nodes = mesh_.cell(cell);
+    const FacetShape shape = facet_shape(type, xi);
+    double radius = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      corners[i] = positions_[nodes[i]];
+      radius += shape.values[i] * corners[i][0];
+    }
+    const auto tangents = facet_tangents(type, std::span(corners.data(), nodes.size()), xi);
+    const double stretch = dimension(type) == 1 ? tangents.col(0).norm()
+                                                : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
+    return is_axisymmetric(model_.formulations[cell]) ? radius * stretch : stretch;
+  }
+
+  void face_master(const FacePoint& at, ContactPoint& point) const {
+    const Vector3d here = position(point);
+    if (search_.too_far(here)) {
+      point.status = PairingStatus::too_far;
+      return;
+    }
+    const auto hit = search_.nearest(here, own_nodes(point));
+    if (!hit) return;
+    point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
+    point.facet = hit->facet;
+    point.master_shape = hit->projection.weights;
+    point.foot = hit->projection.foot;
+    const bool needs_own = zone_.normal_side != NormalSide::master;
+    point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
+    point.thickness = thickness_at(zone_, here, point.foot, time_);
+  }
+
+  /// A node of both surfaces cannot face the facets that it belongs to.
+  std::span<const int> own_nodes(const ContactPoint& point) const {
+    return point.node >= 0 ? std::span(&point.node, 1) : mesh_.cell(point.cell);
+  }
+
+  const ContactZone& zone_;
+  int index_;
+  const Model& model_;
+  const Mesh& mesh_;
+  Positions positions_;
+  double time_;
+  FacetSearch search_;
+  std::unordered_set<int> excluded_;
+  bool merges_;
+  std::map<int, std::size_t> at_nodes_;
+};
+
+/// Slave nodes as points of weight one, whose tractions are forces.
+std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
+  std::map<std::pair<int, int>, int> cells;  // of a zone's node: one of its slave faces
+  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone)
+    for (const int cell : definition.zones[zone].slave_cells)
+      for (const int node : mesh.cell(cell)) cells.emplace(std::pair(static_cast<int>(zone), node), cell);
+  std::vector<ContactPoint> points;
+  for (const ContactPair& pair : pair_surfaces(definition, mesh, positions, time)) {
+    if (pair.status == PairingStatus::excluded) continue;
+    ContactPoint point;
+    point.zone = pair.zone;
+    point.cell = cells.at({pair.zone, pair.slave});
+    point.node = pair.slave;
+    const auto nodes = mesh.cell(point.cell);
+    point.shape[static_cast<std::size_t>(std::ranges::find(nodes, pair.slave) - nodes.begin())] = 1.0;
+    point.weight = 1.0;
+    point.status = pair.status;
+    point.facet = pair.facet;
+    point.master_shape = pair.weights;
+    point.normal = pair.normal;
+    point.foot = pair.foot;
+    point.thickness = pair.thickness;
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time) {
+  if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time);
+  std::vector<ContactPoint> points;
+  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
+    ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);
+    for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
+  }
+  return points;
+}
+
+}  // namespace comma::solver

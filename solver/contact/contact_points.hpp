@@ -1,0 +1,37 @@
+// The integration points of the mixed formulation of contact, each facing a place on the master surface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/definition.hpp"
+#include "solver/contact/facet.hpp"
+#include "solver/contact/pairing.hpp"
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+/// A point of a slave face. Pressures are interpolated from the face's nodes by the same shape functions as displacements.
+struct ContactPoint {
+  int zone = 0;
+  int cell = -1;                                       ///< slave face
+  int node = -1;                                       ///< the slave node on which the point lies; -1: it lies between nodes
+  std::array<double, max_facet_nodes> shape{};         ///< of the slave face's nodes
+  double weight = 0.0;                                 ///< area (length in the plane; times the radius where axisymmetric)
+  PairingStatus status = PairingStatus::outside;
+  int facet = -1;                                      ///< master cell, when paired
+  std::array<double, max_facet_nodes> master_shape{};  ///< of the master facet's nodes
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave
+  Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
+  double thickness = 0.0;                              ///< of both sides, taken off the gap
+};
+
+/// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
+/// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
+/// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
+/// Throws what face_rule, projections and normals throw.
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time);
+
+}  // namespace comma::solver

@@ -1,0 +1,24 @@
+// Integration rules on the slave faces of the mixed formulation of contact.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/definition.hpp"
+#include "solver/mesh/cell_type.hpp"
+
+namespace comma::solver {
+
+struct FacePoint {
+  Eigen::Vector2d xi;   ///< in the facet's reference cell (see facet.hpp)
+  double weight = 0.0;  ///< the weights of a rule add up to the measure of the reference cell
+};
+
+/// The points of a rule (U4.44.11, INTEGRATION): `automatic` puts them at the corners of linear faces (trapezium rule) and takes
+/// Simpson's rule on quadratic ones; `gauss`: order^d points on lines and quadrangles, the family of that degree on triangles;
+/// `simpson`: composite, `order` pieces a side; `newton_cotes`: order + 1 points a side, closed. Order 0 is the default of the
+/// rule: 3, 1 and 3. Throws Error `unsupported` for an order that a triangle has no rule of, or a cell that is no facet.
+std::vector<FacePoint> face_rule(CellType type, ContactRule rule, int order);
+
+}  // namespace comma::solver

@@ -1,0 +1,149 @@
+#include "solver/contact/facet_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A curved facet bulges out of the box of its nodes by less than this share of the box's diagonal.
+constexpr double bulge = 0.25;
+/// Two facets whose distances differ by less than this share of the facet's size are equally near: the one that the
+/// projection really hits wins, then the first.
+constexpr double tie_tolerance = 1e-10;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+bool share_a_node(std::span<const int> a, std::span<const int> b) {
+  return std::ranges::any_of(a, [&](int node) { return std::ranges::find(b, node) != b.end(); });
+}
+
+}  // namespace
+
+FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh, Positions positions)
+    : zone_(zone),
+      mesh_(mesh),
+      positions_(positions),
+      master_nodes_(mesh.nodes_of_cells(zone.master_cells)),
+      facets_(facet_boxes()),
+      nodes_(node_boxes()) {
+  if (!smooth) return;
+  if (zone.master_normal == NormalRule::automatic) master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
+  if (zone.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions);
+}
+
+std::vector<Box> FacetSearch::facet_boxes() const {
+  std::vector<Box> boxes;
+  for (const int cell : zone_.master_cells) {
+    Box box;
+    for (const int node : mesh_.cell(cell)) box.extend(positions_[node]);
+    const bool is_curved = node_count(mesh_.cell_types[cell]) > corner_count(mesh_.cell_types[cell]);
+    const double margin = is_curved ? bulge * box.diagonal().norm() : 0.0;
+    boxes.emplace_back(box.min().array() - margin, box.max().array() + margin);
+  }
+  return boxes;
+}
+
+std::vector<Box> FacetSearch::node_boxes() const {
+  std::vector<Box> boxes;
+  for (const int node : master_nodes_) boxes.emplace_back(positions_[node], positions_[node]);
+  return boxes;
+}
+
+bool FacetSearch::too_far(const Vector3d& point) const {
+  if (zone_.pairing_distance < 0.0) return false;
+  double nearest = infinite;
+  nodes_.search(point, [&](int item) {
+    nearest = std::min(nearest, (positions_[master_nodes_[item]] - point).norm());
+    return nearest;
+  });
+  return nearest > zone_.pairing_distance;
+}
+
+std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own) const {
+  Hit best;
+  best.projection.distance = infinite;
+  facets_.search(point, [&](int item) {
+    consider(point, own, zone_.master_cells[item], best);
+    return best.projection.distance * (1.0 + tie_tolerance) + tie_tolerance;
+  });
+  if (best.facet < 0 || is_outside(best.projection)) return std::nullopt;
+  return best;
+}
+
+std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
+  int nearest = -1;
+  double distance = infinite;
+  nodes_.search(point, [&](int item) {
+    const int node = master_nodes_[item];
+    const double away = (positions_[node] - point).norm();
+    if (away < distance && std::ranges::find(own, node) == own.end()) {
+      distance = away;
+      nearest = node;
+    }
+    return distance;
+  });
+  for (const int facet : zone_.master_cells) {
+    const auto nodes = mesh_.cell(facet);
+    const auto found = std::ranges::find(nodes, nearest);
+    if (nearest < 0 || found == nodes.end()) continue;
+    Hit hit;
+    hit.facet = facet;
+    const auto local = static_cast<int>(found - nodes.begin());
+    hit.projection.xi = facet_node(mesh_.cell_types[facet], local);
+    hit.projection.weights[static_cast<std::size_t>(local)] = 1.0;
+    hit.projection.foot = positions_[nearest];
+    hit.projection.distance = distance;
+    return hit;
+  }
+  return std::nullopt;
+}
+
+void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int facet, Hit& best) const {
+  const auto cell = mesh_.cell(facet);
+  if (share_a_node(own, cell)) return;
+  std::array<Vector3d, max_facet_nodes> points;
+  Box box;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    points[i] = positions_[cell[i]];
+    box.extend(points[i]);
+  }
+  const auto found = project(point, mesh_.cell_types[facet], std::span(points.data(), cell.size()));
+  if (!found) return;
+  const double tie = tie_tolerance * box.diagonal().norm();
+  const double gain = best.projection.distance - found->distance;
+  const bool is_nearer = gain > tie;
+  const bool is_better_hit = std::abs(gain) <= tie && (found->outside < best.projection.outside ||
+                                                       (found->outside == best.projection.outside && facet < best.facet));
+  if (is_nearer || is_better_hit) best = {facet, *found};
+}
+
+bool FacetSearch::is_outside(const Projection& projection) const {
+  // A negative tolerance admits only what falls inside; the margin is the accuracy of the projection itself.
+  constexpr double accuracy = 1e-9;
+  return projection.outside > std::max(0.0, zone_.projection_tolerance) + accuracy;
+}
+
+Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
+  const Vector3d master = master_normals_.empty()
+                              ? master_normal(zone_, mesh_, hit.facet, hit.projection.xi, positions_)
+                              : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
+  return contact_normal(zone_.normal_side, master, slave_outward);
+}
+
+double thickness_at(const ContactZone& zone, const Vector3d& slave, const Vector3d& foot, double time) {
+  const auto value = [time](const FieldFunction& function, const Vector3d& at) {
+    return function ? function({at[0], at[1], at[2]}, time) : 0.0;
+  };
+  return value(zone.slave_thickness, slave) + value(zone.master_thickness, foot);
+}
+
+Vector3d FacetSearch::slave_normal(int cell, const Eigen::Vector2d& xi) const {
+  return slave_normals_.empty() ? outward_normal(mesh_, cell, xi, positions_)
+                                : interpolated_normal(mesh_, cell, xi, slave_normals_);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,65 @@
+// The place on a zone's master surface that a slave point faces.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/contact/box_tree.hpp"
+#include "solver/contact/definition.hpp"
+#include "solver/contact/normals.hpp"
+#include "solver/contact/projection.hpp"
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::solver {
+
+/// Searches one zone on one geometry. Keeps references to its arguments.
+class FacetSearch {
+ public:
+  /// `smooth`: normals are averaged at the nodes and interpolated between them (U4.44.11, LISSAGE).
+  FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh, Positions positions);
+
+  struct Hit {
+    int facet = -1;
+    Projection projection;
+  };
+
+  /// Whether no master node lies within the zone's pairing distance.
+  bool too_far(const Eigen::Vector3d& point) const;
+
+  /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the orthogonal
+  /// projection falls outside that facet by more than the zone's tolerance.
+  std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own) const;
+
+  /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
+  std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
+
+  /// Unit normal from master to slave at a hit. `slave_outward`: the slave's own unit normal, read where the zone asks for it.
+  Eigen::Vector3d normal(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
+
+  /// Outward unit normal of a slave face at a reference point, smoothed as the zone asks.
+  Eigen::Vector3d slave_normal(int cell, const Eigen::Vector2d& xi) const;
+
+ private:
+  std::vector<Box> facet_boxes() const;
+  std::vector<Box> node_boxes() const;
+  void consider(const Eigen::Vector3d& point, std::span<const int> own, int facet, Hit& best) const;
+  bool is_outside(const Projection& projection) const;
+
+  const ContactZone& zone_;
+  const Mesh& mesh_;
+  Positions positions_;
+  std::vector<int> master_nodes_;
+  BoxTree facets_;
+  BoxTree nodes_;
+  std::unordered_map<int, Eigen::Vector3d> master_normals_;  ///< of the nodes; empty unless smoothed
+  std::unordered_map<int, Eigen::Vector3d> slave_normals_;   ///< likewise
+};
+
+/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT).
+double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, const Eigen::Vector3d& foot, double time);
+
+}  // namespace comma::solver

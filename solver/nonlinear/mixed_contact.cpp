@@ -1,0 +1,401 @@
+#include "solver/nonlinear/mixed_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "solver/contact/box_tree.hpp"
+#include "solver/contact/contact_field.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
+/// A gap below this share of the face's size counts as closed at the start (CONTACT_INIT='INTERPENETRE').
+constexpr double touching = 1e-6;
+/// A reduced coefficient below this share of the row's largest is what rounding leaves of an eliminated one.
+constexpr double empty_row_tolerance = 1e-12;
+/// Imposed displacements may overlap by this share of the face's size.
+constexpr double overlap_tolerance = 1e-9;
+constexpr int most_condensed_iterations = 60;
+
+double largest_entry(const RowMatrix& rows, int row) {
+  double largest = 0.0;
+  for (RowMatrix::InnerIterator it(rows, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
+
+double size_of(const Mesh& mesh, int cell) {
+  Box box;
+  for (const int node : mesh.cell(cell)) box.extend(Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
+  return box.diagonal().norm();
+}
+
+ContactLaw law_of(const ContactZone& zone) {
+  ContactLaw law;
+  law.augmentation = zone.mixed.augmentation;
+  law.penalised = zone.mixed.penalised;
+  law.friction = zone.mixed.friction;
+  law.friction_penalised = zone.mixed.friction_penalised;
+  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_penalty : zone.mixed.augmentation;
+  return law;
+}
+
+bool has_friction(const ContactDefinition& definition) {
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
+}
+
+bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
+
+}  // namespace
+
+MixedContact::MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
+                           const Elimination& elimination, TangentSystem& tangent, Counters& counters, std::vector<int> support)
+    : definition_(definition),
+      model_(model),
+      mesh_(*model.mesh),
+      dofs_(dofs),
+      elimination_(elimination),
+      tangent_(tangent),
+      counters_(counters),
+      support_(std::move(support)),
+      reference_(Eigen::VectorXd::Zero(dofs.size())) {
+  number_multipliers();
+}
+
+void MixedContact::number_multipliers() {
+  bool is_solid = false;
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
+    const ContactZone& each = definition_.zones[zone];
+    const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
+      if (!excluded.contains(node) &&
+          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(multiplier_numbers_.size())).second)
+        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || contains(each.mixed.frictionless_nodes, node));
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
+  }
+  dimension_ = is_solid ? 3 : 2;
+  problem_.node_count = static_cast<int>(multiplier_numbers_.size());
+  problem_.components = has_friction(definition_) ? dimension_ : 1;
+  problem_.max_iterations = most_condensed_iterations;
+  state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
+}
+
+void MixedContact::pair(Positions positions, double time) {
+  points_ = contact_points(definition_, model_, positions, time);
+  ++counters_.pairings;
+  if (zone_directions_.empty()) choose_directions();
+  build_rows();
+  if (!started_) start_statuses(jumps(reference_));
+  started_ = true;
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
+  forces_ = held_forces();
+}
+
+CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
+  const ContactZone& zone = definition_.zones[static_cast<std::size_t>(point.zone)];
+  CondensedPoint result;
+  result.weight = point.weight;
+  result.law = law_of(zone);
+  result.bilateral = zone.mixed.bilateral;
+  if (point.node >= 0 && contains(zone.mixed.frictionless_nodes, point.node)) result.law.friction = 0.0;
+  const bool one_direction = dimension_ == 2 || Eigen::Map<const Vector3d>(zone.mixed.frictionless_direction.data()).norm() > 0.0;
+  if (result.law.friction > 0.0) result.components = one_direction ? 2 : 3;
+  const auto nodes = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (point.node >= 0 && nodes[i] != point.node) continue;
+    const auto number = multiplier_numbers_.find(Key(point.zone, nodes[i]));
+    if (number == multiplier_numbers_.end()) continue;
+    result.nodes[static_cast<std::size_t>(result.node_count)] = number->second;
+    result.shape[static_cast<std::size_t>(result.node_count++)] = point.node >= 0 ? 1.0 : point.shape[i];
+  }
+  return result;
+}
+
+void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& direction,
+                           std::vector<Eigen::Triplet<double>>& entries) const {
+  const auto add = [&](int node, double share) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] == 0.0 || share == 0.0) continue;
+      const int dof = dofs_.dof(node, translations[axis]);
+      if (dof < 0)
+        throw Error("unknown-dof",
+                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translations[axis])),
+                    "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
+      entries.emplace_back(row, dof, share * direction[axis]);
+    }
+  };
+  const auto slave = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i]);
+  const auto master = mesh_.cell(point.facet);
+  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i]);
+}
+
+/// One direction of space for all tangents of a zone, away from its normals: shears at the nodes of a face then speak of the same
+/// directions.
+void MixedContact::choose_directions() {
+  std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
+  for (const ContactPoint& point : points_)
+    spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
+  for (const Vector3d& each : spread) {
+    Index axis = 0;
+    each.minCoeff(&axis);
+    zone_directions_.push_back(Vector3d::Unit(axis));
+  }
+}
+
+MixedContact::Directions MixedContact::directions(const ContactPoint& point) const {
+  const Vector3d& normal = point.normal;
+  if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
+  const auto& given = definition_.zones[static_cast<std::size_t>(point.zone)].mixed.frictionless_direction;
+  const Vector3d excluded = Eigen::Map<const Vector3d>(given.data());
+  const Vector3d second = excluded.norm() > 0.0 ? excluded : zone_directions_[static_cast<std::size_t>(point.zone)];
+  const Vector3d along = second - normal.dot(second) * normal;
+  if (!(along.norm() > empty_row_tolerance * second.norm()))
+    throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
+                "give a direction along the surface (DIRE_EXCL_FROT)");
+  return {normal, along.normalized().cross(normal), along.normalized()};
+}
+
+/// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
+void MixedContact::build_rows() {
+  problem_.points.clear();
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> base;
+  const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
+  for (const ContactPoint& point : points_) {
+    CondensedPoint each = condensed(point);
+    if (point.status == PairingStatus::paired) {
+      each.first_row = static_cast<int>(base.size());
+      each.rows = each.components;
+      const Directions along = directions(point);
+      Vector3d apart = Vector3d::Zero();
+      const auto slave = mesh_.cell(point.cell);
+      for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * initial(slave[i]);
+      const auto master = mesh_.cell(point.facet);
+      for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * initial(master[i]);
+      for (int c = 0; c < each.rows; ++c) add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
+      base.push_back(point.normal.dot(apart) - point.thickness);
+      base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
+    }
+    problem_.points.push_back(each);
+  }
+  rows_.resize(static_cast<Index>(base.size()), dofs_.size());
+  rows_.setFromTriplets(entries.begin(), entries.end());
+  base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
+  const Eigen::VectorXd before = rows_ * reference_;
+  for (const CondensedPoint& point : problem_.points)
+    for (int c = 1; c < point.rows; ++c) base_[point.first_row + c] = -before[point.first_row + c];
+  reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
+  settle_blocked_points();
+}
+
+/// A point between nodes that are held is open or closed whatever the pressure, which then is anything: it gets none.
+void MixedContact::settle_blocked_points() {
+  blocked_.clear();
+  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0) continue;
+    if (largest_entry(reduced_rows_, point.first_row) > empty_row_tolerance * largest_entry(rows_, point.first_row)) continue;
+    point.rows = 0;
+    blocked_.push_back(p);
+  }
+}
+
+void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
+  for (const std::size_t p : blocked_) {
+    const double gap = jumps[problem_.points[p].first_row];
+    if (definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.penalised) continue;
+    if (gap >= -overlap_tolerance * size_of(mesh_, points_[p].cell)) continue;
+    throw Error("contradictory-conditions",
+                fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}", mesh_.cell_name(points_[p].cell),
+                            mesh_.cell_name(points_[p].facet), -gap),
+                "free the nodes along the normal, or take them out of the contact (SANS_GROUP_NO)");
+  }
+}
+
+void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
+  state_.statuses.assign(points_.size(), ContactStatus::open);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0) continue;
+    const InitialContact initial = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.initial;
+    const bool touches = jumps[point.first_row] <= touching * size_of(mesh_, points_[p].cell);
+    if (initial == InitialContact::all || (initial == InitialContact::interpenetrating && touches))
+      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+}
+
+/// A body that contact alone holds needs some to begin with.
+void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (state_.statuses[p] != ContactStatus::open) return;
+    if (problem_.points[p].rows > 0) nearest = std::min(nearest, jumps[problem_.points[p].first_row]);
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * size_of(mesh_, points_[p].cell))
+      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+}
+
+/// Where points lie on nodes the solution does not depend on the augmentation; one as stiff as the bodies suits any unit of length.
+void MixedContact::add_natural_augmentation() {
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (points_[p].node < 0 || point.rows == 0) continue;
+    double stiffness = 0.0;
+    for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+      stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
+    if (!point.law.penalised) point.law.augmentation = stiffness / point.weight;
+    if (!point.law.friction_penalised) point.law.friction_augmentation = stiffness / point.weight;
+  }
+}
+
+/// Forces of the multipliers alone. Any would do for the next correction to start from.
+Eigen::VectorXd MixedContact::held_forces() const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows_.rows());
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    for (int i = 0; i < point.node_count; ++i)
+      for (int c = 0; c < point.rows; ++c)
+        forces[point.first_row + c] += (c == 0 ? 1.0 : -1.0) * point.weight * point.shape[i] * multiplier(point.nodes[i])[c];
+  }
+  return forces;
+}
+
+Vector3d MixedContact::multiplier(int number) const {
+  Vector3d value = Vector3d::Zero();
+  value.head(problem_.components) = state_.multipliers.segment(number * problem_.components, problem_.components);
+  return value;
+}
+
+Eigen::VectorXd MixedContact::forces() const { return reduced_rows_.transpose() * forces_; }
+
+/// The rows of the points and those of the springs.
+void MixedContact::update_schur() {
+  const auto& springs = tangent_.springs();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < reduced_rows_.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(reduced_rows_, row); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+  int next = static_cast<int>(reduced_rows_.rows());
+  problem_.springs.clear();
+  for (const auto& [unknown, stiffness] : springs) {
+    entries.emplace_back(next, unknown, 1.0);
+    problem_.springs.push_back({next++, stiffness});
+  }
+  RowMatrix rows(next, elimination_.reduced_size());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  if (!schur_ || spring_count_ != springs.size()) {
+    std::set<int> support(support_.begin(), support_.end());
+    for (const auto& spring : springs) support.insert(spring.first);
+    schur_ = std::make_unique<SchurComplement>(
+        std::move(rows), [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); },
+        std::vector<int>(support.begin(), support.end()));
+    spring_count_ = springs.size();
+  } else {
+    schur_->replace_rows(std::move(rows));
+  }
+}
+
+void MixedContact::forget() {
+  if (schur_) schur_->forget();
+}
+
+int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
+  update_schur();
+  add_natural_augmentation();
+  const Eigen::VectorXd free = jumps(elimination_.transformation() * corrected + offset);
+  check_blocked_points(free);
+  const Index point_rows = rows_.rows();
+  problem_.free.resize(schur_->size());
+  problem_.held = Eigen::VectorXd::Zero(schur_->size());
+  problem_.free.head(point_rows) = free;
+  problem_.held.head(point_rows) = forces_;
+  for (std::size_t k = 0; k < tangent_.springs().size(); ++k) {
+    const int unknown = tangent_.springs()[k].first;
+    problem_.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
+  }
+  if (!problem_.springs.empty()) close_nearest(free);
+
+  const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
+  counters_.contact_iterations += solution.iterations;
+  if (solution.verdict == CondensedVerdict::too_many_iterations) throw_condensed_limit(problem_.max_iterations);
+  const Eigen::VectorXd change = solution.forces - problem_.held;
+  if (change.size() && change.cwiseAbs().maxCoeff() > 0.0) {
+    Eigen::MatrixXd push = schur_->rows().transpose() * change;
+    tangent_.solve(push);
+    corrected += push;
+  }
+  forces_ = solution.forces.head(point_rows);
+  return solution.changes;
+}
+
+int MixedContact::closed_count() const {
+  return static_cast<int>(std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
+}
+
+void MixedContact::add_multipliers(NodalField& displacements) const {
+  if (definition_.formulation == ContactFormulation::discrete) return;
+  constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
+  const auto added = static_cast<std::size_t>(problem_.components);
+  const std::size_t before = displacements.components.size();
+  const std::size_t all = before + added;
+  const std::size_t nodes = displacements.values.size() / before;
+  std::vector<double> values(nodes * all, absent);
+  for (std::size_t node = 0; node < nodes; ++node)
+    std::copy_n(displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before), before,
+                values.begin() + static_cast<std::ptrdiff_t>(node * all));
+  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + problem_.components);
+  const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
+  for (const ContactZone& zone : definition_.zones)
+    for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
+  for (const auto& [key, number] : multiplier_numbers_) {
+    const Vector3d value = multiplier(number);
+    const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
+    place(key.second)[0] -= value[0];
+    for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
+  }
+  displacements.values = std::move(values);
+}
+
+NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
+  const Eigen::VectorXd now = jumps(u);
+  std::vector<NodeContact> contacts;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    const CondensedPoint& condensed = problem_.points[p];
+    if (point.node < 0) continue;
+    NodeContact contact;
+    contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
+    if (condensed.first_row >= 0) {
+      contact.gap = now[condensed.first_row];
+      contact.normal_force = forces_[condensed.first_row];
+      contact.sticking = state_.statuses[p] == ContactStatus::sticking;
+    }
+    if (problem_.components > 1) contact.slip.setZero();
+    const Directions along = condensed.rows > 1 ? directions(point) : Directions();
+    for (int c = 1; c < condensed.rows; ++c) {
+      contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
+      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
+    }
+    contacts.push_back(contact);
+  }
+  return contact_field(contacts, mesh_.node_count(), positions);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,109 @@
+// The mixed formulation of contact (R5.03.52) within Newton's iterations: points, multipliers, forces.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/contact/condensed_contact.hpp"
+#include "solver/contact/contact_points.hpp"
+#include "solver/fields/field.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+#include "solver/nonlinear/tangent_system.hpp"
+#include "solver/unilateral/schur_complement.hpp"
+
+namespace comma::solver {
+
+/// Discrete contact that is more than inequalities (see is_condensed) is the same with points at the slave nodes and forces for
+/// pressures.
+/// Pressures live at the slave nodes of each zone, the law holds at the integration points of the slave faces. An iteration of
+/// Newton's method on the bodies solves the contact law exactly, on the contact rows alone:
+///     K dq = T^T (f_ext - f_int(u)) + A^T w t(multipliers, jumps),   jumps = base + R u
+/// with A = R T. Bodies that nothing but contact holds get springs for the factorisation, which come off again on the contact rows.
+class MixedContact {
+ public:
+  /// Keeps references to its arguments. `support`: the reduced unknowns that contact can touch, rising.
+  MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs, const Elimination& elimination,
+               TangentSystem& tangent, Counters& counters, std::vector<int> support);
+
+  /// A step begins at u: slips are counted from there.
+  void start_step(const Eigen::VectorXd& u) { reference_ = u; }
+  /// Pressures and statuses as they are before a step, and back to them when it fails; points must be faced anew then.
+  void remember() { remembered_ = {state_, started_}; }
+  void restore() { std::tie(state_, started_) = remembered_; }
+  /// Faces the points anew. `positions`: where the nodes are now.
+  void pair(Positions positions, double time);
+  /// After a new factorisation.
+  void forget();
+
+  /// Forces on the reduced unknowns.
+  Eigen::VectorXd forces() const;
+
+  /// Takes the reduced unknowns from `before` to `corrected`, which balances the present forces, and on to where the law of contact
+  /// holds too. `offset`: g of u = T q + g. Returns the number of points whose status changed.
+  /// Throws Error `contact-cycling`, `contradictory-conditions`.
+  int correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected);
+
+  int closed_count() const;
+
+  /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
+  /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
+  void add_multipliers(NodalField& displacements) const;
+  /// CONT_NOEU (see contact_field.hpp) at u.
+  NodalField contact_state(const Eigen::VectorXd& u, Positions positions) const;
+
+ private:
+  using Key = std::pair<int, int>;  ///< zone, node
+  /// Normal, then the tangents along which friction acts.
+  using Directions = std::array<Eigen::Vector3d, 3>;
+
+  void number_multipliers();
+  void build_rows();
+  void start_statuses(const Eigen::VectorXd& jumps);
+  void close_nearest(const Eigen::VectorXd& jumps);
+  CondensedPoint condensed(const ContactPoint& point) const;
+  void choose_directions();
+  Directions directions(const ContactPoint& point) const;
+  void add_natural_augmentation();
+  Eigen::Vector3d multiplier(int number) const;
+  void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
+  void settle_blocked_points();
+  void check_blocked_points(const Eigen::VectorXd& jumps) const;
+  void update_schur();
+  Eigen::VectorXd held_forces() const;
+  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }
+
+  const ContactDefinition& definition_;
+  const Model& model_;
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const Elimination& elimination_;
+  TangentSystem& tangent_;
+  Counters& counters_;
+  const std::vector<int> support_;
+
+  std::map<Key, int> multiplier_numbers_;
+  int dimension_ = 3;
+  std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
+  std::vector<ContactPoint> points_;
+  CondensedProblem problem_;
+  CondensedState state_;
+  bool started_ = false;
+  std::pair<CondensedState, bool> remembered_;
+  std::size_t spring_count_ = 0;
+  RowMatrix rows_;                 ///< R, over all degrees of freedom
+  RowMatrix reduced_rows_;         ///< A
+  Eigen::VectorXd base_;
+  Eigen::VectorXd forces_;         ///< on the rows
+  Eigen::VectorXd reference_;
+  std::vector<std::size_t> blocked_;  ///< points that the conditions on displacements settle
+  std::unique_ptr<SchurComplement> schur_;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,83 @@
+#include "solver/contact/contact_law.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Differences {
+  Eigen::Matrix3d traction;
+  Eigen::Matrix3d residual;
+};
+
+/// Central differences of traction and residual by the multiplier or by the jump.
+Differences differences(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump, bool by_jump) {
+  Differences result;
+  for (int k = 0; k < 3; ++k) {
+    const double step = 1e-6 * (by_jump ? jump.norm() : multiplier.norm());
+    const Vector3d shift = step * Vector3d::Unit(k);
+    const auto at = [&](double side) {
+      return by_jump ? contact_law(law, status, multiplier, jump + side * shift) : contact_law(law, status, multiplier + side * shift, jump);
+    };
+    const ContactLawValue after = at(1.0);
+    const ContactLawValue before = at(-1.0);
+    result.traction.col(k) = (after.traction - before.traction) / (2.0 * step);
+    result.residual.col(k) = (after.residual - before.residual) / (2.0 * step);
+  }
+  return result;
+}
+
+void check_tangents(const ContactLaw& law, ContactStatus status) {
+  const Vector3d multiplier(120.0, 25.0, -14.0);
+  const Vector3d jump(-0.03, 0.02, 0.05);
+  const ContactLawValue value = contact_law(law, status, multiplier, jump);
+  const Differences by_multiplier = differences(law, status, multiplier, jump, false);
+  const Differences by_jump = differences(law, status, multiplier, jump, true);
+  // Central differences of steps of 1e-6 lose their fourth digits before the sixth.
+  CHECK((by_multiplier.traction - value.traction_by_multiplier).norm() < 1e-6 * (1.0 + value.traction_by_multiplier.norm()));
+  CHECK((by_multiplier.residual - value.residual_by_multiplier).norm() < 1e-6 * (1.0 + value.residual_by_multiplier.norm()));
+  CHECK((by_jump.traction - value.traction_by_jump).norm() < 1e-6 * (1.0 + value.traction_by_jump.norm()));
+  CHECK((by_jump.residual - value.residual_by_jump).norm() < 1e-6 * (1.0 + value.residual_by_jump.norm()));
+}
+
+}  // namespace
+
+TEST_CASE("Tangents of the contact law are its derivatives") {
+  for (const bool penalised : {false, true})
+    for (const bool friction_penalised : {false, true})
+      for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking}) {
+        ContactLaw law;
+        law.augmentation = 900.0;
+        law.penalised = penalised;
+        law.friction = 0.3;
+        law.friction_augmentation = 700.0;
+        law.friction_penalised = friction_penalised;
+        check_tangents(law, status);
+      }
+}
+
+TEST_CASE("A sliding point bears the limit of friction against the slip; a sticking one its shear") {
+  ContactLaw law;
+  law.friction = 0.5;
+  const Vector3d multiplier(10.0, 5.0, 0.0);
+  const ContactLawValue sliding = contact_law(law, ContactStatus::sliding, multiplier, Vector3d(0.0, 0.2, 0.0));
+  CHECK(sliding.traction[0] == Approx(10.0));
+  CHECK(sliding.traction[1] == Approx(-5.0));
+  CHECK(sliding.residual.norm() == Approx(0.0).margin(1e-15));
+  const ContactLawValue sticking = contact_law(law, ContactStatus::sticking, Vector3d(10.0, 3.0, 1.0), Vector3d::Zero());
+  CHECK(sticking.traction[1] == Approx(-3.0));
+  CHECK(sticking.residual.norm() == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("Statuses: an overlap closes, a pull opens, a shear below the limit sticks") {
+  ContactLaw law;
+  law.friction = 0.5;
+  CHECK(contact_status(law, false, Vector3d::Zero(), Vector3d(0.1, 0, 0)) == ContactStatus::open);
+  CHECK(contact_status(law, false, Vector3d(-1, 0, 0), Vector3d::Zero()) == ContactStatus::open);
+  CHECK(contact_status(law, true, Vector3d(-1, 0, 0), Vector3d::Zero()) != ContactStatus::open);
+  CHECK(contact_status(law, false, Vector3d::Zero(), Vector3d(-0.1, 0, 0)) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 4.9, 0), Vector3d::Zero()) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 3, 4.1), Vector3d::Zero()) == ContactStatus::sliding);
+}

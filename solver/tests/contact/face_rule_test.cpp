@@ -1,0 +1,63 @@
+#include "solver/contact/face_rule.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/contact/facet.hpp"
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+double integral(CellType type, ContactRule rule, int order, int a, int b) {
+  double sum = 0.0;
+  for (const FacePoint& point : face_rule(type, rule, order)) sum += point.weight * std::pow(point.xi[0], a) * std::pow(point.xi[1], b);
+  return sum;
+}
+
+double even(int power) { return power % 2 == 0 ? 2.0 / (power + 1) : 0.0; }
+
+}  // namespace
+
+TEST_CASE("Gauss rules of n points integrate degree 2n - 1 on lines and squares") {
+  for (int n = 1; n <= 8; ++n)
+    for (int degree = 0; degree <= 2 * n - 1; ++degree) {
+      CHECK(integral(CellType::seg2, ContactRule::gauss, n, degree, 0) == Approx(even(degree)).margin(1e-13));
+      CHECK(integral(CellType::quad4, ContactRule::gauss, n, degree, 1) == Approx(0.0).margin(1e-13));
+      CHECK(integral(CellType::quad4, ContactRule::gauss, n, degree, 0) == Approx(2 * even(degree)).margin(1e-13));
+    }
+}
+
+TEST_CASE("Newton-Cotes rules integrate their degree, composite Simpson rules cubics") {
+  for (int order = 1; order <= 8; ++order) {
+    for (int degree = 0; degree <= order; ++degree)
+      CHECK(integral(CellType::seg2, ContactRule::newton_cotes, order, degree, 0) == Approx(even(degree)).margin(1e-11));
+    for (int degree = 0; degree <= 3; ++degree)
+      CHECK(integral(CellType::seg3, ContactRule::simpson, order, degree, 0) == Approx(even(degree)).margin(1e-13));
+  }
+  for (int order = 1; order <= 3; ++order)
+    CHECK(integral(CellType::tria3, ContactRule::newton_cotes, order, 1, 0) == Approx(1.0 / 6));
+  for (int order = 2; order <= 3; ++order)
+    CHECK(integral(CellType::tria3, ContactRule::newton_cotes, order, 1, 1) == Approx(1.0 / 24));
+}
+
+TEST_CASE("Every rule integrates one; the automatic ones lie on the nodes of linear faces") {
+  for (const CellType type : {CellType::seg2, CellType::seg3, CellType::tria3, CellType::tria6, CellType::quad4, CellType::quad8, CellType::quad9}) {
+    const double measure = dimension(type) == 1 ? 2.0 : corner_count(type) == 3 ? 0.5 : 4.0;
+    for (const ContactRule rule : {ContactRule::automatic, ContactRule::gauss, ContactRule::simpson, ContactRule::newton_cotes})
+      CHECK(integral(type, rule, 0, 0, 0) == Approx(measure));
+  }
+  for (const CellType type : {CellType::seg2, CellType::tria3, CellType::quad4})
+    for (const FacePoint& point : face_rule(type, ContactRule::automatic, 0)) {
+      const auto shape = facet_shape(type, point.xi).values;
+      CHECK(*std::max_element(shape.begin(), shape.end()) == Approx(1.0));
+    }
+}
+
+TEST_CASE("Orders that triangles have no rule of are errors") {
+  CHECK_THROWS_AS(face_rule(CellType::tria3, ContactRule::gauss, 7), Error);
+  CHECK_THROWS_AS(face_rule(CellType::tria6, ContactRule::simpson, 2), Error);
+  CHECK_THROWS_AS(face_rule(CellType::tria3, ContactRule::newton_cotes, 4), Error);
+}

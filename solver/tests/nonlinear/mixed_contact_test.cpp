@@ -1,0 +1,146 @@
+#include "solver/nonlinear/mixed_contact.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "scene.hpp"
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+namespace {
+
+double pressure(const Scene& scene, int node, int step = -1) {
+  const ResultStep& chosen = step < 0 ? scene.result.steps.back() : scene.result.steps[static_cast<std::size_t>(step)];
+  const auto& field = std::get<NodalField>(chosen.fields.at("DEPL"));
+  return -field.at(node, field.component("LAGS_C"));
+}
+
+double shear_share(const Scene& scene, int node) {
+  const auto& field = std::get<NodalField>(scene.result.steps.back().fields.at("DEPL"));
+  return field.at(node, field.component("LAGS_F1"));
+}
+
+/// Two blocks one above the other, `above` and `below` cells along the contact.
+struct Stack {
+  Scene scene;
+  Scene::Block lower, upper;
+
+  Stack(int below, int above, double gap = 0.0)
+      : lower(scene.block("l", {0, 0}, {3, 1}, below, 2, 2e5, 0.0)), upper(scene.block("u", {0, 1 + gap}, {3, 1}, above, 2, 2e5, 0.0)) {
+    for (const int node : lower.nodes.front()) scene.impose({node}, Component::dy, 0);
+    scene.impose({lower.nodes[0][0]}, Component::dx, 0);
+    scene.zone(lower.top, upper.bottom);
+    scene.problem.contact->formulation = ContactFormulation::mixed;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Mixed contact: uniform compression crosses matching meshes as a uniform pressure") {
+  Stack stack(4, 4);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  for (const ContactRule rule : {ContactRule::automatic, ContactRule::gauss, ContactRule::simpson, ContactRule::newton_cotes}) {
+    stack.scene.problem.contact->zones.front().mixed.rule = rule;
+    stack.scene.result = {};
+    stack.scene.solve(1);
+    // Strain 0.01 in both blocks.
+    for (const int node : stack.upper.nodes[0]) CHECK(pressure(stack.scene, node) == Approx(2000.0).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Mixed contact: the load that one side gives the other takes, on meshes that do not match") {
+  Stack stack(5, 7);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  double above = 0.0;
+  double below = 0.0;
+  for (const int node : stack.upper.nodes[0]) above += stack.scene.internal_force(node, Component::dy);
+  for (const int node : stack.lower.nodes.back()) below += stack.scene.internal_force(node, Component::dy);
+  CHECK(above == Approx(-below).epsilon(1e-10));
+  CHECK(stack.scene.counters.factorisations == 1);
+}
+
+TEST_CASE("Mixed contact holds a block that nothing else holds, and lets it go again") {
+  Stack stack(4, 4, 0.1);
+  stack.scene.impose({stack.upper.nodes[0][0], stack.upper.nodes[2][0]}, Component::dx, 0);
+  for (std::size_t i = 0; i < 5; ++i) stack.scene.force(stack.upper.nodes.back()[i], Component::dy, i == 0 || i == 4 ? -75 : -150);
+  stack.scene.solve(1);
+  for (const int node : stack.upper.nodes[0]) {
+    CHECK(pressure(stack.scene, node) == Approx(200.0).epsilon(1e-8));
+    CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.101).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Mixed contact stays open over a gap that the load does not close") {
+  Stack stack(3, 4, 0.1);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.05);
+  stack.scene.solve(1);
+  for (const int node : stack.upper.nodes[0]) CHECK(pressure(stack.scene, node) == 0.0);
+  CHECK(stack.scene.contact(stack.upper.nodes[0][1], "JEU") == Approx(0.05));
+}
+
+TEST_CASE("With a penalty the depth is the pressure over the coefficient") {
+  Stack stack(4, 4);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  MixedZone& zone = stack.scene.problem.contact->zones.front().mixed;
+  zone.penalised = true;
+  zone.augmentation = 1e5;
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  // Two springs of E / h = 2e5 and one of 1e5 in series: a quarter, a quarter and a half of 0.02.
+  CHECK(pressure(stack.scene, stack.upper.nodes[0][2]) == Approx(1000.0).epsilon(1e-9));
+  CHECK(stack.scene.contact(stack.upper.nodes[0][2], "JEU") == Approx(-0.01).epsilon(1e-9));
+}
+
+TEST_CASE("A pressed block sticks below the limit of friction and slides at it") {
+  for (const double drag : {0.29, 0.31}) {
+    Scene scene;
+    const auto ground = scene.block("g", {0, 0}, {6, 1}, 6, 1, 2e7, 0.0);
+    const auto block = scene.block("b", {1, 1}, {1, 0.1}, 2, 1, 2e7, 0.0);
+    for (const auto& row : ground.nodes)
+      for (const int node : row) {
+        scene.impose({node}, Component::dx, 0);
+        scene.impose({node}, Component::dy, 0);
+      }
+    scene.zone(ground.top, block.bottom).mixed.friction = 0.3;
+    scene.problem.contact->formulation = ContactFormulation::mixed;
+    constexpr double weight = 400.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double share = i == 1 ? 0.5 : 0.25;
+      scene.force(block.nodes[1][i], Component::dy, -weight * share);
+      scene.force(block.nodes[0][i], Component::dx, drag * weight * share);
+      scene.ground_spring("k" + std::to_string(i), block.nodes[0][i], 100.0 * share, 0.0);
+    }
+    scene.solve(1);
+    const double moved = scene.displacement(block.nodes[0][1], Component::dx);
+    // Beyond the limit springs of 100 in all take what friction does not: 0.01 * 400 / 100.
+    CHECK(moved == Approx(drag < 0.3 ? 0.0 : 0.04).margin(1e-9));
+    CHECK(scene.contact(block.nodes[0][1], "CONT") == (drag < 0.3 ? 1.0 : 2.0));
+    if (drag > 0.3) CHECK(std::abs(shear_share(scene, block.nodes[0][1])) == Approx(1.0));
+  }
+}
+
+TEST_CASE("A slave node that is held where it lies carries no pressure and does no harm") {
+  Stack stack(4, 4);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose({stack.lower.nodes[2][0]}, Component::dx, 0);
+  stack.scene.impose({stack.upper.nodes[0][0], stack.lower.nodes[2][0]}, Component::dy, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  CHECK(pressure(stack.scene, stack.upper.nodes[0][0]) == 0.0);
+  CHECK(pressure(stack.scene, stack.upper.nodes[0][3]) > 0.0);
+}
+
+TEST_CASE("Imposed displacements that push one surface into the other are an error") {
+  Stack stack(4, 4);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes[0], Component::dy, -0.1);
+  stack.scene.impose(stack.lower.nodes.back(), Component::dy, 0);
+  CHECK_THROWS_WITH(stack.scene.solve(1), Catch::Contains("imposed displacements push"));
+}

@@ -1,0 +1,75 @@
+#include "solver/nonlinear/step_sequence.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// The instants reached when every step takes as many iterations, and those that `fails` says fail.
+template <typename Fails>
+std::vector<double> walk(StepPlan plan, int iterations, Fails&& fails) {
+  StepSequence sequence(std::move(plan));
+  std::vector<double> reached;
+  double now = 0.0;
+  while (!sequence.finished()) {
+    const double target = sequence.target();
+    if (fails(now, target)) {
+      if (!sequence.cut()) break;
+      continue;
+    }
+    sequence.accept(iterations);
+    reached.push_back(now = target);
+  }
+  return reached;
+}
+
+const auto never = [](double, double) { return false; };
+
+}  // namespace
+
+TEST_CASE("without rules the instants are those of the list") {
+  CHECK(walk(StepPlan({0.0, 1.0, 3.0}), 9, never) == std::vector<double>{1.0, 3.0});
+}
+
+TEST_CASE("a step that is too long is cut, and its parts again, but for what comes after") {
+  StepPlan plan({0.0, 1.0, 2.0});
+  plan.cutting = StepCutting{2, 3, 0.0};
+  const auto longer_than_a_quarter = [](double now, double target) { return now < 1.0 && target - now > 0.26; };
+  CHECK(walk(plan, 1, longer_than_a_quarter) == std::vector<double>{0.25, 0.5, 0.75, 1.0, 2.0});
+}
+
+TEST_CASE("cutting ends at the depth and at the shortest step allowed") {
+  StepPlan plan({0.0, 1.0});
+  plan.cutting = StepCutting{2, 3, 0.0};
+  double last = 1.0;
+  const auto always = [&](double, double target) {
+    last = target;
+    return true;
+  };
+  CHECK(walk(plan, 1, always).empty());
+  CHECK(last == 0.125);
+  plan.cutting->shortest = 0.2;
+  CHECK(walk(plan, 1, always).empty());
+  CHECK(last == 0.25);
+}
+
+TEST_CASE("easy steps grow, and still meet the instants of the list") {
+  StepPlan plan({0.0, 1.0, 8.0, 9.0});
+  plan.adaptation = StepAdaptation{};
+  // 1 and 2 are easy, so the next is twice as long; the one after meets the wall at 8.
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.0, 4.0, 6.0, 8.0, 9.0});
+  plan.adaptation->longest = 1.0;
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0});
+  plan.adaptation->most_steps = 4;
+  CHECK_THROWS_WITH(walk(plan, 3, never), Catch::Contains("after 4 steps"));
+}
+
+TEST_CASE("steps aim at a number of iterations") {
+  StepPlan plan({0.0, 1.0, 10.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->wanted_iterations = 4;
+  CHECK(walk(plan, 0, never) == std::vector<double>{1.0, 3.0, 7.0, 10.0});
+}
