@@ -48,7 +48,7 @@ FieldComputation::FieldComputation(const StaticProblem& problem, const Result& r
     : problem_(problem),
       result_(result),
       dofs_(*problem.model),
-      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_) {}
+      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()) {}
 
 const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputation::rules() {
   using F = FieldComputation;
@@ -207,7 +207,13 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
   return equivalent_stresses(element_field("SIGM_ELNO", step));
 }
 
+void FieldComputation::require_small_strains(std::string_view name) const {
+  if (problem_.kinematics && std::ranges::any_of(*problem_.kinematics, [](Kinematics each) { return each != Kinematics::small; }))
+    throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
+}
+
 Field FieldComputation::elastic_energy(std::size_t step) {
+  require_small_strains("ENEL_ELGA");
   return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
 }
 
@@ -225,6 +231,7 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
 
 // The work of stresses adds up from step to step.
 Field FieldComputation::total_energy(std::size_t step) {
+  require_small_strains("ETOT_ELGA");
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
   if (step > 0) {
     stress_before = &element_field("SIEF_ELGA", step - 1);
