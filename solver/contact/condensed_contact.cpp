@@ -16,8 +16,13 @@ using Eigen::Vector3d;
 constexpr double status_tolerance = 1e-12;
 /// The system is solved when what is left of it is this share of the jumps.
 constexpr double residual_tolerance = 1e-12;
-/// Corrections with the same statuses: when this many do not halve the residual, rounding has been reached.
-constexpr int most_corrections = 8;
+/// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned compliance.
+constexpr double stagnation_tolerance = 1e-9;
+/// Or this share of what the forces could do to the jumps.
+constexpr double rounding_share = 1e-13;
+/// Stages of the way from where the step began: the first and the shortest, as shares of the whole.
+constexpr double first_stride = 0.25;
+constexpr double least_stride = 1e-4;
 /// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
 constexpr double singular_pivot = 1e-14;
 
@@ -46,12 +51,13 @@ Eigen::VectorXd solve_scaled(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
 class CondensedSolver {
  public:
   CondensedSolver(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held) {
+      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), free_(problem.free), jumps_(problem.free), forces_(problem.held) {
     assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all.
+  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all; at
+  /// last along the way from where the step began.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
@@ -61,6 +67,10 @@ class CondensedSolver {
       const bool prepared = start == Rubbing::by_law || settle(start, solution.iterations);
       solved = prepared && settle(Rubbing::by_law, solution.iterations);
       if (solved) break;
+    }
+    if (!solved && problem_.origin.size() > 0) {
+      restart(multipliers);
+      solved = follow_path(solution.iterations);
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
@@ -75,8 +85,30 @@ class CondensedSolver {
   void restart(const Eigen::VectorXd& multipliers) {
     state_.multipliers = multipliers;
     state_.statuses = start_;
-    jumps_ = problem_.free;
+    jumps_ = free_;
     forces_ = problem_.held;
+  }
+
+  /// Free jumps grow from those of the origin, each stage beginning from the last one's solution.
+  bool follow_path(int& iterations) {
+    double done = 0.0;
+    double stride = first_stride;
+    while (done < 1.0 && stride >= least_stride) {
+      const double next = std::min(1.0, done + stride);
+      const CondensedState before = state_;
+      const Eigen::VectorXd jumps = jumps_;
+      free_ = problem_.origin + next * (problem_.free - problem_.origin);
+      if (settle(Rubbing::by_law, iterations)) {
+        done = next;
+        stride *= 1.5;
+      } else {
+        state_.multipliers = before.multipliers;
+        state_.statuses = before.statuses;
+        jumps_ = jumps;
+        stride *= 0.25;
+      }
+    }
+    return done >= 1.0;
   }
 
   /// Iterates until statuses stay and nothing is left of the equations; counts on.
@@ -235,7 +267,7 @@ class CondensedSolver {
 
   /// The jumps that go with the present forces.
   Eigen::VectorXd balanced_jumps() {
-    Eigen::VectorXd jumps = problem_.free;
+    Eigen::VectorXd jumps = free_;
     for (Index row = 0; row < forces_.size(); ++row) {
       const double change = forces_[row] - problem_.held[row];
       if (change != 0.0) jumps += change * schur_.column(static_cast<int>(row));
@@ -261,7 +293,7 @@ class CondensedSolver {
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
-    scale_ = std::max(largest(problem_.free), largest(balanced - problem_.free));
+    scale_ = std::max({problem_.smallest_scale, largest(free_), largest(balanced - free_)});
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)
@@ -270,11 +302,25 @@ class CondensedSolver {
       if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
   }
 
+  /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
+  double largest_response() const {
+    double sum = 0.0;
+    double largest_root = 0.0;
+    for (Index row = 0; row < forces_.size(); ++row) {
+      if (!schur_.known(static_cast<int>(row))) continue;
+      const double root = std::sqrt(std::abs(schur_.column(static_cast<int>(row))[row]));
+      sum += root * std::max(std::abs(forces_[row]), std::abs(problem_.held[row]));
+      largest_root = std::max(largest_root, root);
+    }
+    return largest_root * sum;
+  }
+
   bool is_solved() {
     if (residual_ <= residual_tolerance * scale_) return true;
     const bool stagnates = same_statuses_ > 0 && residual_ > 0.5 * last_residual_;
     last_residual_ = residual_;
-    return stagnates || ++same_statuses_ > most_corrections;
+    ++same_statuses_;
+    return stagnates && residual_ <= std::max(stagnation_tolerance * scale_, rounding_share * largest_response());
   }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.
@@ -316,6 +362,7 @@ class CondensedSolver {
   const CondensedProblem& problem_;
   CondensedState& state_;
   const std::vector<ContactStatus> start_;
+  Eigen::VectorXd free_;
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
   Eigen::MatrixXd matrix_;
