@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "solver/contact/relaxation.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -20,9 +22,6 @@ constexpr double residual_tolerance = 1e-12;
 constexpr double stagnation_tolerance = 1e-9;
 /// Or this share of what the forces could do to the jumps.
 constexpr double rounding_share = 1e-13;
-/// Stages of the way from where the step began: the first and the shortest, as shares of the whole.
-constexpr double first_stride = 0.25;
-constexpr double least_stride = 1e-4;
 /// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
 constexpr double singular_pivot = 1e-14;
 
@@ -51,26 +50,24 @@ Eigen::VectorXd solve_scaled(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
 class CondensedSolver {
  public:
   CondensedSolver(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), free_(problem.free), jumps_(problem.free), forces_(problem.held) {
+      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held) {
     assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all; at
-  /// last along the way from where the step began.
+  /// From the statuses given; where that fails, from those of points that stick to what they touch; at last from what relaxation
+  /// finds.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
-    bool solved = false;
-    for (const Rubbing start : {Rubbing::by_law, Rubbing::never_slides, Rubbing::never_rubs}) {
-      if (solution.iterations > 0) restart(multipliers);
-      const bool prepared = start == Rubbing::by_law || settle(start, solution.iterations);
-      solved = prepared && settle(Rubbing::by_law, solution.iterations);
-      if (solved) break;
-    }
-    if (!solved && problem_.origin.size() > 0) {
+    bool solved = settle(Rubbing::by_law, solution.iterations);
+    if (!solved) {
       restart(multipliers);
-      solved = follow_path(solution.iterations);
+      solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = relax() && settle(Rubbing::by_law, solution.iterations);
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
@@ -80,35 +77,22 @@ class CondensedSolver {
 
  private:
   /// What closed points do along the surface.
-  enum class Rubbing : std::uint8_t { by_law, never_slides, never_rubs };
+  enum class Rubbing : std::uint8_t { by_law, never_slides };
 
   void restart(const Eigen::VectorXd& multipliers) {
     state_.multipliers = multipliers;
     state_.statuses = start_;
-    jumps_ = free_;
+    jumps_ = problem_.free;
     forces_ = problem_.held;
   }
 
-  /// Free jumps grow from those of the origin, each stage beginning from the last one's solution.
-  bool follow_path(int& iterations) {
-    double done = 0.0;
-    double stride = first_stride;
-    while (done < 1.0 && stride >= least_stride) {
-      const double next = std::min(1.0, done + stride);
-      const CondensedState before = state_;
-      const Eigen::VectorXd jumps = jumps_;
-      free_ = problem_.origin + next * (problem_.free - problem_.origin);
-      if (settle(Rubbing::by_law, iterations)) {
-        done = next;
-        stride *= 1.5;
-      } else {
-        state_.multipliers = before.multipliers;
-        state_.statuses = before.statuses;
-        jumps_ = jumps;
-        stride *= 0.25;
-      }
-    }
-    return done >= 1.0;
+  bool relax() {
+    rubbing_ = Rubbing::by_law;
+    if (!relax_condensed(schur_, problem_, state_)) return false;
+    number_unknowns();
+    require_columns();
+    evaluate();
+    return true;
   }
 
   /// Iterates until statuses stay and nothing is left of the equations; counts on.
@@ -125,13 +109,14 @@ class CondensedSolver {
       const bool settled = !update_statuses();
       if (settled && is_solved()) return true;
       if (!settled) same_statuses_ = 0;
+      if (one_at_a_time_ && problem_.components > 1 && rubbing_ == Rubbing::by_law) return false;  // with friction a cycle stays one
     }
     return false;
   }
 
   ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const {
     if (status == ContactStatus::open || rubbing_ == Rubbing::by_law || !(point.law.friction > 0.0)) return status;
-    return rubbing_ == Rubbing::never_slides ? ContactStatus::sticking : ContactStatus::sliding;
+    return ContactStatus::sticking;
   }
 
   int multiplier_index(int node, int component) const { return node * problem_.components + component; }
@@ -154,9 +139,7 @@ class CondensedSolver {
 
   ContactLawValue law_at(std::size_t p) const {
     const CondensedPoint& point = problem_.points[p];
-    ContactLaw law = point.law;
-    if (rubbing_ == Rubbing::never_rubs) law.friction = 0.0;
-    return contact_law(law, state_.statuses[p], multiplier_at(point), jump_at(point));
+    return contact_law(point.law, state_.statuses[p], multiplier_at(point), jump_at(point));
   }
 
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -267,7 +250,7 @@ class CondensedSolver {
 
   /// The jumps that go with the present forces.
   Eigen::VectorXd balanced_jumps() {
-    Eigen::VectorXd jumps = free_;
+    Eigen::VectorXd jumps = problem_.free;
     for (Index row = 0; row < forces_.size(); ++row) {
       const double change = forces_[row] - problem_.held[row];
       if (change != 0.0) jumps += change * schur_.column(static_cast<int>(row));
@@ -293,7 +276,7 @@ class CondensedSolver {
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
-    scale_ = std::max({problem_.smallest_scale, largest(free_), largest(balanced - free_)});
+    scale_ = std::max({problem_.smallest_scale, largest(problem_.free), largest(balanced - problem_.free)});
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)
@@ -362,7 +345,6 @@ class CondensedSolver {
   const CondensedProblem& problem_;
   CondensedState& state_;
   const std::vector<ContactStatus> start_;
-  Eigen::VectorXd free_;
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
   Eigen::MatrixXd matrix_;

@@ -330,8 +330,6 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   problem_.free.resize(schur_->size());
   problem_.held = Eigen::VectorXd::Zero(schur_->size());
   problem_.free.head(point_rows) = free;
-  problem_.origin = Eigen::VectorXd::Zero(schur_->size());
-  problem_.origin.head(point_rows) = jumps(reference_);
   problem_.held.head(point_rows) = forces_;
   for (std::size_t k = 0; k < tangent_.springs().size(); ++k) {
     const int unknown = tangent_.springs()[k].first;

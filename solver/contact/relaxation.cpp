@@ -1,0 +1,166 @@
+#include "solver/contact/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int most_sweeps = 2000;
+/// Sweeps end when forces change by less than this share of the largest: statuses then are those of the solution.
+constexpr double force_tolerance = 1e-7;
+/// Of the direction of slip at one point.
+constexpr int most_turns = 30;
+constexpr double turn_tolerance = 1e-10;
+
+class Relaxation {
+ public:
+  Relaxation(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
+      : schur_(schur), problem_(problem), state_(state), forces_(Eigen::VectorXd::Zero(problem.free.size())), jumps_(problem.free) {}
+
+  void run() {
+    start();
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      double change = 0.0;
+      for (std::size_t p = 0; p < problem_.points.size(); ++p) change = std::max(change, visit(p));
+      for (const CondensedSpring& spring : problem_.springs) visit(spring);
+      if (change <= force_tolerance * forces_.cwiseAbs().maxCoeff()) break;
+    }
+    take_multipliers();
+  }
+
+ private:
+  void start() {
+    std::vector<int> rows;
+    for (const CondensedPoint& point : problem_.points)
+      for (int c = 0; c < point.rows; ++c) rows.push_back(point.first_row + c);
+    for (const CondensedSpring& spring : problem_.springs) rows.push_back(spring.row);
+    for (Index row = 0; row < problem_.held.size(); ++row)
+      if (problem_.held[row] != 0.0) rows.push_back(static_cast<int>(row));
+    schur_.require(rows);
+    for (Index row = 0; row < problem_.held.size(); ++row)
+      if (problem_.held[row] != 0.0) jumps_ -= problem_.held[row] * schur_.column(static_cast<int>(row));
+    for (const CondensedPoint& point : problem_.points)
+      for (int c = 0; c < point.rows; ++c) add_force(point.first_row + c, problem_.held[point.first_row + c]);
+  }
+
+  void add_force(int row, double change) {
+    if (change == 0.0) return;
+    forces_[row] += change;
+    jumps_ += change * schur_.column(row);
+  }
+
+  /// The compliance of a point's own rows, that of its penalties included.
+  Matrix3d own_compliance(const CondensedPoint& point) const {
+    Matrix3d own = Matrix3d::Zero();
+    for (int a = 0; a < point.rows; ++a)
+      for (int b = 0; b < point.rows; ++b) own(a, b) = schur_.column(point.first_row + b)[point.first_row + a];
+    return own;
+  }
+
+  double visit(std::size_t p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0) return 0.0;
+    const Matrix3d own = own_compliance(point);
+    Vector3d present = Vector3d::Zero();
+    Vector3d others = Vector3d::Zero();
+    for (int c = 0; c < point.rows; ++c) {
+      present[c] = forces_[point.first_row + c];
+      others[c] = jumps_[point.first_row + c];
+    }
+    others -= own * present;
+    const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
+    const Vector3d wanted = local_force(point, own, others, stays_closed, state_.statuses[p]);
+    for (int c = 0; c < point.rows; ++c) add_force(point.first_row + c, wanted[c] - present[c]);
+    return (wanted - present).cwiseAbs().maxCoeff();
+  }
+
+  void visit(const CondensedSpring& spring) {
+    // force = stiffness * jump, jump = others + own * force.
+    const double own = schur_.column(spring.row)[spring.row];
+    const double others = jumps_[spring.row] - own * forces_[spring.row];
+    const double left = 1.0 - spring.stiffness * own;
+    if (left != 0.0) add_force(spring.row, spring.stiffness * others / left - forces_[spring.row]);
+  }
+
+  static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others, bool stays_closed,
+                              ContactStatus& status) {
+    const ContactLaw& law = point.law;
+    const double normal = own(0, 0) + (law.penalised ? 1.0 / (point.weight * law.augmentation) : 0.0);
+    status = ContactStatus::open;
+    if (!(normal > 0.0) || (others[0] >= 0.0 && !stays_closed)) return Vector3d::Zero();
+    if (point.rows == 1) {
+      status = ContactStatus::sliding;
+      return {-others[0] / normal, 0.0, 0.0};
+    }
+    const Vector3d stuck = sticking_force(point, own, normal, others);
+    status = ContactStatus::sticking;
+    if (stuck[0] > 0.0 && stuck.tail<2>().norm() <= law.friction * stuck[0]) return stuck;
+    status = ContactStatus::sliding;
+    return sliding_force(point, own, normal, others, stuck.tail<2>());
+  }
+
+  static Vector3d sticking_force(const CondensedPoint& point, const Matrix3d& own, double normal, const Vector3d& others) {
+    Matrix3d matrix = own;
+    matrix(0, 0) = normal;
+    if (point.law.friction_penalised)
+      for (int c = 1; c < point.rows; ++c) matrix(c, c) += 1.0 / (point.weight * point.law.friction_augmentation);
+    Vector3d force = Vector3d::Zero();
+    force.head(point.rows) = -matrix.topLeftCorner(point.rows, point.rows).fullPivLu().solve(others.head(point.rows));
+    return force;
+  }
+
+  /// Friction along -e, where e is the direction of the slip that goes with it.
+  static Vector3d sliding_force(const CondensedPoint& point, const Matrix3d& own, double normal, const Vector3d& others,
+                                const Vector2d& against) {
+    Vector2d direction = against.norm() > 0.0 ? Vector2d(-against.normalized()) : Vector2d(1.0, 0.0);
+    double pressing = 0.0;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const double left = normal - point.law.friction * own.row(0).tail<2>().dot(direction);
+      pressing = std::max(0.0, -others[0] / (left > 0.1 * normal ? left : normal));
+      const Vector2d shear = -point.law.friction * pressing * direction;
+      const Vector2d slip = others.tail<2>() + own.col(0).tail<2>() * pressing + own.bottomRightCorner<2, 2>() * shear;
+      // Without slip the force holds as it is; a turn by half keeps the direction from swinging.
+      if (!(slip.norm() > 0.0)) break;
+      const Vector2d next = (direction + slip.normalized()).norm() > turn_tolerance ? (direction + slip.normalized()).normalized() : direction;
+      const double change = (next - direction).norm();
+      direction = next;
+      if (change < turn_tolerance) break;
+    }
+    Vector3d force(pressing, 0.0, 0.0);
+    force.tail<2>() = -point.law.friction * pressing * direction;
+    return force;
+  }
+
+  void take_multipliers() {
+    state_.multipliers.setZero();
+    for (const CondensedPoint& point : problem_.points) {
+      if (point.node_count == 0) continue;
+      const int first = point.nodes[0] * problem_.components;
+      for (int c = 0; c < point.rows; ++c) state_.multipliers[first + c] = (c == 0 ? 1.0 : -1.0) * forces_[point.first_row + c] / point.weight;
+    }
+  }
+
+  SchurComplement& schur_;
+  const CondensedProblem& problem_;
+  CondensedState& state_;
+  Eigen::VectorXd forces_;
+  Eigen::VectorXd jumps_;
+};
+
+}  // namespace
+
+bool relax_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+  const bool on_nodes = std::ranges::all_of(problem.points, [](const CondensedPoint& point) { return point.rows == 0 || point.node_count == 1; });
+  if (!on_nodes) return false;
+  Relaxation(schur, problem, state).run();
+  return true;
+}
+
+}  // namespace comma::solver
