@@ -9,15 +9,16 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int most_sweeps = 2000;
 /// Sweeps end when forces change by less than this share of the largest: statuses then are those of the solution.
 constexpr double force_tolerance = 1e-7;
-/// Of the direction of slip at one point.
-constexpr int most_turns = 30;
+/// At one point.
+constexpr int most_turns = 100;
 constexpr double turn_tolerance = 1e-10;
+/// A point that gives way less than this share of what the softest one does is held by conditions on displacements.
+constexpr double held_compliance = 1e-9;
 
 class Relaxation {
  public:
@@ -44,6 +45,8 @@ class Relaxation {
     for (Index row = 0; row < problem_.held.size(); ++row)
       if (problem_.held[row] != 0.0) rows.push_back(static_cast<int>(row));
     schur_.require(rows);
+    for (const CondensedPoint& point : problem_.points)
+      if (point.rows > 0) largest_compliance_ = std::max(largest_compliance_, schur_.column(point.first_row)[point.first_row]);
     for (Index row = 0; row < problem_.held.size(); ++row)
       if (problem_.held[row] != 0.0) jumps_ -= problem_.held[row] * schur_.column(static_cast<int>(row));
     for (const CondensedPoint& point : problem_.points)
@@ -68,6 +71,7 @@ class Relaxation {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) return 0.0;
     const Matrix3d own = own_compliance(point);
+    if (!(own(0, 0) > held_compliance * largest_compliance_)) return 0.0;
     Vector3d present = Vector3d::Zero();
     Vector3d others = Vector3d::Zero();
     for (int c = 0; c < point.rows; ++c) {
@@ -76,7 +80,7 @@ class Relaxation {
     }
     others -= own * present;
     const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
-    const Vector3d wanted = local_force(point, own, others, stays_closed, state_.statuses[p]);
+    const Vector3d wanted = local_force(point, own, others, present, stays_closed, state_.statuses[p]);
     for (int c = 0; c < point.rows; ++c) add_force(point.first_row + c, wanted[c] - present[c]);
     return (wanted - present).cwiseAbs().maxCoeff();
   }
@@ -89,8 +93,8 @@ class Relaxation {
     if (left != 0.0) add_force(spring.row, spring.stiffness * others / left - forces_[spring.row]);
   }
 
-  static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others, bool stays_closed,
-                              ContactStatus& status) {
+  static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others, const Vector3d& present,
+                              bool stays_closed, ContactStatus& status) {
     const ContactLaw& law = point.law;
     const double normal = own(0, 0) + (law.penalised ? 1.0 / (point.weight * law.augmentation) : 0.0);
     status = ContactStatus::open;
@@ -103,7 +107,7 @@ class Relaxation {
     status = ContactStatus::sticking;
     if (stuck[0] > 0.0 && stuck.tail<2>().norm() <= law.friction * stuck[0]) return stuck;
     status = ContactStatus::sliding;
-    return sliding_force(point, own, normal, others, stuck.tail<2>());
+    return sliding_force(point, own, normal, others, present);
   }
 
   static Vector3d sticking_force(const CondensedPoint& point, const Matrix3d& own, double normal, const Vector3d& others) {
@@ -116,26 +120,33 @@ class Relaxation {
     return force;
   }
 
-  /// Friction along -e, where e is the direction of the slip that goes with it.
-  static Vector3d sliding_force(const CondensedPoint& point, const Matrix3d& own, double normal, const Vector3d& others,
-                                const Vector2d& against) {
-    Vector2d direction = against.norm() > 0.0 ? Vector2d(-against.normalized()) : Vector2d(1.0, 0.0);
-    double pressing = 0.0;
+  /// Projections on the cone of friction of what would undo the jump (De Saxce and Feng, Mathematical and Computer Modelling 28,
+  /// 1998), which come to rest at the law of Coulomb.
+  static Vector3d sliding_force(const CondensedPoint& point, Matrix3d own, double normal, const Vector3d& others, Vector3d force) {
+    own(0, 0) = normal;
+    if (point.law.friction_penalised)
+      for (int c = 1; c < point.rows; ++c) own(c, c) += 1.0 / (point.weight * point.law.friction_augmentation);
+    const double friction = point.law.friction;
+    const double stiffness = 1.0 / own.trace();
     for (int turn = 0; turn < most_turns; ++turn) {
-      const double left = normal - point.law.friction * own.row(0).tail<2>().dot(direction);
-      pressing = std::max(0.0, -others[0] / (left > 0.1 * normal ? left : normal));
-      const Vector2d shear = -point.law.friction * pressing * direction;
-      const Vector2d slip = others.tail<2>() + own.col(0).tail<2>() * pressing + own.bottomRightCorner<2, 2>() * shear;
-      // Without slip the force holds as it is; a turn by half keeps the direction from swinging.
-      if (!(slip.norm() > 0.0)) break;
-      const Vector2d next = (direction + slip.normalized()).norm() > turn_tolerance ? (direction + slip.normalized()).normalized() : direction;
-      const double change = (next - direction).norm();
-      direction = next;
-      if (change < turn_tolerance) break;
+      Vector3d jump = others + own * force;
+      jump[0] += friction * jump.tail<2>().norm();
+      const Vector3d next = on_cone(force - stiffness * jump, friction);
+      const double change = (next - force).norm();
+      force = next;
+      if (change <= turn_tolerance * force.norm()) break;
     }
-    Vector3d force(pressing, 0.0, 0.0);
-    force.tail<2>() = -point.law.friction * pressing * direction;
     return force;
+  }
+
+  static Vector3d on_cone(const Vector3d& force, double friction) {
+    const double shear = force.tail<2>().norm();
+    if (shear <= friction * force[0]) return force;
+    if (friction * shear <= -force[0]) return Vector3d::Zero();
+    Vector3d result;
+    result[0] = (force[0] + friction * shear) / (1.0 + friction * friction);
+    result.tail<2>() = friction * result[0] / shear * force.tail<2>();
+    return result;
   }
 
   void take_multipliers() {
@@ -150,6 +161,7 @@ class Relaxation {
   SchurComplement& schur_;
   const CondensedProblem& problem_;
   CondensedState& state_;
+  double largest_compliance_ = 0.0;
   Eigen::VectorXd forces_;
   Eigen::VectorXd jumps_;
 };
