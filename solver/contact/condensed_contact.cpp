@@ -88,11 +88,7 @@ class CondensedSolver {
 
   bool relax() {
     rubbing_ = Rubbing::by_law;
-    if (!relax_condensed(schur_, problem_, state_)) return false;
-    number_unknowns();
-    require_columns();
-    evaluate();
-    return true;
+    return relax_condensed(schur_, problem_, state_, jumps_);
   }
 
   /// Iterates until statuses stay and nothing is left of the equations; counts on.

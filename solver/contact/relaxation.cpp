@@ -25,7 +25,7 @@ class Relaxation {
   Relaxation(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
       : schur_(schur), problem_(problem), state_(state), forces_(Eigen::VectorXd::Zero(problem.free.size())), jumps_(problem.free) {}
 
-  void run() {
+  Eigen::VectorXd run() {
     start();
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       double change = 0.0;
@@ -34,6 +34,7 @@ class Relaxation {
       if (change <= force_tolerance * forces_.cwiseAbs().maxCoeff()) break;
     }
     take_multipliers();
+    return jumps_;
   }
 
  private:
@@ -85,13 +86,8 @@ class Relaxation {
     return (wanted - present).cwiseAbs().maxCoeff();
   }
 
-  void visit(const CondensedSpring& spring) {
-    // force = stiffness * jump, jump = others + own * force.
-    const double own = schur_.column(spring.row)[spring.row];
-    const double others = jumps_[spring.row] - own * forces_[spring.row];
-    const double left = 1.0 - spring.stiffness * own;
-    if (left != 0.0) add_force(spring.row, spring.stiffness * others / left - forces_[spring.row]);
-  }
+  /// As it stands now: solved for, the force would have no bound where contact has not yet taken the body's weight.
+  void visit(const CondensedSpring& spring) { add_force(spring.row, spring.stiffness * jumps_[spring.row] - forces_[spring.row]); }
 
   static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others, const Vector3d& present,
                               bool stays_closed, ContactStatus& status) {
@@ -168,10 +164,10 @@ class Relaxation {
 
 }  // namespace
 
-bool relax_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+bool relax_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state, Eigen::VectorXd& jumps) {
   const bool on_nodes = std::ranges::all_of(problem.points, [](const CondensedPoint& point) { return point.rows == 0 || point.node_count == 1; });
   if (!on_nodes) return false;
-  Relaxation(schur, problem, state).run();
+  jumps = Relaxation(schur, problem, state).run();
   return true;
 }
 
