@@ -34,6 +34,7 @@ class Relaxation {
       if (change <= force_tolerance * forces_.cwiseAbs().maxCoeff()) break;
     }
     take_multipliers();
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) clean_jumps(p);
     return jumps_;
   }
 
@@ -143,6 +144,16 @@ class Relaxation {
     result[0] = (force[0] + friction * shear) / (1.0 + friction * friction);
     result.tail<2>() = friction * result[0] / shear * force.tail<2>();
     return result;
+  }
+
+  /// Jumps that the law gives at once are differences of far larger ones: the law knows them better.
+  void clean_jumps(std::size_t p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (state_.statuses[p] == ContactStatus::open || point.rows == 0) return;
+    const auto by_penalty = [&](int row, double augmentation) { return -forces_[row] / (point.weight * augmentation); };
+    jumps_[point.first_row] = point.law.penalised ? by_penalty(point.first_row, point.law.augmentation) : 0.0;
+    for (int row = point.first_row + 1; row < point.first_row + point.rows && state_.statuses[p] == ContactStatus::sticking; ++row)
+      jumps_[row] = point.law.friction_penalised ? by_penalty(row, point.law.friction_augmentation) : 0.0;
   }
 
   void take_multipliers() {
