@@ -5,6 +5,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/nonlinear/linear_static_analysis.hpp"
 
@@ -48,7 +49,10 @@ Product meca_statique(const Call& call, Context& context) {
   const auto wanted = new_instants(instants(call), product->result);
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
+  warn_of_locking(call, product->problem, context);
+  const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
+  warn_of_indefinite_stiffness(call, before, context);
   return product;
 }
 

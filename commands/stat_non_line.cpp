@@ -5,6 +5,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -104,7 +105,10 @@ Product stat_non_line(const Call& call, Context& context) {
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
+  warn_of_locking(call, product->problem, context);
+  const solver::Counters before = context.counters;
   solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context));
+  warn_of_indefinite_stiffness(call, before, context);
   return product;
 }
 

@@ -90,6 +90,7 @@ std::string to_json(const Report& report) {
                              {"diagnostics", list_of(report.diagnostics)},
                              {"counters",
                               {{"factorisations", counters.factorisations},
+                               {"indefinite_factorisations", counters.indefinite_factorisations},
                                {"solves", counters.solves},
                                {"newton_iterations", counters.newton_iterations},
                                {"contact_iterations", counters.contact_iterations},

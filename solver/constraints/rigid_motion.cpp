@@ -20,6 +20,8 @@ constexpr std::size_t most_nodes_shown = 6;
 constexpr std::size_t most_dofs_shown = 4;
 /// Entries of a null vector below this part of its largest belong to nodes that follow rather than move.
 constexpr double moving = 1e-3;
+/// A motion is held by something if it takes more energy than rounding makes: this for each unknown, relative to the stiffness.
+constexpr double rounding = 1e-14;
 
 /// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by
 /// conditions).
@@ -72,6 +74,11 @@ std::string remedy_for(const std::vector<RigidMotion>& motions) {
   return fmt::format("{}, or add {}", fmt::join(wanted, " and "), motions.size() == 1 ? "a spring" : "springs");
 }
 
+std::string weakness_remedy(double tolerance) {
+  return fmt::format("; or, if the supports are that weak or the body that slender on purpose, let pivots lose more than {:.0f} digits",
+                     1.0 - std::log10(tolerance));
+}
+
 /// The null vector of a part by inverse iteration on the equilibrated matrix, as a displacement of all degrees of
 /// freedom.
 Eigen::VectorXd null_vector(const Elimination& elimination, const SymmetricMatrix& stiffness,
@@ -122,7 +129,8 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
   }
   if (part.nodes.size() > names.size()) names.push_back("...");
   const std::string count = part.nodes.size() == 1 ? "1 node" : fmt::format("{} nodes", part.nodes.size());
-  return fmt::format("nothing holds {} ({}): {}", fmt::join(names, ", "), count, fmt::join(part.motions, ", "));
+  return fmt::format("{} holds {} ({}): {}", part.held_weakly ? "hardly anything" : "nothing", fmt::join(names, ", "), count,
+                     fmt::join(part.motions, ", "));
 }
 
 }  // namespace
@@ -147,6 +155,10 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
     part.nodes = nodes_moved(dofs, elimination, unknowns);
     for (const RigidMotion& motion : motions) part.motions.push_back(motion.text(mesh.dimension));
     part.remedy = remedy_for(motions);
+    const double noise = rounding * static_cast<double>(unknowns.size());
+    part.held_weakly =
+        free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, noise).size() < motions.size();
+    if (part.held_weakly) part.remedy += weakness_remedy(tolerance);
     result.push_back(std::move(part));
   }
   return result;

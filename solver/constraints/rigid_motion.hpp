@@ -18,6 +18,7 @@ struct FreePart {
   std::vector<int> nodes;            ///< those that move, rising
   std::vector<std::string> motions;  ///< "translation along X", "rotation about Z through (0, 50)", ...
   bool rigid = true;                 ///< false: a mechanism; its one motion names the degrees of freedom that move most
+  bool held_weakly = false;          ///< something holds a motion, but by less than the digits that a pivot may lose
   std::string remedy;                ///< "impose DX on one of its nodes, or add a spring"
 };
 

@@ -20,6 +20,7 @@ namespace comma::solver {
 /// Work counters, as in the JSON report, and the seconds spent on the parts of a solution.
 struct Counters {
   long factorisations = 0;
+  long indefinite_factorisations = 0;  ///< of a reduced tangent that is not positive definite
   long solves = 0;
   long newton_iterations = 0;
   long contact_iterations = 0;

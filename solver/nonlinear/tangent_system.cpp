@@ -86,6 +86,7 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   if (report.verdict == FactorVerdict::singular) {
     throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
+  if (report.verdict == FactorVerdict::indefinite) ++counters_.indefinite_factorisations;
   measure_rows(reduced);
   factorised_ = true;
 }

@@ -17,6 +17,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"a suite or one of its benches (statics): {', '.join(suites.names())}")
     parser.add_argument("--quick", action="store_true", help="fewer and coarser meshes: under a minute")
     parser.add_argument("--output", type=Path, default=Path("bench"), metavar="DIR", help="where results go (./bench)")
+    parser.add_argument("--publish", action="store_true", help="put the report and some charts into docs/ as well")
     parser.add_argument("--comma", type=Path, default=ROOT / "build/bin/comma", help="the program that is measured")
     parser.add_argument("--sizes", help="block: cells along its short edge, such as 10,20,40")
     parser.add_argument("--repeat", type=int, default=1, help="block: runs of each size; the fastest counts")

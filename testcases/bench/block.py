@@ -73,19 +73,16 @@ def run_comma(comma: Path, folder: Path, run: BlockRun) -> None:
     elif wall < run.wall:
         report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
         run.wall, run.memory = wall, report["peak_memory_bytes"]
-        run.phases = report.get("phases") or _phases_by_command(report)
+        run.phases = _phases(report)
 
 
-def _phases_by_command(report: dict) -> dict[str, float]:
-    """Times by command, for a program that does not report its phases."""
+def _phases(report: dict) -> dict[str, float]:
+    """Reading and post-processing by their commands, the phases of the linear system between them."""
     seconds: dict[str, float] = {}
     for command in report["commands"]:
         seconds[command["name"]] = seconds.get(command["name"], 0.0) + command["seconds"]
-    return {
-        "reading": seconds.get("LIRE_MAILLAGE", 0.0),
-        "solving, all": seconds.get("MECA_STATIQUE", 0.0),
-        "post-processing": seconds.get("CALC_CHAMP", 0.0),
-    }
+    between = report.get("phases") or {"solving, all": seconds.get("MECA_STATIQUE", 0.0)}
+    return {"reading": seconds.get("LIRE_MAILLAGE", 0.0), **between, "post-processing": seconds.get("CALC_CHAMP", 0.0)}
 
 
 def read_displacements(path: Path) -> list[tuple[float, ...]]:

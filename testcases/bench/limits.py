@@ -72,7 +72,8 @@ def _locking() -> Limit:
              (("TRIA3", 16), ("QUAD4", 16), ("TRIA6", 8), ("QUAD8", 8), ("QUAD9", 8))]
     solid = [Series(family, family, "3D", size) for family, size in
              (("TETRA4", 6), ("HEXA8", 6), ("TETRA10", 4), ("HEXA20", 4), ("HEXA27", 4))]
-    reduced = [Series("QUAD8 SI", "QUAD8", "D_PLAN_SI", 8), Series("HEXA20 SI", "HEXA20", "3D_SI", 4)]
+    reduced = [Series("QUAD8 SI", "QUAD8", "D_PLAN_SI", 8), Series("TETRA10 SI", "TETRA10", "3D_SI", 4),
+               Series("HEXA20 SI", "HEXA20", "3D_SI", 4)]
     return Limit(
         "locking", "Locking as NU goes to 1/2 (Lamé's cylinder)", "1/2 - NU", "displacement", "lame_cylinder",
         (0.3, 0.49, 0.499, 0.4999, 0.49999, 0.499999, 0.4999999), lambda value: 0.5 - value,

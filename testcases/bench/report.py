@@ -2,16 +2,20 @@
 from __future__ import annotations
 
 import csv
+import re
+import shutil
 from pathlib import Path
 
 from charts import series_of
 from limits import Limit
 from orders import expected, falls_short, observed
-from run import Measurement, machine
+from run import HERE, Measurement, machine
 from scenes import Scene
 
 SceneRuns = list[tuple[Scene, list[Measurement]]]
 LimitRuns = list[tuple[Limit, list[tuple[str, float, Measurement]]]]
+
+PUBLISHED = ("cylinder_3d", "plate_with_hole", "manufactured", "solvers", "locking", "slender", "aspect", "stiff_held", "stiff_pulled")
 
 # An error that a user would take for an answer: a tenth, or where elements have the solution exactly, a millionth.
 WRONG, WRONG_IF_EXACT = 0.1, 1e-6
@@ -28,13 +32,31 @@ def write(scene_runs: SceneRuns, limit_runs: LimitRuns, folder: Path, seconds: f
     (folder / "report.md").write_text("\n".join(parts), encoding="utf-8")
 
 
+def publish(folder: Path) -> None:
+    """Makes the report docs/bench.md, with the charts that say most in docs/bench/; the others are left out."""
+    docs = HERE.parent.parent / "docs"
+    (docs / "bench").mkdir(exist_ok=True)
+    lines = []
+    for line in (folder / "report.md").read_text(encoding="utf-8").splitlines():
+        chart = re.fullmatch(r"!\[(.*)\]\((.*)\.svg\)", line)
+        if chart and chart[2] not in PUBLISHED:
+            continue
+        if chart:
+            shutil.copy(folder / f"{chart[2]}.svg", docs / "bench")
+            line = f"![{chart[1]}](bench/{chart[2]}.svg)"
+        lines.append(line)
+    text = re.sub(r"\n{3,}", "\n\n", "\n".join(lines))
+    (docs / "bench.md").write_text(text + "\n", encoding="utf-8")
+
+
 def _head(seconds: float, quick: bool) -> str:
     mode = "quick mode, " if quick else ""
     return (
         f"# Error against time and memory\n\nWritten by `./comma bench{' --quick' if quick else ''}` ({mode}{seconds:.0f} s, "
         f"{machine()}). Every run is a whole process; its time leaves out the commands that measure the error. Errors are "
         "relative; that in the energy norm is the root of the relative error of the energy. An order is the slope over "
-        "the three finest meshes; **bold**: more than 1/4 under theory. All runs: runs.csv.\n"
+        "the three finest meshes, that of theory in brackets; **bold**: more than 1/4 under it. Times are those of a machine that other "
+        "work may have shared. testcases/bench/README.md says what the scenes are and what the figures show.\n"
     )
 
 
@@ -108,11 +130,20 @@ def _limit_part(limit: Limit, rows: list[tuple[str, float, Measurement]]) -> str
     for label in dict.fromkeys(row[0] for row in rows):
         cells = [_cell(limit, run) for name, _, run in rows if name == label]
         text += f"| {label} | " + " | ".join(cells) + " |\n"
-    said = list(dict.fromkeys((run.status, run.said) for _, _, run in rows if run.said))
-    text += "".join(f"\nExit {status}: \"{message}\"\n" for status, message in said[:6])
+    said = _different_sayings(rows)
+    text += "".join(f"\nExit {status}{'*' if status == 0 else ''}: \"{message}\"\n" for status, message in said)
     silent = silent_errors(limit, rows)
     bound = WRONG_IF_EXACT if limit.exact else WRONG
     return text + f"\nWrong by more than {bound:g} without a word: {len(silent)} of {len(rows)}.\n"
+
+
+def _different_sayings(rows: list[tuple[str, float, Measurement]]) -> list[tuple[int, str]]:
+    """Exit status and message, one of each kind: those that differ in numbers and names alone count as one."""
+    kinds: dict[tuple[int, str], str] = {}
+    for _, _, run in rows:
+        if run.said:
+            kinds.setdefault((run.status, re.sub(r"[A-Z]*[0-9].*", "", run.said)), run.said)
+    return [(status, message) for (status, _), message in kinds.items()]
 
 
 def _cell(limit: Limit, run: Measurement) -> str:

@@ -45,7 +45,7 @@ class Measurement:
     memory: int  # bytes, the largest resident size
     errors: dict[str, float] = field(default_factory=dict)
     phases: dict[str, float] = field(default_factory=dict)
-    said: str = ""  # the first error, or the first alarm
+    said: str = ""  # the first error, or all alarms
 
 
 def command_file(case: Case) -> str:
@@ -98,11 +98,10 @@ def _measuring_seconds(report: dict) -> float:
 
 
 def _said(report: dict) -> str:
-    for severity in ("error", "alarm"):
-        for diagnostic in report["diagnostics"]:
-            if diagnostic["severity"] == severity:
-                return diagnostic["message"]
-    return ""
+    """The first error; where there is none, all alarms."""
+    errors = [diagnostic["message"] for diagnostic in report["diagnostics"] if diagnostic["severity"] == "error"]
+    alarms = [diagnostic["message"] for diagnostic in report["diagnostics"] if diagnostic["severity"] == "alarm"]
+    return errors[0] if errors else "; ".join(alarms)
 
 
 def _errors(table: str) -> dict[str, float]:

@@ -82,4 +82,6 @@ def run(options: argparse.Namespace, chosen: list[str]) -> None:
         charts.draw_limit(limit, rows, options.output)
     seconds = time.perf_counter() - start
     report.write(scene_runs, limit_runs, options.output, seconds, options.quick)
+    if options.publish:
+        report.publish(options.output)
     print(f"{options.output}/report.md, runs.csv and charts, after {seconds:.0f} s")

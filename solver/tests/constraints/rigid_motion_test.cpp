@@ -82,6 +82,17 @@ TEST_CASE("a body that slides names the direction and the remedy") {
   CHECK(error.hint() == "impose DX on one of its nodes, or add a spring");
 }
 
+TEST_CASE("a body that something far weaker than itself holds is told from a free one") {
+  Truss truss(square, braced, {relation({{2, dy}}, -1.0), relation({{3, dy}}, -1.0)});
+  CHECK_FALSE(truss.free_parts().front().held_weakly);
+  truss.stiffness.coeffRef(0, 0) *= 1.0 + 1e-10;  // a spring along X at the first node
+  const auto parts = truss.free_parts();
+  REQUIRE(parts.size() == 1);
+  CHECK(parts[0].held_weakly);
+  CHECK(parts[0].motions == Strings{"translation along X"});
+  CHECK_THAT(parts[0].remedy, Catch::EndsWith("let pivots lose more than 8 digits"));
+}
+
 TEST_CASE("a body on a hinge turns about it") {
   const auto parts = Truss(square, braced, {relation({{1, dx}}, 0.0), relation({{1, dy}}, 0.0)}).free_parts();
   REQUIRE(parts.size() == 1);

@@ -136,3 +136,15 @@ TEST_CASE("linear statics takes no unilateral conditions", "[linear-statics]") {
   plate.scene.bound({plate.corner()}, Component::dx, 1.0, [](const Point&, double) { return 0.0; });
   CHECK_THROWS_WITH(solve(plate.scene.problem, {0.0}), Catch::Contains("unilateral"));
 }
+
+TEST_CASE("a stiffness that is not positive definite is counted", "[linear-statics]") {
+  Scene scene;
+  const int free = scene.node("A", 0, 0);
+  scene.ground_spring("S1", free, 1e3, 1e3);
+  scene.force(free, Component::dx, 1.0);
+  CHECK(solve(scene.problem, {0.0}).counters.indefinite_factorisations == 0);
+  scene.ground_spring("S2", free, -3e3, 1e3);
+  const auto [result, counters] = solve(scene.problem, {0.0});
+  CHECK(counters.indefinite_factorisations == 1);
+  CHECK(value(result, 0, "DEPL", free, "DX") == Approx(1.0 / (1e3 - 3e3)));
+}

@@ -1,0 +1,16 @@
+// What the commands that solve tell about a solution that may be far from that of the body although the equations were solved.
+#pragma once
+
+#include "commands/context.hpp"
+#include "interpreter/call.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+
+namespace comma::commands {
+
+/// Alarm `near-incompressible`: cells that lock.
+void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+
+/// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive definite.
+void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
+
+}  // namespace comma::commands
