@@ -19,15 +19,10 @@ constexpr double not_paired = -1.0;
 constexpr double open = 0.0;
 constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
-constexpr double interpenetrating = 3.0;
-
-bool faces_master(PairingStatus status) {
-  return status == PairingStatus::paired || status == PairingStatus::watched || status == PairingStatus::too_deep;
-}
+constexpr double overlapping = 3.0;
 
 double status_of(const NodeContact& contact) {
-  if (contact.pair.status == PairingStatus::too_deep) return interpenetrating;
-  if (contact.pair.status == PairingStatus::watched) return not_paired;
+  if (contact.pair.status == PairingStatus::watched) return contact.gap < 0.0 ? overlapping : not_paired;
   if (contact.sticking) return sticking;
   return contact.normal_force > 0.0 ? sliding : open;
 }
@@ -42,7 +37,7 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
   for (const NodeContact& contact : contacts) {
     const ContactPair& pair = contact.pair;
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
-    if (!faces_master(pair.status)) {
+    if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
       // A node that another zone holds keeps what that zone says.
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;

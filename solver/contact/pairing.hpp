@@ -17,7 +17,6 @@ namespace comma::solver {
 enum class PairingStatus : std::uint8_t {
   paired,
   watched,   ///< as if paired, in a zone where contact is not enforced
-  too_deep,  ///< watched, and deeper in the facet than the zone's tolerance
   excluded,  ///< by the user (SANS_GROUP_NO)
   too_far,   ///< no master node within the pairing distance (DIST_APPA)
   outside    ///< its projection falls outside the nearest facet by more than the tolerance (TOLE_PROJ_EXT)

@@ -162,6 +162,7 @@ class StaticAnalysis {
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
+    if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     append(std::move(step));
   }
 
@@ -208,6 +209,7 @@ class StaticAnalysis {
     if (mixed_) mixed_->start_step(now_.state.u);
     start_.clear();
     for (const int node : contact_nodes_) start_.push_back(displacement(node));
+    const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
@@ -219,7 +221,7 @@ class StaticAnalysis {
         now_.conditions = std::move(next);
         const int limit = active_set_limit();
         const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
-        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
+        iterations = is_weak ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -309,11 +311,7 @@ class StaticAnalysis {
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
-    if (mixed_) {
-      step.fields.emplace("CONT_NOEU", mixed_->contact_state(now_.state.u, positions()));
-    } else if (problem_.contact) {
-      step.fields.emplace("CONT_NOEU", contact_state());
-    }
+    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));
   }
@@ -357,7 +355,16 @@ class StaticAnalysis {
     }
   }
 
+  /// How the surfaces stand before anything presses.
+  NodalField initial_contact_state(double instant) {
+    pair(instant);
+    now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
+    resize_multipliers(now_.conditions);
+    return contact_state();
+  }
+
   NodalField contact_state() const {
+    if (mixed_) return mixed_->contact_state(now_.state.u, positions());
     const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
     std::vector<double> gaps(now_.conditions.pairs.size(), absent);
     for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
@@ -369,8 +376,6 @@ class StaticAnalysis {
     for (const auto& [k, pair] : watched_pairs(now)) {
       pairs[k] = pair;
       gaps[k] = gap_now(pair, now);
-      if (-gaps[k] > problem_.contact->zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance)
-        pairs[k].status = PairingStatus::too_deep;
     }
     return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
   }
