@@ -36,12 +36,13 @@ class StaticAnalysis {
         result_(result),
         counters_(counters),
         dofs_(*problem.model),
-        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    if (problem.contact) newton_.use_algorithm(*problem.contact);
     require_symmetry();
     if (!is_mixed()) return;
     tangent_.allow_springs();
