@@ -37,6 +37,7 @@ CellGroups group_cells(const Model& model, const std::vector<int>& cells) {
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
+  if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
 }
@@ -88,7 +89,7 @@ CellMaterial elastic_material(const BlockInput& input, int cell) {
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
   const auto* isotropic = std::get_if<IsotropicElasticity>(elastic_material(input, cell).elasticity);
   if (isotropic == nullptr) {
-    throw Error("unsupported", fmt::format("the bar or beam on cell {} has an anisotropic material, but needs an isotropic one",
+    throw Error("unsupported", fmt::format("the bar, beam or plate on cell {} has an anisotropic material, but needs an isotropic one",
                                            input.model.mesh->cell_name(cell)));
   }
   return *isotropic;
