@@ -87,7 +87,8 @@ PlateRigidity rigidity_of(const PlateSection& section, const IsotropicModuli& ma
   const double h = section.thickness;
   const double plane = material.young / (1.0 - material.poisson * material.poisson);
   const double shear_modulus = 0.5 * material.young / (1.0 + material.poisson);
-  return {plane * h, plane * h * h * h / 12.0, material.poisson, shears ? 1.0 / (section.shear_factor * shear_modulus * h) : 0.0};
+  return {plane * h, plane * h * h * h / 12.0, material.poisson, section.offset,
+          shears ? 1.0 / (section.shear_factor * shear_modulus * h) : 0.0};
 }
 
 Eigen::Matrix3d plane_law(double rigidity, double poisson) {

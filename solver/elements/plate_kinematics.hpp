@@ -28,6 +28,7 @@ struct PlateRigidity {
   double membrane = 0.0;  ///< E h / (1 - nu^2)
   double bending = 0.0;   ///< E h^3 / 12 / (1 - nu^2)
   double poisson = 0.0;
+  double offset = 0.0;            ///< of the mid-surface from the surface of the nodes
   double shear_compliance = 0.0;  ///< 1 / (k G h); 0: the plate does not shear
 };
 
@@ -175,8 +176,9 @@ class PlateKinematics {
   /// T = div M, with the moments of the mid-surface.
   std::array<WideRow, 2> shear_rows(const Gradients& a, const Gradients& b) const {
     const double nu = rigidity_.poisson, half = 0.5 * (1.0 - nu);
-    return {rigidity_.bending * (a[xx] + nu * b[xy] + half * (a[yy] + b[xy])),
-            rigidity_.bending * (b[yy] + nu * a[xy] + half * (b[xx] + a[xy]))};
+    const double bending = rigidity_.bending + rigidity_.offset * rigidity_.offset * rigidity_.membrane;
+    return {bending * (a[xx] + nu * b[xy] + half * (a[yy] + b[xy])),
+            bending * (b[yy] + nu * a[xy] + half * (b[xx] + a[xy]))};
   }
 
   Amplitudes side_conditions() const {
