@@ -101,7 +101,8 @@ Eigen::VectorXd solve(const Body& body, const Eigen::VectorXd& force, Held&& hel
   }
   const Eigen::MatrixXd k = body.dense_stiffness();
   Eigen::VectorXd u = body.zero();
-  u(free) = Eigen::MatrixXd(k(free, free)).ldlt().solve(Eigen::VectorXd(force(free)));
+  const Eigen::VectorXd moved = Eigen::MatrixXd(k(free, free)).ldlt().solve(Eigen::VectorXd(force(free)));
+  u(free) = moved;
   return u;
 }
 
@@ -139,7 +140,9 @@ TEST_CASE("plates have constant strains and curvatures exactly, on distorted mes
   }
 }
 
-TEST_CASE("nodes inside a plate of constant strain and curvature are in equilibrium", "[elements]") {
+// Of thin plates alone: the rotations of plates with shear differ between cells that share a side, which costs them this equilibrium
+// on distorted meshes (Batoz and Katili, 1992).
+TEST_CASE("nodes inside a thin plate of constant strain and curvature are in equilibrium", "[elements]") {
   const Place place = tilted();
   for (const CellType type : cells) {
     const Body body = plate(rectangle(type, 2.0, 1.5, 3, 3, 0.25, place), Formulation::thin_plate, {.thickness = 0.05, .offset = 0.02, .drilling = 0.0});
@@ -208,8 +211,8 @@ TEST_CASE("a strip bends like a beam, and shears like one where the plate knows 
     for (int cell = 0; cell < 4; ++cell) {
       for (int point = 0; point < 4; ++point) {
         const double x = body.model.mesh->nodes[body.model.mesh->cell(cell)[point]][0];
-        CHECK(std::abs(forces.at(cell, point, 3) + load / width * (x - length)) < 1e-7 * load / width * length);
-        CHECK(std::abs(std::abs(forces.at(cell, point, 6)) - load / width) < 1e-7 * load / width);
+        CHECK(std::abs(forces.at(cell, point, 3) - load / width * (x - length)) < 1e-7 * load / width * length);
+        CHECK(std::abs(forces.at(cell, point, 6) - load / width) < 1e-7 * load / width);
       }
     }
   }
