@@ -16,23 +16,6 @@ namespace {
 using interpreter::DiagnosticError;
 using interpreter::Value;
 
-std::vector<int> columns_of(const Table& table, const Keywords& action) {
-  std::vector<int> columns;
-  for (const std::string& name : action.texts("NOM_PARA")) columns.push_back(column_of(table, name, action));
-  return columns;
-}
-
-Table with_columns(const Table& table, const std::vector<int>& columns) {
-  Table part;
-  part.title = table.title;
-  part.rows.resize(table.rows.size());
-  for (const int column : columns) {
-    part.columns.push_back(table.columns[static_cast<std::size_t>(column)]);
-    for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][static_cast<std::size_t>(column)]);
-  }
-  return part;
-}
-
 Table without_columns(const Table& table, const std::vector<int>& columns) {
   std::vector<int> kept;
   for (int i = 0; i < static_cast<int>(table.columns.size()); ++i) {
@@ -48,34 +31,6 @@ void rename(Table& table, const Keywords& action) {
     throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + names.back(), action.span_of("NOM_PARA"));
   }
   table.columns[static_cast<std::size_t>(column)] = names.back();
-}
-
-/// Numbers before texts, empty cells last, whatever the order of each kind.
-int rank(const Cell& cell) { return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0; }
-
-double number_of(const Cell& cell) {
-  const auto* integer = std::get_if<std::int64_t>(&cell);
-  return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(cell);
-}
-
-bool less(const Cell& a, const Cell& b) {
-  if (rank(a) != rank(b)) return rank(a) < rank(b);
-  if (rank(a) == 2) return false;
-  if (rank(a) == 1) return std::get<std::string>(a) < std::get<std::string>(b);
-  return number_of(a) < number_of(b);
-}
-
-void sort_rows(Table& table, const Keywords& action) {
-  const auto columns = columns_of(table, action);
-  const bool upwards = action.text("ORDRE") == "CROISSANT";
-  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
-    for (const int column : columns) {
-      const Cell &left = a[static_cast<std::size_t>(column)], &right = b[static_cast<std::size_t>(column)];
-      if (less(left, right)) return upwards;
-      if (less(right, left)) return !upwards;
-    }
-    return false;
-  });
 }
 
 Value value_of(const Cell& cell) {
@@ -139,10 +94,9 @@ Table reduce(const Table& table, const Keywords& action) {
 constexpr double key_precision = 1e-9;
 
 bool same_key(const Cell& a, const Cell& b) {
-  if (rank(a) != rank(b)) return false;
-  if (rank(a) != 0) return a == b;
-  const double x = number_of(a), y = number_of(b);
-  return std::abs(x - y) <= key_precision * std::max(std::abs(x), std::abs(y));
+  const auto x = number_in(a), y = number_in(b);
+  if (!x || !y) return a == b;
+  return std::abs(*x - *y) <= key_precision * std::max(std::abs(*x), std::abs(*y));
 }
 
 /// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second table's

@@ -67,6 +67,7 @@ struct ContactConcept : ConceptData {
 struct ResultConcept : ConceptData {
   solver::Result result;
   solver::StaticProblem problem;
+  std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
 };
 
 /// A field of its own (CREA_CHAMP) and what it lies on; `model` is null for a field that knows its mesh alone.

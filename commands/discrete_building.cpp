@@ -68,6 +68,12 @@ void check_element(const Keywords& assignment, const std::string& name, const Ch
                         assignment.span_of("CARA"), "the last letter of CARA is L on segments, N on points");
 }
 
+void check_symmetry(const Keywords& assignment, const std::string& name, const Characteristic& wanted) {
+  if (!wanted.diagonal || assignment.text("SYME") == "OUI") return;
+  throw DiagnosticError("wrong-combination", fmt::format("{}: {} is diagonal, so SYME=\"NON\" has no meaning", name, wanted.name),
+                        assignment.span_of("SYME"), "leave out SYME, or give all terms of a full matrix");
+}
+
 // The values of a rigid body (U4.42.01): its mass, then its inertia, then where it lies.
 solver::DiscreteInertia inertia_of(const Keywords& assignment, const Characteristic& wanted, bool plane) {
   const auto values = assignment.reals("VALE");
@@ -96,13 +102,15 @@ void assign(const Keywords& assignment, const Characteristic& wanted, const solv
   const solver::Mesh& mesh = *model.mesh;
   const Formulation formulation = model.formulations[cell];
   const auto values = assignment.reals("VALE");
+  const bool all_terms = assignment.text("SYME") == "NON";
   if (wanted.stiffness) {
-    const auto make = wanted.diagonal ? solver::diagonal_stiffness : solver::symmetric_stiffness;
+    const auto make = wanted.diagonal ? solver::diagonal_stiffness : all_terms ? solver::unsymmetric_stiffness : solver::symmetric_stiffness;
     properties.discrete[cell] = make(mesh, cell, formulation, values, frame, orientation);
   } else if (wanted.diagonal) {
     properties.masses[cell] = solver::rigid_mass(mesh, cell, formulation, inertia_of(assignment, wanted, is_plane(formulation)), frame, orientation);
   } else {
-    properties.masses[cell] = solver::symmetric_mass(mesh, cell, formulation, values, frame, orientation);
+    const auto make = all_terms ? solver::unsymmetric_mass : solver::symmetric_mass;
+    properties.masses[cell] = make(mesh, cell, formulation, values, frame, orientation);
   }
 }
 
@@ -168,6 +176,7 @@ void add_orientations(const Keywords& assignment, const solver::Model& model, Or
 void add_discrete_matrices(const Keywords& assignment, const std::string& name, const solver::Model& model,
                            const Orientations& orientations, solver::ElementProperties& properties) {
   const Characteristic wanted(assignment.text("CARA"));
+  check_symmetry(assignment, name, wanted);
   for (const int cell : selected_cells(assignment, *model.mesh)) {
     check_element(assignment, name, wanted, model, cell);
     const auto turned = orientations.find(cell);

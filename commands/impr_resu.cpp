@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
@@ -10,7 +11,9 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/statistics.hpp"
 #include "solver/io/aster_mesh_file.hpp"
+#include "solver/io/gmsh_writer.hpp"
 #include "solver/io/med_file.hpp"
+#include "solver/mesh/conversion.hpp"
 
 namespace comma::commands {
 
@@ -116,6 +119,12 @@ Part part_of(const Keywords& print, bool med) {
   return part;
 }
 
+void check_same_mesh(const std::vector<Part>& parts, std::size_t i, const Call& call) {
+  if (&parts[i].mesh == &parts.front().mesh) return;
+  throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
+                        "write them by several IMPR_RESU, each to a UNITE of its own");
+}
+
 // --- MED --------------------------------------------------------------------------------------------------------------------
 
 void write_med(const Call& call, const std::string& path) {
@@ -124,10 +133,7 @@ void write_med(const Call& call, const std::string& path) {
   std::vector<solver::NamedResult> results;
   std::string mesh_name = "MAIL";
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (&parts[i].mesh != &parts.front().mesh) {
-      throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
-                            "write them by several IMPR_RESU, each to a UNITE of its own");
-    }
+    check_same_mesh(parts, i, call);
     if (parts[i].mesh_alone) {
       mesh_name = parts[i].name;
     } else {
@@ -218,10 +224,76 @@ std::string text_of(const Keywords& print) {
   return text;
 }
 
-std::string mesh_text(const Keywords& print) {
+// The cells that MODELE gives an element, all without it.
+std::vector<int> written_cells(const Call& call, const solver::Mesh& mesh) {
+  std::vector<int> cells;
+  const solver::Model* model = call.has("MODELE") ? call.data<ModelConcept>("MODELE").model.get() : nullptr;
+  if (model != nullptr && model->mesh.get() != &mesh) {
+    throw DiagnosticError("different-mesh", "IMPR_RESU: MODELE lies on another mesh than what is written", call.span_of("MODELE"));
+  }
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (model == nullptr || model->components_of(cell) != 0) cells.push_back(cell);
+  }
+  return cells;
+}
+
+// FORMAT="ASTER" holds meshes, no fields: of a result, its mesh.
+std::string mesh_text(const Call& call, const Keywords& print) {
   const Part part = part_of(print, false);
-  if (part.mesh_alone) return solver::format_aster_mesh(part.mesh);
-  throw DiagnosticError("unsupported", "IMPR_RESU: FORMAT='ASTER' holds a mesh, no fields", print.span, "give MAILLAGE alone, or another FORMAT");
+  const auto cells = written_cells(call, part.mesh);
+  if (static_cast<int>(cells.size()) == part.mesh.cell_count()) return solver::format_aster_mesh(part.mesh);
+  return solver::format_aster_mesh(solver::restricted(part.mesh, cells));
+}
+
+// --- Gmsh -------------------------------------------------------------------------------------------------------------------
+
+// For each of Gmsh's values, which of the components of NOM_CMP it is; -1: none, it is 0.
+std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {
+  static const std::map<std::string, std::vector<int>> layouts = {{"VECT_2D", {0, 1, -1}},
+                                                                  {"VECT_3D", {0, 1, 2}},
+                                                                  {"TENS_2D", {0, 3, -1, 3, 1, -1, -1, -1, 2}},
+                                                                  {"TENS_3D", {0, 3, 4, 3, 1, 5, 4, 5, 2}}};
+  const std::vector<int>& layout = layouts.at(print.text("TYPE_CHAM"));
+  const auto needed = static_cast<std::size_t>(*std::ranges::max_element(layout)) + 1;
+  if (components == needed) return layout;
+  throw DiagnosticError("wrong-count", fmt::format("IMPR_RESU: TYPE_CHAM=\"{}\" needs {} components, and the field has {} of those of NOM_CMP",
+                                                   print.text("TYPE_CHAM"), needed, components), print.span_of("TYPE_CHAM"),
+                        "name them in NOM_CMP: X, Y, Z, or XX, YY, ZZ, XY, XZ, YZ");
+}
+
+void add_views(const Keywords& print, const Part& part, std::vector<solver::GmshView>& views) {
+  for (const solver::ResultStep& step : part.result.steps) {
+    for (const auto& [name, field] : step.fields) {
+      const auto& components = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+      const std::string label = name.empty() ? part.name : part.name + " " + name;
+      if (print.text("TYPE_CHAM") != "SCALAIRE") {
+        views.push_back({label, step.instant, step.order, &field, gmsh_layout(print, components.size())});
+        continue;
+      }
+      for (std::size_t c = 0; c < components.size(); ++c) views.push_back({label + " " + components[c], step.instant, step.order, &field, {static_cast<int>(c)}});
+    }
+  }
+}
+
+std::string gmsh_text(const Call& call) {
+  std::vector<Part> parts;
+  std::vector<solver::GmshView> views;
+  for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, false));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    check_same_mesh(parts, i, call);
+    add_views(call.factors("RESU")[i], parts[i], views);
+  }
+  const solver::Mesh& mesh = parts.front().mesh;
+  return solver::format_gmsh(mesh, written_cells(call, mesh), views);
+}
+
+// MED and text hold whole meshes here.
+void check_model(const Call& call, const std::string& format) {
+  if (!call.has("MODELE") || format == "GMSH" || format == "ASTER") return;
+  const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
+  if (static_cast<int>(written_cells(call, mesh).size()) == mesh.cell_count()) return;
+  throw DiagnosticError("unsupported", fmt::format("IMPR_RESU: FORMAT=\"{}\" writes all cells of a mesh, and MODELE has not all of them", format),
+                        call.span_of("MODELE"), "leave out MODELE, or name cells by GROUP_MA");
 }
 
 struct Format {
@@ -232,6 +304,7 @@ struct Format {
 Format format_named(const std::string& word) {
   if (word == "MED") return {med_unit, "rmed"};
   if (word == "ASTER") return {mesh_unit, "mail"};
+  if (word == "GMSH") return {mesh_unit, "msh"};
   return {text_unit, "resu"};
 }
 
@@ -242,12 +315,17 @@ Product impr_resu(const Call& call, Context& context) {
   const Format format = format_named(word);
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
   const auto path = context.files.output(unit, format.extension, format.unit);
+  check_model(call, word);
   if (word == "MED") {
     write_med(call, path.string());
     context.console.progress("  writes " + path.string());
     return nullptr;
   }
-  for (const Keywords& print : call.factors("RESU")) context.write(path, word == "ASTER" ? mesh_text(print) : text_of(print));
+  if (word == "GMSH") {
+    context.write(path, gmsh_text(call));
+    return nullptr;
+  }
+  for (const Keywords& print : call.factors("RESU")) context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));
   return nullptr;
 }
 

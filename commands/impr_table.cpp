@@ -1,30 +1,64 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "commands/commands.hpp"
+#include "commands/curves.hpp"
+#include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
 
 namespace {
 
-// The columns that NOM_PARA asks for, in its order.
-Table restricted(const Table& table, const std::vector<std::string>& names, const Call& call) {
-  Table part;
-  part.title = table.title;
-  part.rows.resize(table.rows.size());
-  for (const std::string& name : names) {
-    const int column = table.column(name);
-    if (column < 0) {
-      const std::string near = interpreter::nearest(name, table.columns);
-      throw interpreter::DiagnosticError("unknown-column", "IMPR_TABLE: the table has no column " + name, call.span_of("NOM_PARA"),
-                                         near.empty() ? "" : "did you mean " + near + "?");
-    }
-    part.columns.push_back(name);
-    for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][column]);
+using interpreter::DiagnosticError;
+
+// One table for each combination of values in the columns of PAGINATION, in the order in which they first come.
+std::vector<Table> pages_of(const Table& table, const Call& call) {
+  if (!call.has("PAGINATION")) return {table};
+  std::vector<int> columns;
+  for (const std::string& name : call.texts("PAGINATION")) columns.push_back(column_of(table, name, call, "PAGINATION"));
+  std::vector<Table> pages;
+  for (const auto& row : table.rows) {
+    const auto belongs = [&](const Table& page) {
+      return std::ranges::all_of(columns, [&](int column) {
+        return page.rows.front()[static_cast<std::size_t>(column)] == row[static_cast<std::size_t>(column)];
+      });
+    };
+    auto page = std::ranges::find_if(pages, belongs);
+    if (page == pages.end()) page = pages.insert(pages.end(), Table{table.title, table.columns, {}});
+    page->rows.push_back(row);
   }
-  return part;
+  return pages;
+}
+
+// FORMAT="XMGRACE": the first column against the second.
+std::string as_curve(const Table& table, const Call& call) {
+  if (table.columns.size() != 2) {
+    throw DiagnosticError("wrong-count", fmt::format("IMPR_TABLE: a curve needs two columns, and the table has {}", table.columns.size()), call.span,
+                          "name the columns of the abscissae and of the ordinates in NOM_PARA");
+  }
+  Curve curve;
+  curve.label = table.columns[1];
+  curve.x = numbers_in(table, 0, call);
+  curve.y = numbers_in(table, 1, call);
+  if (curve.x.size() != curve.y.size()) {
+    throw DiagnosticError("empty-cell", "IMPR_TABLE: a curve is made from a table with empty cells", call.span,
+                          "leave their rows out by FILTRE=_F(NOM_PARA=..., CRIT_COMP='NON_VIDE')");
+  }
+  Drawing drawing;
+  drawing.title = table.title;
+  drawing.x.label = table.columns[0];
+  drawing.curves.push_back(std::move(curve));
+  return grace_file(drawing);
+}
+
+TableLayout layout_of(const Call& call) {
+  TableLayout layout{call.text("SEPARATEUR"), call.text("FORMAT_R"), call.text("COMMENTAIRE"), call.text("COMM_PARA"),
+                     call.text("DEBUT_LIGNE"), call.text("FIN_LIGNE")};
+  if (call.text("FORMAT") == "AGRAF" && layout.names_comment.empty()) layout.names_comment = layout.comment;
+  return layout;
 }
 
 }  // namespace
@@ -32,13 +66,16 @@ Table restricted(const Table& table, const std::vector<std::string>& names, cons
 Product impr_table(const Call& call, Context& context) {
   constexpr int result_unit = 8;
   Table table = call.data<TableConcept>("TABLE").table;
-  if (call.has("NOM_PARA")) table = restricted(table, call.texts("NOM_PARA"), call);
-  const std::string comment = call.text("COMMENTAIRE");
-  if (call.has("TITRE")) table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n" + comment + " "));
-  const std::string format = call.has("FORMAT_R") ? call.text("FORMAT_R") : "E12.5";
-  const std::string separator = call.has("SEPARATEUR") ? call.text("SEPARATEUR") : " ";
-  const auto path = context.files.output(static_cast<int>(call.integer("UNITE")), "resu", result_unit);
-  context.write(path, format_table(table, separator, format, comment) + "\n");
+  for (const Keywords& filter : call.factors("FILTRE")) table = filtered(table, filter);
+  if (call.has("TRI")) sort_rows(table, call.factor("TRI"));
+  const TableLayout layout = layout_of(call);
+  if (call.has("TITRE")) table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n" + layout.comment + " "));
+  std::string text;
+  for (Table& page : pages_of(table, call)) {
+    if (call.has("NOM_PARA")) page = with_columns(page, columns_of(page, call));
+    text += call.text("FORMAT") == "XMGRACE" ? as_curve(page, call) : format_table(page, layout) + "\n";
+  }
+  context.write(context.files.output(static_cast<int>(call.integer("UNITE")), "resu", result_unit), text);
   return nullptr;
 }
 

@@ -10,9 +10,11 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/energies.hpp"
+#include "solver/fields/external_work.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/fields/mass_inertia.hpp"
+#include "solver/fields/statistics.hpp"
 #include "solver/loads/end_effect.hpp"
 
 namespace comma::commands {
@@ -168,6 +170,50 @@ void list_integrals(Table& table, const Call& call) {
   }
 }
 
+// --- extremes ---------------------------------------------------------------------------------------------------------------
+
+void add_extremes(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source) {
+  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, source.field);
+  const bool nodal = std::holds_alternative<solver::NodalField>(source.field);
+  for (const Part& part : parts_of(call, occurrence, source.mesh)) {
+    const std::vector<int> places = nodal ? source.mesh.nodes_of_cells(part.cells) : part.cells;
+    Row row = source.columns;
+    const Row place = place_columns(part);
+    row.insert(row.end(), place.begin(), place.end());
+    for (const std::string& name : occurrence.texts("NOM_CMP")) {
+      const auto found = solver::extremes(source.field, component_of(occurrence, components, name), std::span<const int>(places));
+      if (!found) {
+        throw DiagnosticError("unknown-component", fmt::format("POST_ELEM: nothing in {} carries {}", part.name, name), occurrence.span_of("NOM_CMP"));
+      }
+      for (const auto& [kind, extreme] : {std::pair("MAX", found->greatest), std::pair("MIN", found->least)}) {
+        row.emplace_back(fmt::format("{}_{}", kind, name), extreme.value);
+        if (nodal) row.emplace_back(fmt::format("NO_{}_{}", kind, name), table_node(source.mesh, extreme.place));
+        if (nodal) continue;
+        row.emplace_back(fmt::format("MA_{}_{}", kind, name), table_cell(source.mesh, extreme.place));
+        row.emplace_back(fmt::format("PT_{}_{}", kind, name), std::int64_t{extreme.point + 1});
+      }
+    }
+    table.add_row(row);
+  }
+}
+
+void list_extremes(Table& table, const Call& call) {
+  for (const Keywords& occurrence : call.factors("MINMAX")) {
+    for (const FieldSource& source : field_sources(occurrence)) add_extremes(table, call, occurrence, source);
+  }
+}
+
+// --- work -------------------------------------------------------------------------------------------------------------------
+
+void list_work(Table& table, const Call& call) {
+  const auto& result = call.data<ResultConcept>("RESULTAT").result;
+  const auto works = solver::external_work(result);
+  for (const solver::ResultStep* step : selected_steps(call, result)) {
+    const solver::ExternalWork& work = works[static_cast<std::size_t>(step - result.steps.data())];
+    table.add_row({{"NUME_ORDRE", std::int64_t{step->order}}, {"INST", step->instant}, {"TRAV_ELAS", work.elastic}, {"TRAV_REEL", work.real}});
+  }
+}
+
 // --- holes ------------------------------------------------------------------------------------------------------------------
 
 void list_areas(Table& table, const Call& call) {
@@ -189,6 +235,8 @@ Product post_elem(const Call& call, Context&) {
   if (call.has("ENER_TOTALE")) list_energies(table, call, "ENER_TOTALE", "ETOT_ELEM");
   if (call.has("MASS_INER")) list_masses(table, call);
   if (call.has("INTEGRALE")) list_integrals(table, call);
+  if (call.has("MINMAX")) list_extremes(table, call);
+  if (call.has("TRAV_EXT")) list_work(table, call);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);
   return product;
 }

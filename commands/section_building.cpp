@@ -4,10 +4,12 @@
 
 #include <initializer_list>
 #include <map>
+#include <utility>
 
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/section_shapes.hpp"
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::commands {
@@ -38,11 +40,24 @@ class Characteristics {
   bool has(const std::string& name) const { return values_.contains(name); }
   double get(const std::string& name, double otherwise) const { return has(name) ? values_.at(name) : otherwise; }
 
+  // One end of a beam whose section varies: names without the suffix of that end; those without any suffix belong to both. Names of
+  // the other end are left out.
+  Characteristics at_end(const std::string& suffix, const std::string& other) const {
+    Characteristics result = *this;
+    result.values_.clear();
+    result.suffix_ = suffix;
+    for (const auto& [name, value] : values_) {
+      if (name.ends_with(suffix)) result.values_[name.substr(0, name.size() - suffix.size())] = value;
+      else if (!name.ends_with(other)) result.values_[name] = value;
+    }
+    return result;
+  }
+
   // All of these names, or an error that lists those that lack.
   void require(std::initializer_list<const char*> names) const {
     std::vector<std::string> missing;
     for (const char* name : names) {
-      if (!has(name)) missing.emplace_back(name);
+      if (!has(name)) missing.emplace_back(name + suffix_);
     }
     if (missing.empty()) return;
     throw DiagnosticError("missing-characteristic", fmt::format("the section lacks {}", fmt::join(missing, ", ")),
@@ -53,14 +68,15 @@ class Characteristics {
     if (!has(name)) return;
     for (const char* other : others) {
       if (!has(other)) continue;
-      throw DiagnosticError("excluded-characteristic", fmt::format("CARA names both {} and {}", name, other), assignment_.span_of("CARA"),
-                            fmt::format("{} stands for the sizes along y and z alike", name));
+      throw DiagnosticError("excluded-characteristic", fmt::format("CARA names both {0}{2} and {1}{2}", name, other, suffix_), assignment_.span_of("CARA"),
+                            fmt::format("{}{} stands for the sizes along y and z alike", name, suffix_));
     }
   }
 
  private:
   const Keywords& assignment_;
   std::map<std::string, double> values_;
+  std::string suffix_;  // what CARA has behind each name here
 };
 
 bool is_beam(Formulation formulation) {
@@ -102,11 +118,30 @@ BeamSection circle_of(const Characteristics& given) {
   return solver::circular_section(radius, given.get("EP", radius));
 }
 
+BeamSection shaped_section(const std::string& shape, const Characteristics& given, bool bends) {
+  return shape == "GENERALE" ? general_section(given, bends) : shape == "RECTANGLE" ? rectangle_of(given) : circle_of(given);
+}
+
+// VARI_SECT="AFFINE": the sizes along y stay, those along z change (U4.42.01).
+void check_affine(const Keywords& assignment, const Characteristics& given) {
+  given.require({"HY", "HZ1", "HZ2"});
+  for (const char* name : {"H1", "H2", "HY1", "HY2", "EP1", "EP2", "EPY1", "EPY2"}) {
+    if (!given.has(name)) continue;
+    throw DiagnosticError("excluded-characteristic", fmt::format("CARA names {}, but with VARI_SECT=\"AFFINE\" only sizes along z change", name),
+                          assignment.span_of("CARA"), "name HY, HZ1, HZ2 and, for walls, EPY, EPZ1, EPZ2; or use VARI_SECT=\"HOMOTHETIQUE\"");
+  }
+}
+
 BeamSection section_of(const Keywords& assignment, bool bends) {
   const Characteristics given(assignment);
   const std::string& shape = assignment.text("SECTION");
+  const std::string variation = assignment.has("VARI_SECT") ? assignment.text("VARI_SECT") : "CONSTANT";
   try {
-    return shape == "GENERALE" ? general_section(given, bends) : shape == "RECTANGLE" ? rectangle_of(given) : circle_of(given);
+    if (variation == "CONSTANT") return shaped_section(shape, given, bends);
+    if (variation == "AFFINE") check_affine(assignment, given);
+    const auto [first, last] = shape == "CERCLE" ? std::pair("_DEBUT", "_FIN") : std::pair("1", "2");
+    return solver::varying_section(shaped_section(shape, given.at_end(first, last), bends),
+                                   shaped_section(shape, given.at_end(last, first), bends), variation == "AFFINE" ? solver::one_size_varies : solver::all_sizes_vary);
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), error.what(), assignment.span_of("VALE"), error.hint());
   }
@@ -114,7 +149,10 @@ BeamSection section_of(const Keywords& assignment, bool bends) {
 
 // Shear deforms Timoshenko's beams: without shear factors they would silently be Euler's.
 void check_shear(const Keywords& assignment, const BeamSection& section) {
-  if (assignment.text("SECTION") == "GENERALE") return Characteristics(assignment).require({"AY", "AZ"});
+  if (assignment.text("SECTION") == "GENERALE") {
+    const Characteristics given(assignment);
+    return section.end ? given.require({"AY1", "AZ1", "AY2", "AZ2"}) : given.require({"AY", "AZ"});
+  }
   if (section.shear_y > 0.0) return;
   throw DiagnosticError("unsupported", "a hollow rectangle has no shear factors that comma knows, and POU_D_T needs them", assignment.span,
                         "give the section as SECTION=\"GENERALE\" with AY and AZ, or use POU_D_E");

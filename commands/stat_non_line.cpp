@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/archiving.hpp"
 #include "commands/commands.hpp"
+#include "commands/observation.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -69,6 +71,7 @@ solver::NewtonOptions newton_options(const Call& call) {
     if (relative) options.relative_residual = convergence.real("RESI_GLOB_RELA");
     if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
     if (absolute && !relative) options.relative_residual.reset();
+    options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
   }
   const SolverChoice choice = solver_choice(call);
@@ -107,7 +110,15 @@ Product stat_non_line(const Call& call, Context& context) {
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
   const solver::Counters before = context.counters;
-  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context));
+  const Observer observer(call, product->result.mesh());
+  if (!observer.empty()) product->observations.emplace();
+  Archive archive(call);
+  const auto after_step = [&, number = 0](solver::Result& result) mutable {
+    if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
+    ++number;
+    archive.update(result);
+  };
+  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
   warn_of_indefinite_stiffness(call, before, context);
   return product;
 }

@@ -42,25 +42,25 @@ std::string format_cell(const Cell& cell, const std::string& real_format) {
 
 }  // namespace
 
-std::string format_table(const Table& table, std::string_view separator, const std::string& real_format,
-                         std::string_view comment) {
+std::string format_table(const Table& table, const TableLayout& layout) {
   std::vector<std::vector<std::string>> lines = {table.columns};
   for (const auto& row : table.rows) {
     auto& line = lines.emplace_back();
-    for (const Cell& cell : row) line.push_back(format_cell(cell, real_format));
+    for (const Cell& cell : row) line.push_back(format_cell(cell, layout.real_format));
   }
   std::vector<std::size_t> widths(table.columns.size(), 0);
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   }
   std::string text;
-  if (!table.title.empty()) text += fmt::format("{} {}\n", comment, table.title);
+  if (!table.title.empty()) text += fmt::format("{} {}\n", layout.comment, table.title);
   for (const auto& line : lines) {
+    text += &line == &lines.front() ? layout.names_comment : layout.row_start;
     for (std::size_t i = 0; i < line.size(); ++i) {
-      text += fmt::format("{}{:<{}}", separator, line[i], widths[i]);
+      text += fmt::format("{}{:<{}}", layout.separator, line[i], widths[i]);
     }
     text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
+    text += layout.row_end;
   }
   return text;
 }

@@ -26,8 +26,17 @@ struct Table {
   void add_row(const std::vector<std::pair<std::string, Cell>>& cells);
 };
 
-/// The table as aligned text: the title behind the comment sign, the column names, a line a row; an empty cell is `separator`'s "-".
-std::string format_table(const Table& table, std::string_view separator, const std::string& real_format,
-                         std::string_view comment = "#");
+/// How a table is written.
+struct TableLayout {
+  std::string separator = " ";       ///< before each column
+  std::string real_format = "E12.5"; ///< of Fortran
+  std::string comment = "#";         ///< before the title
+  std::string names_comment;         ///< before the line of the names
+  std::string row_start;
+  std::string row_end = "\n";
+};
+
+/// The table as aligned text: the title behind the comment sign, the column names, a line a row; an empty cell is "-".
+std::string format_table(const Table& table, const TableLayout& layout = {});
 
 }  // namespace comma::commands

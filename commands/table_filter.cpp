@@ -15,12 +15,6 @@ using interpreter::Keywords;
 
 namespace {
 
-std::optional<double> number_in(const Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell)) return *real;
-  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*integer);
-  return std::nullopt;
-}
-
 bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
 
 /// -1, 0 or 1; two reals that agree within the tolerance count as equal for EQ and NE only.
@@ -72,6 +66,16 @@ double ranked(const std::string& comparison, double value) {
   return comparison.starts_with("MINI") ? -size : size;
 }
 
+/// Numbers before texts, empty cells last, whatever the order of each kind.
+int rank(const Cell& cell) { return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0; }
+
+bool less(const Cell& a, const Cell& b) {
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
+  if (rank(a) == 2) return false;
+  if (rank(a) == 1) return std::get<std::string>(a) < std::get<std::string>(b);
+  return *number_in(a) < *number_in(b);
+}
+
 Table extremes(const Table& table, int column, const Keywords& filter) {
   const std::string& comparison = filter.text("CRIT_COMP");
   const auto numbers = numbers_in(table, column, filter);
@@ -88,12 +92,35 @@ Table extremes(const Table& table, int column, const Keywords& filter) {
 
 }  // namespace
 
+std::optional<double> number_in(const Cell& cell) {
+  if (const auto* real = std::get_if<double>(&cell)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*integer);
+  return std::nullopt;
+}
+
 int column_of(const Table& table, const std::string& name, const Keywords& keywords, const std::string& keyword) {
   const int column = table.column(name);
   if (column >= 0) return column;
   const std::string near = interpreter::nearest(name, table.columns);
   throw DiagnosticError("unknown-column", "the table has no column " + name, keywords.span_of(keyword),
                         near.empty() ? "" : "did you mean " + near + "?");
+}
+
+std::vector<int> columns_of(const Table& table, const Keywords& keywords) {
+  std::vector<int> columns;
+  for (const std::string& name : keywords.texts("NOM_PARA")) columns.push_back(column_of(table, name, keywords));
+  return columns;
+}
+
+Table with_columns(const Table& table, const std::vector<int>& columns) {
+  Table part;
+  part.title = table.title;
+  part.rows.resize(table.rows.size());
+  for (const int column : columns) {
+    part.columns.push_back(table.columns[static_cast<std::size_t>(column)]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][static_cast<std::size_t>(column)]);
+  }
+  return part;
 }
 
 Table filtered(const Table& table, const Keywords& filter) {
@@ -107,6 +134,19 @@ Table filtered(const Table& table, const Keywords& filter) {
     if (keep) kept.rows.push_back(row);
   }
   return kept;
+}
+
+void sort_rows(Table& table, const Keywords& keywords) {
+  const auto columns = columns_of(table, keywords);
+  const bool upwards = keywords.text("ORDRE") == "CROISSANT";
+  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
+    for (const int column : columns) {
+      const Cell &left = a[static_cast<std::size_t>(column)], &right = b[static_cast<std::size_t>(column)];
+      if (less(left, right)) return upwards;
+      if (less(right, left)) return !upwards;
+    }
+    return false;
+  });
 }
 
 std::vector<double> numbers_in(const Table& table, int column, const Keywords& keywords) {

@@ -15,7 +15,7 @@ TEST_CASE("A table is printed in aligned columns, an empty cell as a dash") {
   table.title = "forces";
   table.columns = {"NOEUD", "DX"};
   table.rows = {{std::string("N1"), 1.5}, {std::string("N12"), Cell()}};
-  CHECK(format_table(table, " ", "E12.5") == "# forces\n NOEUD DX\n N1     1.50000E+00\n N12   -\n");
+  CHECK(format_table(table) == "# forces\n NOEUD DX\n N1     1.50000E+00\n N12   -\n");
 }
 
 TEST_CASE("A column added later is empty in the rows before") {

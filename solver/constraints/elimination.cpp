@@ -172,4 +172,14 @@ SymmetricMatrix Elimination::reduce(const SymmetricMatrix& stiffness) const {
   return plan_->apply(stiffness);
 }
 
+SkewMatrix Elimination::reduce_skew(const SkewMatrix& stiffness) const {
+  // With W = L - L^T: T^T W T = R - R^T, R = T^T L T.
+  const SkewMatrix transposed_transformation = transformation_.transpose();
+  const SkewMatrix right = stiffness * transformation_;
+  const SkewMatrix half = transposed_transformation * right;
+  const SkewMatrix mirrored = half.transpose();
+  const SkewMatrix reduced = half - mirrored;
+  return reduced.triangularView<Eigen::StrictlyLower>();
+}
+
 }  // namespace comma::solver

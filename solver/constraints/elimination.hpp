@@ -12,6 +12,7 @@
 #include "solver/constraints/congruence.hpp"
 #include "solver/constraints/gauss_jordan.hpp"
 #include "solver/linear/linear_solver.hpp"
+#include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/model/model.hpp"
 
@@ -41,6 +42,8 @@ class Elimination {
 
   /// T^T K T, lower triangle; the pattern depends on K's pattern alone. Its plan is made anew when K's pattern changes.
   SymmetricMatrix reduce(const SymmetricMatrix& stiffness) const;
+  /// T^T W T of a skew-symmetric W, its strict lower triangle.
+  SkewMatrix reduce_skew(const SkewMatrix& stiffness) const;
 
   /// Twelve digits typed by hand, or a function's interpolation, agree better than this; different intentions do not.
   static constexpr double contradiction_tolerance = 1e-9;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "solver/contact/relaxation.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -16,8 +18,10 @@ using Eigen::Vector3d;
 constexpr double status_tolerance = 1e-12;
 /// The system is solved when what is left of it is this share of the jumps.
 constexpr double residual_tolerance = 1e-12;
-/// Corrections with the same statuses: when this many do not halve the residual, rounding has been reached.
-constexpr int most_corrections = 8;
+/// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned compliance.
+constexpr double stagnation_tolerance = 1e-9;
+/// Or this share of what the forces could do to the jumps.
+constexpr double rounding_share = 1e-13;
 /// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
 constexpr double singular_pivot = 1e-14;
 
@@ -51,16 +55,19 @@ class CondensedSolver {
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that fails, from those of points that stick to what they touch, or that do not rub at all.
+  /// From the statuses given; where that fails, from those of points that stick to what they touch; at last from what relaxation
+  /// finds.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
-    bool solved = false;
-    for (const Rubbing start : {Rubbing::by_law, Rubbing::never_slides, Rubbing::never_rubs}) {
-      if (solution.iterations > 0) restart(multipliers);
-      const bool prepared = start == Rubbing::by_law || settle(start, solution.iterations);
-      solved = prepared && settle(Rubbing::by_law, solution.iterations);
-      if (solved) break;
+    bool solved = settle(Rubbing::by_law, solution.iterations);
+    if (!solved) {
+      restart(multipliers);
+      solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = relax() && settle(Rubbing::by_law, solution.iterations);
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
@@ -70,13 +77,18 @@ class CondensedSolver {
 
  private:
   /// What closed points do along the surface.
-  enum class Rubbing : std::uint8_t { by_law, never_slides, never_rubs };
+  enum class Rubbing : std::uint8_t { by_law, never_slides };
 
   void restart(const Eigen::VectorXd& multipliers) {
     state_.multipliers = multipliers;
     state_.statuses = start_;
     jumps_ = problem_.free;
     forces_ = problem_.held;
+  }
+
+  bool relax() {
+    rubbing_ = Rubbing::by_law;
+    return relax_condensed(schur_, problem_, state_, jumps_);
   }
 
   /// Iterates until statuses stay and nothing is left of the equations; counts on.
@@ -93,13 +105,14 @@ class CondensedSolver {
       const bool settled = !update_statuses();
       if (settled && is_solved()) return true;
       if (!settled) same_statuses_ = 0;
+      if (one_at_a_time_ && problem_.components > 1 && rubbing_ == Rubbing::by_law) return false;  // with friction a cycle stays one
     }
     return false;
   }
 
   ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const {
     if (status == ContactStatus::open || rubbing_ == Rubbing::by_law || !(point.law.friction > 0.0)) return status;
-    return rubbing_ == Rubbing::never_slides ? ContactStatus::sticking : ContactStatus::sliding;
+    return ContactStatus::sticking;
   }
 
   int multiplier_index(int node, int component) const { return node * problem_.components + component; }
@@ -122,9 +135,7 @@ class CondensedSolver {
 
   ContactLawValue law_at(std::size_t p) const {
     const CondensedPoint& point = problem_.points[p];
-    ContactLaw law = point.law;
-    if (rubbing_ == Rubbing::never_rubs) law.friction = 0.0;
-    return contact_law(law, state_.statuses[p], multiplier_at(point), jump_at(point));
+    return contact_law(point.law, state_.statuses[p], multiplier_at(point), jump_at(point));
   }
 
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -261,7 +272,7 @@ class CondensedSolver {
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
-    scale_ = std::max(largest(problem_.free), largest(balanced - problem_.free));
+    scale_ = std::max({problem_.smallest_scale, largest(problem_.free), largest(balanced - problem_.free)});
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)
@@ -270,11 +281,25 @@ class CondensedSolver {
       if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
   }
 
+  /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
+  double largest_response() const {
+    double sum = 0.0;
+    double largest_root = 0.0;
+    for (Index row = 0; row < forces_.size(); ++row) {
+      if (!schur_.known(static_cast<int>(row))) continue;
+      const double root = std::sqrt(std::abs(schur_.column(static_cast<int>(row))[row]));
+      sum += root * std::max(std::abs(forces_[row]), std::abs(problem_.held[row]));
+      largest_root = std::max(largest_root, root);
+    }
+    return largest_root * sum;
+  }
+
   bool is_solved() {
     if (residual_ <= residual_tolerance * scale_) return true;
     const bool stagnates = same_statuses_ > 0 && residual_ > 0.5 * last_residual_;
     last_residual_ = residual_;
-    return stagnates || ++same_statuses_ > most_corrections;
+    ++same_statuses_;
+    return stagnates && residual_ <= std::max(stagnation_tolerance * scale_, rounding_share * largest_response());
   }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.

@@ -39,6 +39,7 @@ struct CondensedProblem {
   std::vector<CondensedSpring> springs;
   Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
   Eigen::VectorXd held;         ///< forces on the rows
+  double smallest_scale = 0.0;  ///< jumps below it are rounding of the displacements (a length)
   int node_count = 0;
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself

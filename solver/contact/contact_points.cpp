@@ -80,14 +80,14 @@ class ZonePoints {
     return at;
   }
 
-  /// Of the present face: the pressure is that of Cauchy.
+  /// Of the initial face: pressures are forces over the area before deformation.
   double measure(int cell, CellType type, const Eigen::Vector2d& xi) const {
     std::array<Vector3d, max_facet_nodes> corners;
     const auto nodes = mesh_.cell(cell);
     const FacetShape shape = facet_shape(type, xi);
     double radius = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      corners[i] = positions_[nodes[i]];
+      corners[i] = Vector3d(mesh_.nodes[nodes[i]][0], mesh_.nodes[nodes[i]][1], mesh_.nodes[nodes[i]][2]);
       radius += shape.values[i] * corners[i][0];
     }
     const auto tangents = facet_tangents(type, std::span(corners.data(), nodes.size()), xi);

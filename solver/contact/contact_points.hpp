@@ -19,7 +19,7 @@ struct ContactPoint {
   int cell = -1;                                       ///< slave face
   int node = -1;                                       ///< the slave node on which the point lies; -1: it lies between nodes
   std::array<double, max_facet_nodes> shape{};         ///< of the slave face's nodes
-  double weight = 0.0;                                 ///< area (length in the plane; times the radius where axisymmetric)
+  double weight = 0.0;                                 ///< initial area (length in the plane; times the radius where axisymmetric)
   PairingStatus status = PairingStatus::outside;
   int facet = -1;                                      ///< master cell, when paired
   std::array<double, max_facet_nodes> master_shape{};  ///< of the master facet's nodes

@@ -132,6 +132,18 @@ SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
   return matrix;
 }
 
+bool Assembler::is_symmetric() const {
+  return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_symmetric(); });
+}
+
+SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& block : blocks_->list) block->add_skew_stiffness(u, state_, entries);
+  SkewMatrix matrix(dofs_.size(), dofs_.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) block->add_internal_forces(u, state_, sums);

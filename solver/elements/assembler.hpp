@@ -9,6 +9,7 @@
 #include "solver/elements/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/linear/linear_solver.hpp"
+#include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/command_variables.hpp"
 #include "solver/materials/material.hpp"
@@ -33,10 +34,15 @@ class Assembler {
   void set_time(double time);
   const VariableState& state() const { return state_; }
 
-  /// Lower triangle of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls. Rows of
+  /// Lower triangle of the symmetric part of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls. Rows of
   /// continua, bars and beams add up to exactly zero over each translation (see translation.hpp), so that a residual b - K x taken in
   /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
+
+  /// Whether stiffness() is the whole tangent, for every u.
+  bool is_symmetric() const;
+  /// The rest of the tangent at u where it is not: (K - K^T) / 2 (n x n), entries only where elements are unsymmetric.
+  SkewMatrix skew_stiffness(const Eigen::VectorXd& u) const;
 
   /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so that
   /// the equilibrium of a stiff body held by weak springs is not drowned in rounding.

@@ -45,15 +45,13 @@ Interpolation interpolate(const BeamInterpolation& beam, double position) {
   return h;
 }
 
-Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const Eigen::Matrix<double, 6, 1>& first,
-                                        const Eigen::Matrix<double, 6, 1>& second) {
-  // A linear load on cubic displacements is of degree 4; three points are exact to degree 5.
-  static const Quadrature points = quadrature(CellType::seg2, "FPG3");
+Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const LineLoad& load) {
+  // On cubic displacements: four points are exact to degree 7.
+  static const Quadrature points = quadrature(CellType::seg2, "FPG4");
   Eigen::Matrix<double, 12, 1> forces = Eigen::Matrix<double, 12, 1>::Zero();
   for (const QuadraturePoint& point : points) {
     const double s = 0.5 * (1.0 + point.at[0]);
-    const Eigen::Matrix<double, 6, 1> load = (1.0 - s) * first + s * second;
-    forces += 0.5 * point.weight * beam.length * (interpolate(beam, s).transpose() * load);
+    forces += 0.5 * point.weight * beam.length * (interpolate(beam, s).transpose() * load(s));
   }
   return forces;
 }

@@ -1,6 +1,8 @@
 // How a straight beam moves between its ends, and the end forces that do the work of a distributed load (R3.08.01).
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Dense>
 
 #include "solver/elements/section.hpp"
@@ -23,9 +25,11 @@ BeamInterpolation timoshenko_interpolation(const BeamSection& section, const Iso
 /// exact solution for a beam that is loaded at its ends alone.
 Eigen::Matrix<double, 6, 12> interpolate(const BeamInterpolation& beam, double position);
 
-/// Forces and moments at the ends (own axes) for a load per length (N VY VZ MT MFY MFZ) that goes linearly from `first`
-/// to `second`. They give the exact displacements at the ends.
-Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const Eigen::Matrix<double, 6, 1>& first,
-                                        const Eigen::Matrix<double, 6, 1>& second);
+/// A load per length in own axes (N VY VZ MT MFY MFZ) at x = position * length.
+using LineLoad = std::function<Eigen::Matrix<double, 6, 1>(double position)>;
+
+/// Forces and moments at the ends (own axes) for a load that varies with at most the fourth power of the position. They
+/// give the exact displacements at the ends.
+Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const LineLoad& load);
 
 }  // namespace comma::solver

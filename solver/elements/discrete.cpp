@@ -36,13 +36,34 @@ class DiscreteBlock final : public ElementBlock {
                                               found->second.matrix.cols(), size, size));
       }
       stiffnesses_.push_back(&found->second);
+      symmetric_ = symmetric_ && found->second.matrix == found->second.matrix.transpose();
     }
   }
 
   void add_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int> column_starts,
                      double* values) const override {
+    ElementMatrix symmetric;
     for (int element = 0; element < map_.element_count(); ++element) {
-      map_.add(element, stiffnesses_[element]->matrix.data(), column_starts, values);
+      const Eigen::MatrixXd& k = stiffnesses_[element]->matrix;
+      symmetric = 0.5 * (k + k.transpose());
+      map_.add(element, symmetric.data(), column_starts, values);
+    }
+  }
+
+  bool is_symmetric() const override { return symmetric_; }
+
+  void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&, std::vector<Eigen::Triplet<double>>& entries) const override {
+    if (symmetric_) return;
+    std::array<int, max_size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Eigen::MatrixXd& k = stiffnesses_[element]->matrix;
+      for (int i = 0; i < k.rows(); ++i) {
+        for (int j = 0; j < k.cols(); ++j) {
+          const double skew = 0.5 * (k(i, j) - k(j, i));
+          if (dofs[i] > dofs[j] && skew != 0.0) entries.emplace_back(dofs[i], dofs[j], skew);
+        }
+      }
     }
   }
 
@@ -108,6 +129,7 @@ class DiscreteBlock final : public ElementBlock {
 
  private:
   static constexpr int max_size = 2 * component_count;
+  using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_size, max_size>;
 
   static void to_local(const double* global, const Eigen::Matrix3d& axes, int dimension, double* local) {
     for (int i = 0; i < dimension; ++i) {
@@ -121,6 +143,7 @@ class DiscreteBlock final : public ElementBlock {
   std::vector<int> cells_;
   ElementMap map_;
   std::vector<const DiscreteStiffness*> stiffnesses_;
+  bool symmetric_ = true;
 };
 
 }  // namespace

@@ -31,9 +31,14 @@ class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
 
+  /// The symmetric part of the tangent.
   virtual void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const = 0;
   virtual void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const = 0;
+  /// Whether add_stiffness() is the whole tangent; the same in all states.
+  virtual bool is_symmetric() const { return true; }
+  /// Appends the skew-symmetric part (K - K^T) / 2 of the tangent: its entries below the diagonal, by degree of freedom.
+  virtual void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&, std::vector<Eigen::Triplet<double>>&) const {}
 
   virtual std::span<const int> cells() const = 0;
   /// Stresses have this many points a cell ...

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/slender_forces.hpp"
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -45,15 +46,16 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
 
 void add_slender(const ForceInput& input, int cell, const AccelerationField& field, double factor,
                  std::span<long double> forces) {
-  const double line_density =
-      factor * density(elasticity_of(input, cell), material_point_of(input, cell)) * section_of(input, cell).area;
+  const double per_volume = factor * density(elasticity_of(input, cell), material_point_of(input, cell));
+  const BeamSection& section = section_of(input, cell);
   const auto nodes = input.model.mesh->cell(cell);
   const Eigen::Matrix3d axes = slender_axes(input, cell);
-  std::array<Vector6, 2> loads = {Vector6::Zero(), Vector6::Zero()};
+  std::array<Vector6, 2> at_ends = {Vector6::Zero(), Vector6::Zero()};
   for (int end = 0; end < 2; ++end) {
-    loads[end].head<3>() = line_density * (axes * field.at(place(*input.model.mesh, nodes[end])));
+    at_ends[end].head<3>() = per_volume * (axes * field.at(place(*input.model.mesh, nodes[end])));
   }
-  add_slender_load(input, cell, loads[0], loads[1], forces);
+  const auto load = [&](double s) -> Vector6 { return section_at(section, s).area * ((1.0 - s) * at_ends[0] + s * at_ends[1]); };
+  add_slender_load(input, cell, load, forces);
 }
 
 /// Its mass matrix times the accelerations of its nodes.

@@ -36,6 +36,7 @@ Eigen::MatrixXd node_rotation(Formulation formulation, const Eigen::Matrix3d& ax
 /// A matrix of the element, given in its own axes, in global ones.
 Eigen::MatrixXd to_global(Formulation formulation, const Eigen::Matrix3d& axes, Eigen::MatrixXd matrix) {
   if (axes.isIdentity(0.0)) return matrix;
+  const bool symmetric = matrix == matrix.transpose();
   const Eigen::MatrixXd rotation = node_rotation(formulation, axes);
   const auto k = rotation.rows();
   for (Eigen::Index i = 0; i < matrix.rows(); i += k) {
@@ -43,6 +44,7 @@ Eigen::MatrixXd to_global(Formulation formulation, const Eigen::Matrix3d& axes, 
       matrix.block(i, j, k, k) = (rotation.transpose() * matrix.block(i, j, k, k) * rotation).eval();
     }
   }
+  if (!symmetric) return matrix;
   return 0.5 * (matrix + matrix.transpose());
 }
 
@@ -63,6 +65,19 @@ Eigen::MatrixXd from_upper_triangle(const Mesh& mesh, int cell, Formulation form
     for (int i = 0; i <= j; ++i) matrix(i, j) = matrix(j, i) = *value++;
   }
   return matrix;
+}
+
+/// The matrix of which all entries are given column by column.
+Eigen::MatrixXd from_columns(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values) {
+  const int size = matrix_size(mesh, cell, formulation);
+  check_count(values.size(), static_cast<std::size_t>(size * size), mesh, cell);
+  return Eigen::Map<const Eigen::MatrixXd>(values.data(), size, size);
+}
+
+DiscreteMass finish_mass(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame,
+                         const Orientation& orientation) {
+  if (frame == DiscreteFrame::global) return matrix;
+  return to_global(formulation, discrete_axes(mesh, cell, orientation), std::move(matrix));
 }
 
 Eigen::Vector3d along_segment(const Mesh& mesh, int cell) {
@@ -146,11 +161,19 @@ DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation fo
   return finish(mesh, cell, formulation, from_upper_triangle(mesh, cell, formulation, values), frame, orientation);
 }
 
+DiscreteStiffness unsymmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                                        DiscreteFrame frame, const Orientation& orientation) {
+  return finish(mesh, cell, formulation, from_columns(mesh, cell, formulation, values), frame, orientation);
+}
+
 DiscreteMass symmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                             DiscreteFrame frame, const Orientation& orientation) {
-  Eigen::MatrixXd matrix = from_upper_triangle(mesh, cell, formulation, values);
-  if (frame == DiscreteFrame::global) return matrix;
-  return to_global(formulation, discrete_axes(mesh, cell, orientation), std::move(matrix));
+  return finish_mass(mesh, cell, formulation, from_upper_triangle(mesh, cell, formulation, values), frame, orientation);
+}
+
+DiscreteMass unsymmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                              DiscreteFrame frame, const Orientation& orientation) {
+  return finish_mass(mesh, cell, formulation, from_columns(mesh, cell, formulation, values), frame, orientation);
 }
 
 DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, const DiscreteInertia& inertia,

@@ -1,6 +1,7 @@
 // What discrete elements, bars, beams and plates have beside their mesh: stiffnesses, sections, orientations.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <unordered_map>
 
@@ -60,8 +61,21 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
 DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                                       DiscreteFrame frame, const Orientation& orientation = {});
 
+/// From all values of the matrix, column by column: k^2 of them on a point, 4 k^2 on a segment (U4.42.01, SYME='NON'). It need not be
+/// symmetric.
+DiscreteStiffness unsymmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                                        DiscreteFrame frame, const Orientation& orientation = {});
+
 /// What is known of a section's outline: enough to say where its axial stress is largest.
 enum class SectionShape : std::uint8_t { general, rectangle, circle };
+
+/// Along a beam whose section varies a characteristic goes with this power of a linear function of the place.
+struct VariationPowers {
+  int area = 2;
+  int inertia_y = 4;
+  int inertia_z = 4;
+  int torsion = 4;
+};
 
 /// The cross-section of a bar or beam, in its own axes. Bars use the area alone.
 struct BeamSection {
@@ -78,6 +92,10 @@ struct BeamSection {
   double reach_y = 1.0;        ///< distance from the axis to the outermost fibre along y (RY of U4.42.01)
   double reach_z = 1.0;        ///< along z (RZ)
   double torsion_reach = 1.0;  ///< torsional moment times this over the torsion constant is the largest shear stress (RT)
+  /// The section at the second node; null where it is the same along the beam. Roll, centre of torsion and shape are those of
+  /// the first node.
+  std::shared_ptr<const BeamSection> end = nullptr;
+  VariationPowers powers{};  ///< see varying_section.hpp
 };
 
 /// What a plate has beside its mesh (AFFE_CARA_ELEM, COQUE of U4.42.01).
@@ -110,6 +128,10 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
 /// From the upper triangle of the symmetric matrix, as symmetric_stiffness (M_T_N, M_TR_N, M_T_L, M_TR_L).
 DiscreteMass symmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
                             DiscreteFrame frame, const Orientation& orientation = {});
+
+/// From all values, as unsymmetric_stiffness.
+DiscreteMass unsymmetric_mass(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
+                              DiscreteFrame frame, const Orientation& orientation = {});
 
 /// Characteristics by cell index. Discrete elements without an entry in `masses` have none.
 struct ElementProperties {

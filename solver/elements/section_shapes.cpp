@@ -93,10 +93,20 @@ BeamSection circular_section(double radius, double thickness) {
   return section;
 }
 
+BeamSection varying_section(BeamSection first, const BeamSection& last, const VariationPowers& powers) {
+  if (first.centre_y != last.centre_y || first.centre_z != last.centre_z) {
+    refuse("the centre of torsion of a section that varies is not the same at both ends", "give EY and EZ the same values at both ends");
+  }
+  first.end = std::make_shared<const BeamSection>(last);
+  first.powers = powers;
+  return first;
+}
+
 BeamSection softened(BeamSection section, double factor_xy, double factor_xz) {
   if (!(factor_xy > 0.0 && factor_xz > 0.0)) refuse("a factor of flexibility must be positive", "1 leaves the section as it is");
   section.inertia_z /= factor_xy;
   section.inertia_y /= factor_xz;
+  if (section.end) section.end = std::make_shared<const BeamSection>(softened(*section.end, factor_xy, factor_xz));
   return section;
 }
 

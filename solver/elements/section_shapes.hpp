@@ -23,6 +23,9 @@ BeamSection rectangular_section(const Rectangle& rectangle);
 /// theory, 1966) for a Poisson's ratio of 0: 7/6 for a disc, 2 for a thin tube. Throws Error `invalid-section` unless 0 < thickness <= radius.
 BeamSection circular_section(double radius, double thickness);
 
+/// A section that changes from `first` to `last` along the beam (varying_section.hpp). Throws Error `invalid-section` where the centre of torsion moves.
+BeamSection varying_section(BeamSection first, const BeamSection& last, const VariationPowers& powers);
+
 /// The section of a curved pipe, which ovalises in bending: second moments divided by the factors of flexibility of bending in
 /// the planes (x, y) and (x, z) (U4.42.01, COUDE). Throws Error `invalid-section` unless the factors are positive.
 BeamSection softened(BeamSection section, double factor_xy, double factor_xz);

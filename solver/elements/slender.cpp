@@ -6,6 +6,7 @@
 
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/translation.hpp"
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -29,6 +30,11 @@ Segment segment_of(const Mesh& mesh, int cell, double roll) {
   return {(second - first).norm(), own_axes(mesh, cell, roll)};
 }
 
+bool is_complete(const BeamSection& section, bool bends) {
+  return section.area > 0.0 && (!bends || (section.inertia_y > 0.0 && section.inertia_z > 0.0 && section.torsion > 0.0 &&
+                                           section.shear_y >= 0.0 && section.shear_z >= 0.0));
+}
+
 /// The section of a cell, with the values that the element needs positive.
 const BeamSection& section_of(const BlockInput& input, int cell) {
   const std::string name = input.model.mesh->cell_name(cell);
@@ -38,27 +44,28 @@ const BeamSection& section_of(const BlockInput& input, int cell) {
   }
   const BeamSection& section = found->second;
   const bool bends = input.model.formulations[cell] == Formulation::euler_beam || input.model.formulations[cell] == Formulation::timoshenko_beam;
-  const bool complete = section.area > 0.0 && (!bends || (section.inertia_y > 0.0 && section.inertia_z > 0.0 && section.torsion > 0.0 &&
-                                                          section.shear_y >= 0.0 && section.shear_z >= 0.0));
-  if (!complete) {
+  if (!is_complete(section, bends) || (varies(section) && !is_complete(*section.end, bends))) {
     throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area{}", name,
                                                   bends ? ", second moments of area and torsion constant" : ""));
   }
   return section;
 }
 
-/// Adds bending in one plane: deflections at rows v1, v2 and rotations at r1, r2, with rotation = sign * slope. `softening` is the
-/// ratio of shear to bending flexibility, 12 E I / (G A_reduced L^2); 0 for Euler's beam.
-void add_bending(BeamMatrix& k, double rigidity, double length, double softening, const std::array<int, 4>& rows, double sign) {
-  const double c = rigidity / (length * length * length * (1 + softening));
-  const double l = sign * length;
+/// Bending of a uniform beam in one plane: deflection and slope at both ends. `softening` is the ratio of shear to bending
+/// flexibility, 12 E I / (G A_reduced L^2); 0 for Euler's beam.
+Eigen::Matrix4d uniform_bending(double rigidity, double l, double softening) {
   Eigen::Matrix4d plane;
   plane << 12, 6 * l, -12, 6 * l,                                            //
       6 * l, (4 + softening) * l * l, -6 * l, (2 - softening) * l * l,       //
       -12, -6 * l, 12, -6 * l,                                               //
       6 * l, (2 - softening) * l * l, -6 * l, (4 + softening) * l * l;
+  return rigidity / (l * l * l * (1 + softening)) * plane;
+}
+
+/// Adds bending in one plane: deflections at rows v1, v2 and rotations at r1, r2, with rotation = sign * slope.
+void add_bending(BeamMatrix& k, const Eigen::Matrix4d& plane, const std::array<int, 4>& rows, double sign) {
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) k(rows[i], rows[j]) += c * plane(i, j);
+    for (int j = 0; j < 4; ++j) k(rows[i], rows[j]) += (i % 2 == j % 2 ? 1.0 : sign) * plane(i, j);
   }
 }
 
@@ -80,14 +87,33 @@ BeamMatrix from_centre_to_centroid(const BeamMatrix& k, const BeamSection& secti
   return shift.transpose() * k * shift;
 }
 
+/// Bending in the planes (x, y) and (x, z).
+std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const IsotropicModuli& material, double shear_modulus,
+                                              double length, bool shear) {
+  if (!varies(section)) {
+    const double scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
+    return {uniform_bending(material.young * section.inertia_z, length, scale * section.inertia_z * section.shear_y),
+            uniform_bending(material.young * section.inertia_y, length, scale * section.inertia_y * section.shear_z)};
+  }
+  const BeamSection& end = *section.end;
+  const auto plane = [&](double inertia, double end_inertia, int power, double factor, double end_factor) {
+    const bool softens = shear && factor > 0.0 && end_factor > 0.0;
+    const BendingPlane given{inertia, end_inertia, softens ? section.area / factor : 0.0, softens ? end.area / end_factor : 0.0,
+                             power, section.powers.area};
+    return bending_stiffness(given, length, material.young, softens ? shear_modulus : 0.0);
+  };
+  return {plane(section.inertia_z, end.inertia_z, section.powers.inertia_z, section.shear_y, end.shear_y),
+          plane(section.inertia_y, end.inertia_y, section.powers.inertia_y, section.shear_z, end.shear_z)};
+}
+
 BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
-  const double shear_scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
   BeamMatrix k = BeamMatrix::Zero();
-  add_spring(k, material.young * section.area / length, 0, 6);
-  add_spring(k, shear_modulus * section.torsion / length, 3, 9);
-  add_bending(k, material.young * section.inertia_z, length, shear_scale * section.inertia_z * section.shear_y, {1, 5, 7, 11}, 1.0);
-  add_bending(k, material.young * section.inertia_y, length, shear_scale * section.inertia_y * section.shear_z, {2, 4, 8, 10}, -1.0);
+  add_spring(k, material.young * axial_area(section) / length, 0, 6);
+  add_spring(k, shear_modulus * torsion_constant(section) / length, 3, 9);
+  const auto planes = bending_planes(section, material, shear_modulus, length, shear);
+  add_bending(k, planes[0], {1, 5, 7, 11}, 1.0);
+  add_bending(k, planes[1], {2, 4, 8, 10}, -1.0);
   const bool eccentric = section.centre_y != 0.0 || section.centre_z != 0.0;
   return eccentric ? from_centre_to_centroid(k, section) : k;
 }
@@ -250,6 +276,10 @@ class SlenderBlock final : public ElementBlock {
     const Eigen::Vector3d middle = 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
                                           Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data()));
     const Member& member = members_[element];
+    if (varies(*member.section) && imposed.acts_on(cells_[element])) {
+      throw Error("unsupported", fmt::format("an initial strain acts on the beam of cell {}, whose section varies", mesh_.cell_name(cells_[element])),
+                  "give it a constant section, cut into several beams");
+    }
     const double young = named(element, [&] { return member.material->young(material_point(element, state)); });
     const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0, is_beam ? member.section->inertia_z : 0.0);
     return young * section.cwiseProduct(imposed.slender(cells_[element], middle));
@@ -296,7 +326,7 @@ class SlenderBlock final : public ElementBlock {
       const MaterialPoint at = material_point(element, state);
       Expansion expansion;
       expansion.strain = inelastic_axial_strain(*member.material, at);
-      if (expansion.strain != 0.0) expansion.force = member.material->young(at) * member.section->area * expansion.strain;
+      if (expansion.strain != 0.0) expansion.force = member.material->young(at) * axial_area(*member.section) * expansion.strain;
       return expansion;
     });
   }

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/beam_interpolation.hpp"
 #include "solver/elements/reference_element.hpp"
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -22,7 +22,10 @@ double length_of(const Mesh& mesh, int cell) {
       .norm();
 }
 
-Vector12 bar_end_forces(const Mesh& mesh, int cell, const Vector6& first, const Vector6& second) {
+/// The load of a bar is linear.
+Vector12 bar_end_forces(const Mesh& mesh, int cell, const LineLoad& load) {
+  const Vector6 first = load(0.0);
+  const Vector6 second = load(1.0);
   if (!first.tail<3>().isZero(0.0) || !second.tail<3>().isZero(0.0)) {
     throw Error("unsupported", fmt::format("moments act on bar {}, which does not bend", mesh.cell_name(cell)));
   }
@@ -33,16 +36,16 @@ Vector12 bar_end_forces(const Mesh& mesh, int cell, const Vector6& first, const 
   return own;
 }
 
-Vector12 beam_end_forces(const ForceInput& input, int cell, const Vector6& first, const Vector6& second) {
+Vector12 beam_end_forces(const ForceInput& input, int cell, const LineLoad& load) {
   const double length = length_of(*input.model.mesh, cell);
-  if (input.model.formulations[cell] == Formulation::euler_beam) return end_forces({length, 0.0, 0.0}, first, second);
+  if (input.model.formulations[cell] == Formulation::euler_beam) return end_forces({length, 0.0, 0.0}, load);
   const auto* isotropic = std::get_if<IsotropicElasticity>(&elasticity_of(input, cell));
   if (isotropic == nullptr) {
     throw Error("unsupported", fmt::format("the beam on cell {} has an anisotropic material, but needs an isotropic one",
                                            input.model.mesh->cell_name(cell)));
   }
   const IsotropicModuli material = moduli(*isotropic, material_point_of(input, cell));
-  return end_forces(timoshenko_interpolation(section_of(input, cell), material, length), first, second);
+  return end_forces(timoshenko_interpolation(section_at(section_of(input, cell), 0.5), material, length), load);
 }
 
 }  // namespace
@@ -89,11 +92,9 @@ Eigen::Matrix3d slender_axes(const ForceInput& input, int cell) {
   return own_axes(*input.model.mesh, cell, roll);
 }
 
-void add_slender_load(const ForceInput& input, int cell, const Vector6& first, const Vector6& second,
-                      std::span<long double> forces) {
+void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces) {
   const Mesh& mesh = *input.model.mesh;
-  const Vector12 own = is_bar(input.model.formulations[cell]) ? bar_end_forces(mesh, cell, first, second)
-                                                              : beam_end_forces(input, cell, first, second);
+  const Vector12 own = is_bar(input.model.formulations[cell]) ? bar_end_forces(mesh, cell, load) : beam_end_forces(input, cell, load);
   const Eigen::Matrix3d axes = slender_axes(input, cell);
   const ComponentMask carried = input.model.components_of(cell);
   for (int part = 0; part < 4; ++part) {  // forces and moments of the first end, then of the second

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -26,9 +27,10 @@ bool is_slender(Formulation formulation) {
   return is_beam(formulation) || formulation == Formulation::bar || formulation == Formulation::bar_2d;
 }
 
-const BeamSection& section_of(const FieldInput& input, int cell) {
+/// The section where a point of `count` lies: points go from the first node to the second, one alone is in the middle.
+BeamSection section_of(const FieldInput& input, int cell, int point, int count) {
   const auto found = input.properties.sections.find(cell);
-  if (found != input.properties.sections.end()) return found->second;
+  if (found != input.properties.sections.end()) return section_at(found->second, count == 1 ? 0.5 : static_cast<double>(point) / (count - 1));
   throw Error("missing-properties",
               fmt::format("the bar or beam on cell {} has no cross-section", input.model.mesh->cell_name(cell)));
 }
@@ -52,7 +54,7 @@ ElementField on_members(const FieldInput& input, const ElementField& forces, std
       };
       const std::size_t start = result.values.size();
       result.values.resize(start + width, 0.0);
-      write(cell, section_of(input, cell), SectionForces{force(0), force(1), force(2), force(3), force(4), force(5)},
+      write(cell, section_of(input, cell, point, points), SectionForces{force(0), force(1), force(2), force(3), force(4), force(5)},
             result.values.data() + start);
     }
   }

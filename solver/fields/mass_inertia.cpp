@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/quadrature.hpp"
+#include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -75,6 +77,7 @@ class Moments {
                   fmt::format("the bar or beam on cell {} has no cross-section", mesh.cell_name(cell)));
     }
     const BeamSection& section = found->second;
+    const Eigen::Matrix3d axes = own_axes(mesh, cell, section.roll);
     const Eigen::Vector3d a(mesh.nodes[nodes[0]].data());
     const Eigen::Vector3d b(mesh.nodes[nodes[1]].data());
     constexpr std::array<double, 2> half = {0.5, 0.5};
@@ -82,14 +85,19 @@ class Moments {
     input_.state.sample(cell, nodes, half, 0, at);
     const double per_volume = density(*material_of(input_, cell).elasticity, at);
     const double length = (b - a).norm();
-    const double mass = per_volume * section.area * length;
-    const Eigen::Vector3d middle = 0.5 * (a + b);
-    add_mass(mass, middle, middle * middle.transpose() + (b - a) * (b - a).transpose() / 12);
-    if (!beam) return;
-    // The second moment about the own y axis is the integral of z^2.
-    const Eigen::Matrix3d axes = own_axes(mesh, cell, section.roll);
-    const Eigen::Matrix3d own = Eigen::Vector3d(0.0, section.inertia_z, section.inertia_y).asDiagonal();
-    second_ += per_volume * length * axes.transpose() * own * axes;
+    // Areas go with the square of the place at most, second moments with its fourth power: three points are exact.
+    static const Quadrature points = quadrature(CellType::seg2, "FPG3");
+    for (const QuadraturePoint& point : points) {
+      const double s = 0.5 * (1.0 + point.at[0]);
+      const double volume_density = 0.5 * point.weight * length * per_volume;
+      const BeamSection here = section_at(section, s);
+      const Eigen::Vector3d x = (1.0 - s) * a + s * b;
+      add_mass(volume_density * here.area, x, x * x.transpose());
+      if (!beam) continue;
+      // The second moment about the own y axis is the integral of z^2.
+      const Eigen::Matrix3d own = Eigen::Vector3d(0.0, here.inertia_z, here.inertia_y).asDiagonal();
+      second_ += volume_density * axes.transpose() * own * axes;
+    }
   }
 
   void add_mass(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& square) {

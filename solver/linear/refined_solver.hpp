@@ -5,10 +5,7 @@
 
 namespace comma::solver {
 
-/// Factorises S A S (equilibration.hpp) and refines x by x += S (S A S)^-1 S (b - A x). The residual is summed in
-/// doubled precision from exact products and x carries a low-order part, so the forward error falls to one rounding of
-/// x as long as the factors are worth anything, that is up to condition numbers of about 1e15 (Demmel, Hida, Kahan, Li,
-/// Mukherjee, Riedy, "Error bounds from extra-precise iterative refinement", ACM Trans. Math. Software 32, 2006).
+/// Factorises S A S (equilibration.hpp) and refines its solutions (refinement.hpp).
 class RefinedSolver : public LinearSolver {
  public:
   explicit RefinedSolver(const LinearOptions& options) : options_(options) {}
@@ -28,7 +25,6 @@ class RefinedSolver : public LinearSolver {
 
  private:
   bool has_pattern_of(const SymmetricMatrix& matrix) const;
-  double solve_block(Eigen::Ref<Eigen::MatrixXd> rhs) const;
 
   LinearOptions options_;
   SymmetricMatrix matrix_;

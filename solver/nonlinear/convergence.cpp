@@ -12,12 +12,15 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   const bool vanished = !(load > (has_history ? vanishing_load * smallest_load_ : 0.0));
   result.relative = vanished ? -1.0 : residual / load;
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
-  result.converged = true;
-  if (options_.absolute_residual) result.converged = residual <= *options_.absolute_residual;
-  const bool tests_relative = options_.relative_residual || !options_.absolute_residual;
-  if (!tests_relative || is_rounding) return result;
   const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
-  result.converged &= vanished ? residual <= vanished_limit : result.relative <= relative_limit();
+  const bool passes_relative = is_rounding || (vanished ? residual <= vanished_limit : result.relative <= relative_limit());
+  if (!options_.absolute_residual) {
+    result.converged = passes_relative;
+    return result;
+  }
+  const bool passes_absolute = residual <= *options_.absolute_residual;
+  if (!options_.relative_residual) result.converged = passes_absolute;
+  else result.converged = options_.one_criterion ? passes_absolute || passes_relative : passes_absolute && passes_relative;
   return result;
 }
 

@@ -27,6 +27,9 @@ constexpr double touching = 1e-6;
 constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
+/// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
+/// rounding of displacements.
+constexpr double rounding_scale = 1e-6;
 constexpr int most_condensed_iterations = 60;
 
 double largest_entry(const RowMatrix& rows, int row) {
@@ -319,7 +322,9 @@ void MixedContact::forget() {
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   update_schur();
   add_natural_augmentation();
-  const Eigen::VectorXd free = jumps(elimination_.transformation() * corrected + offset);
+  const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
+  const Eigen::VectorXd free = jumps(u);
+  problem_.smallest_scale = rounding_scale * (u.size() ? u.cwiseAbs().maxCoeff() : 0.0);
   check_blocked_points(free);
   const Index point_rows = rows_.rows();
   problem_.free.resize(schur_->size());

@@ -29,8 +29,9 @@ constexpr double rounding_share = 1e-11;
 class StaticAnalysis {
  public:
   StaticAnalysis(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
-                 const IterationObserver& observer)
+                 const IterationObserver& observer, const StepObserver& after_step)
       : problem_(problem),
+        after_step_(after_step),
         mesh_(*problem.model->mesh),
         result_(result),
         counters_(counters),
@@ -41,6 +42,7 @@ class StaticAnalysis {
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    require_symmetry();
     if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
@@ -102,6 +104,12 @@ class StaticAnalysis {
     report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
     return report;
   }
+  void require_symmetry() const {
+    if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
+    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
+                "leave out the unsymmetric element or the conditions");
+  }
+
   bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
 
   /// The loads, and the relations that contact faces bring along.
@@ -153,7 +161,7 @@ class StaticAnalysis {
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
-    result_.steps.push_back(std::move(step));
+    append(std::move(step));
   }
 
   /// The body starts without stress even where its first temperature is not that of reference.
@@ -306,7 +314,12 @@ class StaticAnalysis {
       step.fields.emplace("CONT_NOEU", contact_state());
     }
     step.parameters["ITER_GLOB"] = iterations;
+    append(std::move(step));
+  }
+
+  void append(ResultStep step) {
     result_.steps.push_back(std::move(step));
+    if (after_step_) after_step_(result_);
   }
 
   /// Along the pair's normal; negative where the node has gone into the facet.
@@ -360,6 +373,7 @@ class StaticAnalysis {
   }
 
   const StaticProblem& problem_;
+  const StepObserver& after_step_;
   const Mesh& mesh_;
   Result& result_;
   Counters& counters_;
@@ -379,8 +393,8 @@ class StaticAnalysis {
 }  // namespace
 
 void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
-                  Result& result, Counters& counters, const IterationObserver& observer) {
-  StaticAnalysis(problem, options, result, counters, observer).run(plan);
+                  Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
+  StaticAnalysis(problem, options, result, counters, observer, after_step).run(plan);
 }
 
 }  // namespace comma::solver

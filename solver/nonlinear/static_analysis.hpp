@@ -42,6 +42,7 @@ struct StaticProblem {
 struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
+  bool one_criterion = false;                      ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
@@ -63,11 +64,15 @@ struct IterationReport {
 /// Called after each Newton iteration and when a step is cut; may be empty.
 using IterationObserver = std::function<void(const IterationReport&)>;
 
+/// Called when a step has been appended to the result, the initial state included; may be empty. It may change what the result
+/// keeps of the steps, but must leave the last one at its end.
+using StepObserver = std::function<void(Result& result)>;
+
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
 /// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
 /// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
 void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
-                  Result& result, Counters& counters, const IterationObserver& observer = {});
+                  Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});
 
 }  // namespace comma::solver

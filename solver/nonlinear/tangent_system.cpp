@@ -1,5 +1,6 @@
 #include "solver/nonlinear/tangent_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/constraints/rigid_motion.hpp"
@@ -8,6 +9,13 @@
 #include "solver/stopwatch.hpp"
 
 namespace comma::solver {
+
+namespace {
+
+/// Beyond, the rounding of squares hides what holds a body.
+constexpr int most_gram_digits = 15;
+
+}  // namespace
 
 TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler,
                              const Elimination& elimination, const NewtonOptions& options, Counters& counters)
@@ -23,7 +31,11 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
-  factorise(assembled(u));
+  const SymmetricMatrix reduced = assembled(u);
+  if (assembler_.is_symmetric())
+    factorise(reduced);
+  else
+    factorise(reduced, elimination_.reduce_skew(assembler_.skew_stiffness(u)));
   return true;
 }
 
@@ -91,6 +103,26 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   factorised_ = true;
 }
 
+void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew) {
+  if (options_.method == LinearMethod::conjugate_gradient) {
+    throw Error("unsupported", "conjugate gradients need a symmetric stiffness, and here an element has an unsymmetric one",
+                "choose a direct solver");
+  }
+  if (!unsymmetric_) unsymmetric_ = std::make_unique<UnsymmetricSolver>(options_.linear);
+  ++counters_.factorisations;
+  const FactorReport report = [&] {
+    const Stopwatch stopwatch(counters_.factorising);
+    return unsymmetric_->factorise(reduced, skew);
+  }();
+  if (report.verdict == FactorVerdict::singular) {
+    // Energies are those of K^T K, where a support's digits count twice.
+    const int digits = std::min(2 * std::max(0, options_.linear.singular_digits), most_gram_digits);
+    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, gram_matrix(full_matrix(reduced, skew)), report, digits);
+  }
+  measure_rows(reduced);
+  factorised_ = true;
+}
+
 /// Bounds what rounding of u alone does to the residual: a row of |K| times the largest displacement.
 void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
   row_sizes_ = Eigen::VectorXd::Zero(reduced.rows());
@@ -104,6 +136,11 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
 void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
   if (columns.rows() == 0) return;
   counters_.solves += columns.cols();
+  if (unsymmetric_) {
+    const Stopwatch stopwatch(counters_.solving);
+    unsymmetric_->solve(columns);
+    return;
+  }
   const Eigen::MatrixXd loads = has_factor() ? Eigen::MatrixXd() : Eigen::MatrixXd(columns);
   try {
     const Stopwatch stopwatch(counters_.solving);

@@ -10,11 +10,13 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
 #include "solver/linear/linear_solver.hpp"
+#include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
 
-/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant.
+/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant. Where an element is
+/// unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
 class TangentSystem {
  public:
   /// From this many unknowns on multigrid is faster than a factor, for a solid and few right-hand sides
@@ -26,7 +28,8 @@ class TangentSystem {
                 const NewtonOptions& options, Counters& counters);
 
   /// Factorises the tangent at u unless it is known already, for the assembler's instant too. Returns whether it was factorised. Throws Error
-  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds.
+  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds; `unsupported` for conjugate gradients
+  /// with an unsymmetric tangent.
   bool refresh(const Eigen::VectorXd& u);
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
@@ -38,7 +41,7 @@ class TangentSystem {
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
 
   /// Whether a factor stands behind the solutions, so that another one costs little.
-  bool has_factor() const { return solver_ && solver_->method() != LinearMethod::multigrid; }
+  bool has_factor() const { return unsymmetric_ || (solver_ && solver_->method() != LinearMethod::multigrid); }
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
@@ -46,6 +49,7 @@ class TangentSystem {
  private:
   SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
   void factorise(SymmetricMatrix reduced);
+  void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
   bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);
   LinearMethod chosen_method(const SymmetricMatrix& reduced);
   FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
@@ -59,6 +63,7 @@ class TangentSystem {
   Counters& counters_;
   LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
+  std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   bool factorised_ = false;
   bool may_add_springs_ = false;

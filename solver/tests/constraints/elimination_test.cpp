@@ -240,3 +240,15 @@ TEST_CASE("imposing every unknown leaves an empty system") {
   CHECK(scene.elimination.reduce(random_stiffness(2, 1.0, 1)).rows() == 0);
   CHECK(scene.elimination.offset(0.0) == Eigen::Vector2d(1.0, 2.0));
 }
+
+TEST_CASE("the skew part of a stiffness is reduced like the symmetric one") {
+  const Scene scene(4, {relation({{0, dx, 2.0}, {1, dx, -1.0}, {3, dy, 0.5}}, 3.0), relation({{2, dy}}, -1.0)});
+  const int n = scene.elimination.full_size();
+  const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + static_cast<double>(3 * i + 7 * j)); });
+  const Eigen::MatrixXd skew = any - any.transpose();
+  const Eigen::MatrixXd below = skew.triangularView<Eigen::StrictlyLower>();
+  const SkewMatrix given = below.sparseView();
+  const Eigen::MatrixXd transformation = scene.elimination.transformation();
+  const Eigen::MatrixXd reduced = scene.elimination.reduce_skew(given);
+  CHECK((reduced - reduced.transpose() - transformation.transpose() * skew * transformation).norm() < 1e-13);
+}

@@ -121,3 +121,35 @@ TEST_CASE("a full mass is read as a full stiffness is", "[elements]") {
           symmetric_stiffness(*mesh, 0, Formulation::spring_3d, values, frame).matrix);
   }
 }
+
+TEST_CASE("an unsymmetric stiffness is read by columns, and turned into global axes", "[elements]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{0, 0, 0}};
+  mesh->add_cell(CellType::poi1, std::array{0});
+  const Orientation quarter{.roll = 0.0, .point_axes = axes_along({0, 1, 0}, {-1, 0, 0})};  // x' = Y, y' = -X
+  const auto own = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0}, DiscreteFrame::global, quarter);
+  CHECK(own.matrix == (Eigen::Matrix2d() << 1, 3, 2, 4).finished());
+  const auto turned = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0}, DiscreteFrame::local, quarter);
+  CHECK((turned.matrix - (Eigen::Matrix2d() << 4, -2, -3, 1).finished()).norm() < 1e-15);
+  CHECK_THROWS_WITH(unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::global),
+                    Catch::Contains("takes 4 values, not 3"));
+}
+
+TEST_CASE("symmetric and skew part of an unsymmetric spring are together the derivative of its forces", "[elements]") {
+  ElementProperties properties;
+  const auto mesh = segment({0, 0, 0}, {3, 4, 0});
+  std::vector<double> values(16);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(3.0 * static_cast<double>(i));
+  properties.discrete[0] = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, values, DiscreteFrame::local);
+  const Body body(mesh, {Formulation::spring_2d}, nullptr, properties);
+  CHECK_FALSE(body.assembler->is_symmetric());
+  const Eigen::MatrixXd tangent =
+      full_matrix(body.assembler->stiffness(Eigen::VectorXd::Zero(4)), body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)));
+  for (int i = 0; i < 4; ++i) CHECK((tangent.col(i) - body.assembler->internal_forces(Eigen::VectorXd::Unit(4, i))).norm() < 1e-15);
+}
+
+TEST_CASE("a model of symmetric elements has no skew part", "[elements]") {
+  const Body body = spring(segment({0, 0, 0}, {1, 0, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::local);
+  CHECK(body.assembler->is_symmetric());
+  CHECK(body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)).nonZeros() == 0);
+}

@@ -41,3 +41,12 @@ TEST_CASE("Rounding passes the relative test, what is not a number passes none")
   CHECK_FALSE(criterion.measure(1e-13, 1e-13, false).converged);
   CHECK_FALSE(criterion.measure(std::numeric_limits<double>::quiet_NaN(), 1.0, true).converged);
 }
+
+TEST_CASE("One of two criteria is enough where the user says so") {
+  NewtonOptions options;
+  options.absolute_residual = 1e-5;
+  options.one_criterion = true;
+  CHECK(ConvergenceCriterion(options).measure(1e-4, 1000.0, false).converged);
+  CHECK(ConvergenceCriterion(options).measure(1e-5, 1.0, false).converged);
+  CHECK_FALSE(ConvergenceCriterion(options).measure(1e-2, 1000.0, false).converged);
+}

@@ -58,8 +58,12 @@ int Scene::spring(const std::string& name, int first, int second, double kx, dou
 }
 
 int Scene::ground_spring(const std::string& name, int at, double kx, double ky) {
+  return ground_spring(name, at, Eigen::Vector2d(kx, ky).asDiagonal().toDenseMatrix());
+}
+
+int Scene::ground_spring(const std::string& name, int at, const Eigen::Matrix2d& stiffness) {
   const int index = cell(name, CellType::poi1, {at}, Formulation::spring_2d);
-  properties_->discrete[index] = DiscreteStiffness{Eigen::Vector2d(kx, ky).asDiagonal().toDenseMatrix()};
+  properties_->discrete[index] = DiscreteStiffness{stiffness};
   return index;
 }
 

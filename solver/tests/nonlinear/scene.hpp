@@ -25,6 +25,8 @@ class Scene {
   int spring(const std::string& name, int first, int second, double kx, double ky);
   /// Spring to the ground.
   int ground_spring(const std::string& name, int at, double kx, double ky);
+  /// The same with any matrix from displacements to forces.
+  int ground_spring(const std::string& name, int at, const Eigen::Matrix2d& stiffness);
 
   /// A rectangle of nx x ny QUAD4 cells of a material.
   struct Block {

@@ -1,0 +1,61 @@
+#include <array>
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "commands/problem_building.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/selection.hpp"
+#include "solver/fields/boundary_pressure.hpp"
+#include "solver/fields/field_computation.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+// GEOMETRIE: as the mesh is, or moved by the displacements of the step.
+std::vector<Eigen::Vector3d> positions_at(const Call& call, const solver::Mesh& mesh, const solver::ResultStep& step) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const solver::Point& node : mesh.nodes) positions.emplace_back(node[0], node[1], node[2]);
+  if (call.text("GEOMETRIE") == "INITIALE") return positions;
+  const auto found = step.fields.find("DEPL");
+  if (found == step.fields.end()) return positions;
+  const auto& displacement = std::get<solver::NodalField>(found->second);
+  constexpr std::array<const char*, 3> names = {"DX", "DY", "DZ"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int column = displacement.component(names[static_cast<std::size_t>(axis)]);
+    for (int node = 0; column >= 0 && node < mesh.node_count(); ++node) {
+      const double moved = displacement.at(node, column);
+      if (!std::isnan(moved)) positions[static_cast<std::size_t>(node)][axis] += moved;
+    }
+  }
+  return positions;
+}
+
+void add_pressures(const Call& call, ResultConcept& data) {
+  const solver::StaticProblem problem = problem_of_result(call, data);
+  solver::FieldComputation computation(problem, data.result);
+  const solver::Mesh& mesh = data.result.mesh();
+  const auto cells = selected_cells(call, mesh);
+  for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
+    const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
+    solver::ResultStep& step = data.result.steps[index];
+    const solver::Field stresses = computation.compute("SIEF_NOEU", index);
+    step.fields.insert_or_assign("PRES_NOEU", solver::boundary_pressure(mesh, std::get<solver::NodalField>(stresses), cells,
+                                                                        positions_at(call, mesh, step)));
+  }
+}
+
+}  // namespace
+
+Product calc_pression(const Call& call, Context&) {
+  auto& source = call.data<ResultConcept>("RESULTAT");
+  if (call.reuse) {
+    add_pressures(call, source);
+    return nullptr;
+  }
+  auto product = std::make_shared<ResultConcept>(source);
+  add_pressures(call, *product);
+  return product;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,137 @@
+#include "commands/observation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <ranges>
+
+#include "commands/field_reading.hpp"
+#include "commands/result_reading.hpp"
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+using Row = std::vector<std::pair<std::string, Cell>>;
+
+// A value and the columns that say where it was read.
+struct Sample {
+  Row place;
+  double value;
+};
+
+const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
+const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+
+template <class Values>
+double reduced(const std::string& operation, const Values& values) {
+  const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  if (operation == "MIN") return *std::ranges::min_element(values);
+  if (operation == "MAX") return *std::ranges::max_element(values);
+  if (operation == "MINI_ABS") return std::abs(*std::ranges::min_element(values, by_size));
+  if (operation == "MAXI_ABS") return std::abs(*std::ranges::max_element(values, by_size));
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<int> all_indices(int count) {
+  std::vector<int> indices(static_cast<std::size_t>(count));
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+std::vector<Sample> samples_of(const solver::NodalField& field, int component, const solver::Mesh& mesh, const std::vector<int>& nodes) {
+  std::vector<Sample> samples;
+  for (const int node : nodes) {
+    if (const double value = field.at(node, component); !std::isnan(value)) samples.push_back({{{"NOEUD", table_node(mesh, node)}}, value});
+  }
+  return samples;
+}
+
+// The points of a cell that POINT names, all without it, counted from 0.
+std::vector<int> points_of(const Keywords& keywords, const solver::ElementField& field, int cell) {
+  if (!keywords.has("POINT")) return all_indices(field.points(cell));
+  std::vector<int> points;
+  for (const auto point : keywords.integers("POINT")) {
+    if (point >= 1 && point <= field.points(cell)) points.push_back(static_cast<int>(point) - 1);
+  }
+  return points;
+}
+
+std::vector<Sample> samples_of(const solver::ElementField& field, int component, const solver::Mesh& mesh, const std::vector<int>& cells,
+                               const Keywords& keywords) {
+  std::vector<Sample> samples;
+  const std::string& over_points = keywords.text("EVAL_ELGA");
+  for (const int cell : cells) {
+    std::vector<Sample> own;
+    for (const int point : points_of(keywords, field, cell)) {
+      const double value = field.at(cell, point, component);
+      if (!std::isnan(value)) own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value});
+    }
+    if (over_points != "VALE" && !own.empty()) {
+      own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own | std::views::transform(&Sample::value))}};
+    }
+    samples.insert(samples.end(), own.begin(), own.end());
+  }
+  return samples;
+}
+
+}  // namespace
+
+Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh) : mesh_(mesh) {
+  for (const Keywords& given : call.factors("OBSERVATION")) {
+    const bool everywhere = !names_a_place(given, node_places);
+    Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
+                            everywhere ? all_indices(mesh.node_count()) : selected_nodes(given, mesh, node_places),
+                            everywhere ? all_indices(mesh.cell_count()) : selected_cells(given, mesh, cell_places),
+                            given.reals("INST")};
+    if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;
+    observations_.push_back(std::move(observation));
+  }
+}
+
+bool Observer::is_due(const Observation& observation, double instant, int number) const {
+  const Keywords& keywords = observation.keywords;
+  if (number == 0) return keywords.text("OBSE_ETAT_INIT") == "OUI";
+  if (keywords.has("PAS_OBSE")) return number % std::max<std::int64_t>(1, keywords.integer("PAS_OBSE")) == 0;
+  if (observation.instants.empty()) return true;
+  return std::ranges::any_of(observation.instants, [&](double wanted) { return std::abs(wanted - instant) <= instant_reach(keywords, wanted); });
+}
+
+void Observer::observe(const solver::ResultStep& step, int number, Table& table) const {
+  for (const Observation& observation : observations_) {
+    if (is_due(observation, step.instant, number)) observe(observation, step, number, table);
+  }
+}
+
+void Observer::observe(const Observation& observation, const solver::ResultStep& step, int number, Table& table) const {
+  const Keywords& keywords = observation.keywords;
+  // The initial state has not all fields.
+  if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
+  const solver::Field& field = field_of(keywords, step);
+  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, field);
+  const std::string& operation = keywords.text("EVAL_CHAM");
+  for (const int component : chosen_components(keywords, components)) {
+    const auto* nodal = std::get_if<solver::NodalField>(&field);
+    std::vector<Sample> samples = nodal != nullptr
+                                      ? samples_of(*nodal, component, mesh_, observation.nodes)
+                                      : samples_of(std::get<solver::ElementField>(field), component, mesh_, observation.cells, keywords);
+    if (operation != "VALE" && !samples.empty()) samples = {{{}, reduced(operation, samples | std::views::transform(&Sample::value))}};
+    for (const Sample& sample : samples) {
+      Row row = {{"NOM_OBSERVATION", observation.name}, {"NUME_OBSE", std::int64_t{number}}, {"INST", step.instant},
+                 {"NOM_CHAM", keywords.text("NOM_CHAM")}, {"EVAL_CHAM", operation}, {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
+      row.insert(row.end(), sample.place.begin(), sample.place.end());
+      row.emplace_back("VALE", sample.value);
+      table.add_row(row);
+    }
+  }
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,37 @@
+// Values followed through the steps of a nonlinear computation (STAT_NON_LINE, OBSERVATION; U4.51.03).
+#pragma once
+
+#include <vector>
+
+#include "commands/concepts.hpp"
+#include "interpreter/call.hpp"
+
+namespace comma::commands {
+
+/// Fills a table with the values that OBSERVATION asks for, step by step.
+class Observer {
+ public:
+  /// `call`: STAT_NON_LINE. Keeps copies of its occurrences. Throws DiagnosticError for a place that the mesh lacks.
+  Observer(const interpreter::Call& call, const solver::Mesh& mesh);
+
+  bool empty() const { return observations_.empty(); }
+  /// Appends the rows of a step; `number` counts the steps, 0 being the initial state. Throws DiagnosticError
+  /// `unknown-field`, `unknown-component`, `wrong-type`.
+  void observe(const solver::ResultStep& step, int number, Table& table) const;
+
+ private:
+  struct Observation {
+    interpreter::Keywords keywords;
+    std::string name;  ///< in the column NOM_OBSERVATION
+    std::vector<int> nodes, cells;
+    std::vector<double> instants;  ///< empty: every step
+  };
+
+  bool is_due(const Observation& observation, double instant, int number) const;
+  void observe(const Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
+
+  const solver::Mesh& mesh_;
+  std::vector<Observation> observations_;
+};
+
+}  // namespace comma::commands

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+
+const ResultConcept& result_of(const Call& call) {
+  const auto* result = dynamic_cast<const ResultConcept*>(call.concept_of("CO")->data.get());
+  if (result != nullptr) return *result;
+  throw DiagnosticError("unsupported", fmt::format("RECU_TABLE: {} is no result, and other concepts keep no tables here", call.concept_of("CO")->name),
+                        call.span_of("CO"));
+}
+
+Cell parameter_of(const solver::ResultStep& step, const std::string& name) {
+  if (name == "INST") return step.instant;
+  const auto found = step.parameters.find(name);
+  return found == step.parameters.end() ? Cell() : Cell(found->second);
+}
+
+// One row a step that the computation went through.
+Table computation(const solver::Result& result) {
+  Table table;
+  for (const solver::ResultStep& step : result.steps) {
+    if (step.order == 0) continue;  // the initial state was not computed
+    std::vector<std::pair<std::string, Cell>> row = {{"NUME_ORDRE", std::int64_t{step.order}}, {"INST", step.instant}};
+    for (const auto& [name, value] : step.parameters) row.emplace_back(name, value);
+    table.add_row(row);
+  }
+  return table;
+}
+
+Table parameters(const Call& call, const solver::Result& result) {
+  Table table;
+  for (const solver::ResultStep& step : result.steps) {
+    std::vector<std::pair<std::string, Cell>> row = {{"NUME_ORDRE", std::int64_t{step.order}}};
+    for (const std::string& name : call.texts("NOM_PARA")) row.emplace_back(name, parameter_of(step, name));
+    table.add_row(row);
+  }
+  return table;
+}
+
+Table named_table(const Call& call, const ResultConcept& data) {
+  const std::string& name = call.text("NOM_TABLE");
+  if (name == "PARA_CALC") return computation(data.result);
+  if (name == "OBSERVATION" && data.observations) return *data.observations;
+  throw DiagnosticError("unknown-table", fmt::format("RECU_TABLE: {} has no table {}", call.concept_of("CO")->name, name), call.span_of("NOM_TABLE"),
+                        name == "OBSERVATION" ? "ask for it by OBSERVATION in STAT_NON_LINE" : "results have the tables PARA_CALC and OBSERVATION");
+}
+
+}  // namespace
+
+Product recu_table(const Call& call, Context&) {
+  const ResultConcept& data = result_of(call);
+  auto product = std::make_shared<TableConcept>();
+  product->table = call.has("NOM_TABLE") ? named_table(call, data) : parameters(call, data.result);
+  return product;
+}
+
+}  // namespace comma::commands

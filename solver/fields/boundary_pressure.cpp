@@ -1,0 +1,39 @@
+#include "solver/fields/boundary_pressure.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "solver/contact/normals.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
+
+Eigen::Matrix3d stress_at(const NodalField& field, const std::array<int, 6>& columns, int node) {
+  const auto value = [&](int i) {
+    const double given = columns[i] < 0 ? 0.0 : field.at(node, columns[i]);
+    return i > 3 && std::isnan(given) ? 0.0 : given;  // a plane body has no stresses across its plane
+  };
+  Eigen::Matrix3d stress;
+  stress << value(0), value(3), value(4), value(3), value(1), value(5), value(4), value(5), value(2);
+  return stress;
+}
+
+}  // namespace
+
+NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::span<const int> cells,
+                             std::span<const Eigen::Vector3d> positions) {
+  std::array<int, 6> columns;
+  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(stress_names[i]);
+  if (columns[0] < 0 || columns[1] < 0) throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
+  NodalField pressure{"PRES_R", {"PRES"}, std::vector<double>(mesh.nodes.size(), absent)};
+  for (const auto& [node, normal] : nodal_normals(mesh, cells, positions)) {
+    pressure.values[static_cast<std::size_t>(node)] = normal.dot(stress_at(stresses, columns, node) * normal);
+  }
+  return pressure;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,62 @@
+#include "solver/fields/external_work.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+const NodalField& nodal_field(const ResultStep& step, std::string_view name) {
+  const auto found = step.fields.find(name);
+  if (found != step.fields.end()) return std::get<NodalField>(found->second);
+  throw Error("unknown-field", fmt::format("step {} has no field {}, which the work needs", step.order, name), fmt::format("compute {} first", name));
+}
+
+/// Displacements and forces of a step, paired by node and component, 0 where either is absent.
+struct Pairs {
+  std::vector<double> displacements, forces;
+};
+
+Pairs pairs_of(const ResultStep& step) {
+  const NodalField& displacement = nodal_field(step, "DEPL");
+  const NodalField& force = nodal_field(step, "FORC_NODA");
+  const std::size_t nodes = displacement.values.size() / displacement.components.size();
+  Pairs pairs;
+  for (std::size_t c = 0; c < displacement.components.size(); ++c) {
+    const int column = force.component(displacement.components[c]);
+    for (std::size_t node = 0; column >= 0 && node < nodes; ++node) {
+      const double u = displacement.at(static_cast<int>(node), static_cast<int>(c));
+      const double f = force.at(static_cast<int>(node), column);
+      const bool present = !std::isnan(u) && !std::isnan(f);
+      pairs.displacements.push_back(present ? u : 0.0);
+      pairs.forces.push_back(present ? f : 0.0);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<ExternalWork> external_work(const Result& result) {
+  std::vector<ExternalWork> works;
+  Pairs before;
+  for (const ResultStep& step : result.steps) {
+    Pairs now = pairs_of(step);
+    before.displacements.resize(now.displacements.size(), 0.0);
+    before.forces.resize(now.forces.size(), 0.0);
+    ExternalWork work{0.0, works.empty() ? 0.0 : works.back().real};
+    for (std::size_t i = 0; i < now.forces.size(); ++i) {
+      work.elastic += 0.5 * now.forces[i] * now.displacements[i];
+      work.real += 0.5 * (now.forces[i] + before.forces[i]) * (now.displacements[i] - before.displacements[i]);
+    }
+    works.push_back(work);
+    before = std::move(now);
+  }
+  return works;
+}
+
+}  // namespace comma::solver

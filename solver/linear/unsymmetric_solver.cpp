@@ -1,0 +1,173 @@
+#include "solver/linear/unsymmetric_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/SparseLU>
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/linear/equilibration.hpp"
+#include "solver/linear/matrix_checks.hpp"
+#include "solver/linear/refined_solver.hpp"
+#include "solver/linear/refinement.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// Each pass halves the exponents' spread; eight bring 1e300 to within a factor of about 10.
+constexpr int most_passes = 8;
+/// What a zero diagonal entry of the scaled matrix is given when a pivot is exactly zero, so that elimination goes on and finds
+/// the others ...
+constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
+/// ... and the digits by which such a pivot is recognised.
+constexpr int zero_pivot_digits = 14;
+
+/// b - A x in doubled precision, rounded at the end; x = high + low.
+void residual(const GeneralMatrix& matrix, const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums,
+              double* result) {
+  const int n = static_cast<int>(matrix.rows());
+  for (int row = 0; row < n; ++row) sums[row] = {b[row], 0.0};
+  for (int column = 0; column < n; ++column) {
+    for (GeneralMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      add_product(sums[entry.row()], -entry.value(), high[column]);
+      sums[entry.row()].low -= entry.value() * low[column];
+    }
+  }
+  for (int row = 0; row < n; ++row) result[row] = sums[row].value();
+}
+
+struct Maxima {
+  Eigen::VectorXd rows, columns;
+};
+
+/// The largest magnitudes in the rows and columns of R A C.
+Maxima maxima_of(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors, const Eigen::VectorXd& column_factors) {
+  Maxima maxima{Eigen::VectorXd::Zero(matrix.rows()), Eigen::VectorXd::Zero(matrix.cols())};
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (GeneralMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      const double size = std::abs(entry.value()) * row_factors[entry.row()] * column_factors[column];
+      maxima.rows[entry.row()] = std::max(maxima.rows[entry.row()], size);
+      maxima.columns[column] = std::max(maxima.columns[column], size);
+    }
+  }
+  return maxima;
+}
+
+/// Brings the largest entries towards 1 by powers of two, as equilibration_factors() does.
+void rescale(Eigen::VectorXd& factors, const Eigen::VectorXd& maxima) {
+  for (Eigen::Index i = 0; i < factors.size(); ++i) {
+    if (maxima[i] > 0.0) factors[i] *= std::ldexp(1.0, static_cast<int>(std::lround(-0.5 * std::log2(maxima[i]))));
+  }
+}
+
+GeneralMatrix scaled_by(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors, const Eigen::VectorXd& column_factors) {
+  GeneralMatrix result = matrix;
+  for (int column = 0; column < result.outerSize(); ++column) {
+    for (GeneralMatrix::InnerIterator entry(result, column); entry; ++entry) {
+      entry.valueRef() *= row_factors[entry.row()] * column_factors[column];
+    }
+  }
+  return result;
+}
+
+/// Where the diagonal is missing or zero it becomes `zero_pivot_shift`.
+GeneralMatrix shifted(const GeneralMatrix& matrix) {
+  GeneralMatrix diagonal(matrix.rows(), matrix.cols());
+  diagonal.setIdentity();
+  return matrix + zero_pivot_shift * diagonal;
+}
+
+}  // namespace
+
+GeneralMatrix full_matrix(const SymmetricMatrix& symmetric, const SkewMatrix& skew) {
+  const GeneralMatrix mirrored = symmetric.selfadjointView<Eigen::Lower>();
+  const GeneralMatrix transposed = skew.transpose();
+  GeneralMatrix result = mirrored + skew - transposed;
+  result.makeCompressed();
+  return result;
+}
+
+SymmetricMatrix gram_matrix(const GeneralMatrix& matrix) {
+  const GeneralMatrix transposed = matrix.transpose();
+  const GeneralMatrix product = transposed * matrix;
+  return product.triangularView<Eigen::Lower>();
+}
+
+/// Eigen keeps the pivots to itself: they are the diagonal of U, which it stores along with L.
+struct UnsymmetricSolver::Factors : Eigen::SparseLU<GeneralMatrix, Eigen::COLAMDOrdering<int>> {
+  /// By unknown.
+  Eigen::VectorXd pivots() const {
+    Eigen::VectorXd in_order(cols());
+    for (Eigen::Index j = 0; j < cols(); ++j) {
+      for (SCMatrix::InnerIterator entry(m_Lstore, j); entry; ++entry) {
+        if (entry.index() == j) in_order[j] = entry.value();
+      }
+    }
+    return colsPermutation().inverse() * in_order;
+  }
+};
+
+UnsymmetricSolver::UnsymmetricSolver(const LinearOptions& options) : options_(options) {}
+UnsymmetricSolver::~UnsymmetricSolver() = default;
+
+FactorReport UnsymmetricSolver::factorise(const SymmetricMatrix& symmetric, const SkewMatrix& skew) {
+  check_finite(symmetric);
+  check_finite(skew);
+  matrix_ = full_matrix(symmetric, skew);
+  const Eigen::Index n = matrix_.rows();
+  report_ = {};
+  norm_ = 0.0;
+  row_factors_ = column_factors_ = Eigen::VectorXd::Ones(n);
+  if (n == 0) return report_;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (int column = 0; column < n; ++column) {
+    for (GeneralMatrix::InnerIterator entry(matrix_, column); entry; ++entry) sums[entry.row()] += std::abs(entry.value());
+  }
+  norm_ = sums.maxCoeff();
+  for (int pass = 0; options_.equilibrate && pass < most_passes; ++pass) {
+    const Maxima maxima = maxima_of(matrix_, row_factors_, column_factors_);
+    rescale(row_factors_, maxima.rows);
+    rescale(column_factors_, maxima.columns);
+  }
+  factorise_scaled(scaled_by(matrix_, row_factors_, column_factors_));
+  return report_;
+}
+
+void UnsymmetricSolver::factorise_scaled(const GeneralMatrix& working) {
+  int digits = options_.singular_digits;
+  factors_ = std::make_unique<Factors>();
+  factors_->compute(working);
+  if (factors_->info() != Eigen::Success) {
+    factors_ = std::make_unique<Factors>();
+    factors_->compute(shifted(working));
+    digits = digits < 0 ? zero_pivot_digits : std::min(digits, zero_pivot_digits);
+  }
+  if (factors_->info() != Eigen::Success) throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(working.rows());
+  Eigen::VectorXd references = maxima_of(working, ones, ones).columns;
+  references = (references.array() > 0.0).select(references, ones);
+  report_ = judge_pivots(factors_->pivots().cwiseAbs(), references, digits);
+}
+
+double UnsymmetricSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
+  if (report_.verdict == FactorVerdict::singular) {
+    throw Error("singular-matrix", fmt::format("the matrix is singular: {} of its {} columns have no usable pivot",
+                                               report_.null_rows.size(), matrix_.rows()));
+  }
+  const RefinedSystem system{
+      [this](const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums, double* result) {
+        residual(matrix_, b, high, low, sums, result);
+      },
+      [this](Eigen::Ref<Eigen::MatrixXd> columns) { columns = factors_->solve(columns).eval(); }, row_factors_, column_factors_, norm_};
+  const double worst = refine(system, options_.refinement_steps, rhs);
+  if (worst <= LinearSolver::worst_residual) return worst;
+  throw Error("inaccurate-solution",
+              fmt::format("the unsymmetric solver reaches a relative residual of {:.1e} only; refinement does not improve it", worst),
+              "the matrix is nearly singular: look for parts that hardly anything holds");
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,59 @@
+#include "solver/fields/boundary_pressure.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// The right and the upper edge of a unit square, running round it.
+Mesh two_edges() {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.add_cell(CellType::seg2, std::array{1, 2});
+  mesh.add_cell(CellType::seg2, std::array{2, 3});
+  return mesh;
+}
+
+NodalField uniform(const Mesh& mesh, const std::array<double, 4>& stress) {
+  NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {}};
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) field.values.insert(field.values.end(), stress.begin(), stress.end());
+  return field;
+}
+
+std::vector<Eigen::Vector3d> places(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> result;
+  for (const Point& node : mesh.nodes) result.emplace_back(node[0], node[1], node[2]);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the pressure on a boundary is the stress along its normal", "[fields]") {
+  const Mesh mesh = two_edges();
+  const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0, 1}, places(mesh));
+  CHECK(pressure.at(1, 0) == Approx(-3.0));
+  CHECK(pressure.at(3, 0) == Approx(-5.0));
+  CHECK(pressure.at(2, 0) == Approx(0.5 * (-3 - 5 + 2 * 2)));  // its normal is (1, 1) / sqrt(2)
+  CHECK(std::isnan(pressure.at(0, 0)));
+}
+
+TEST_CASE("normals are those of the positions given", "[fields]") {
+  const Mesh mesh = two_edges();
+  auto moved = places(mesh);
+  moved[2] = {2, 1, 0};  // the right edge now leans by 45 degrees
+  const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0}, moved);
+  CHECK(pressure.at(1, 0) == Approx(0.5 * (-3 - 5 - 2 * 2)));
+}
+
+TEST_CASE("a field without stresses has no pressure", "[fields]") {
+  const Mesh mesh = two_edges();
+  const NodalField displacement{"DEPL_R", {"DX", "DY"}, std::vector<double>(8, 0.0)};
+  CHECK_THROWS_AS(boundary_pressure(mesh, displacement, std::array{0}, places(mesh)), Error);
+}

@@ -1,0 +1,57 @@
+#include "solver/mesh/joining.hpp"
+
+#include <array>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// A unit square from x on, its left and right sides as groups LEFT and RIGHT, itself as BODY.
+Mesh square(double x) {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}};
+  mesh.add_cell(CellType::quad4, std::array{0, 1, 2, 3});
+  mesh.add_cell(CellType::seg2, std::array{1, 2});
+  mesh.add_cell(CellType::seg2, std::array{3, 0});
+  mesh.cell_groups = {{"BODY", {0}}, {"RIGHT", {1}}, {"LEFT", {2}}};
+  mesh.node_groups = {{"CORNER", {0}}};
+  mesh.node_names = {"A", "B", "C", "D"};
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("superposed meshes share nothing, and groups of the same name stay apart", "[mesh]") {
+  const JoinedMesh joined = superposed(square(0.0), square(1.0));
+  CHECK(joined.mesh.node_count() == 8);
+  CHECK(joined.mesh.cell_count() == 6);
+  CHECK(joined.mesh.cell_group("BODY") == std::vector<int>{0});
+  CHECK(joined.mesh.cell_group("BODY_2") == std::vector<int>{3});
+  CHECK(joined.mesh.node_group("CORNER_2") == std::vector<int>{4});
+  CHECK(joined.renamed.size() == 4);
+  CHECK(joined.mesh.node_name(4) == "N5");
+}
+
+TEST_CASE("glued meshes share the nodes of the seam, whose cells go", "[mesh]") {
+  const Mesh first = square(0.0);
+  Mesh second = square(1.0);
+  second.nodes[0][1] = 5e-4;  // within a thousandth of an edge
+  const JoinedMesh joined = glued(first, second, first.cell_group("RIGHT"), second.cell_group("LEFT"));
+  CHECK(joined.mesh.cell_count() == 4);
+  const auto right = joined.mesh.cell(joined.mesh.cell_group("BODY_2").front());
+  CHECK(std::vector<int>(right.begin(), right.end()) == std::vector<int>{1, 5, 6, 2});
+  CHECK_FALSE(joined.mesh.cell_groups.contains("LEFT_2"));  // its one cell is gone
+  CHECK(joined.mesh.cell_group("RIGHT").size() == 1);       // the second mesh's: the name is free again
+  CHECK(joined.mesh.node_group("CORNER_2") == std::vector<int>{1});
+}
+
+TEST_CASE("what does not coincide cannot be glued", "[mesh]") {
+  const Mesh first = square(0.0);
+  const Mesh second = square(1.1);
+  CHECK_THROWS_WITH(glued(first, second, first.cell_group("RIGHT"), second.cell_group("LEFT")), Catch::Contains("node A of the second mesh"));
+}
