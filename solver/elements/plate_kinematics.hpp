@@ -11,7 +11,8 @@
 //
 //     integral of (dw/ds + beta_s) = w_j - w_i + L (beta_s,i + beta_s,j) / 2 + 2/3 L alpha_k = L gamma_s,k.
 //
-// The shear force is that of the equilibrium of moments, T = div M(beta), taken at the middle of the side: gamma = T / (k G h). A
+// The shear force is the divergence of the moments of beta about the surface of the nodes, T = div M(beta), taken at the middle of the
+// side: gamma = T / (k G h). With an offset e the rigidity of these moments is D + e^2 A (R3.07.06). A
 // plate without shear has gamma = 0 (Kirchhoff's condition, side by side), which is all that tells the two theories apart.
 #pragma once
 
@@ -173,7 +174,7 @@ class PlateKinematics {
     return rows;
   }
 
-  /// T = div M, with the moments of the mid-surface.
+  /// T = div M, with the moments of beta about the surface of the nodes.
   std::array<WideRow, 2> shear_rows(const Gradients& a, const Gradients& b) const {
     const double nu = rigidity_.poisson, half = 0.5 * (1.0 - nu);
     const double bending = rigidity_.bending + rigidity_.offset * rigidity_.offset * rigidity_.membrane;
