@@ -10,7 +10,7 @@ namespace {
 
 std::vector<std::string> wanted_fields(const Call& call) {
   std::vector<std::string> names;
-  for (const char* keyword : {"CONTRAINTE", "DEFORMATION", "ENERGIE", "CRITERES", "FORCE"}) {
+  for (const char* keyword : {"CONTRAINTE", "DEFORMATION", "ENERGIE", "CRITERES", "FORCE", "VARI_INTERNE"}) {
     for (const std::string& name : call.texts(keyword)) names.push_back(name);
   }
   return names;

@@ -130,6 +130,27 @@ solver::MixedZone discrete_zone(const Keywords& keywords) {
   return zone;
 }
 
+void take_algorithm(const Call& call, solver::ContactDefinition& definition) {
+  if (call.factors("ZONE").front().text("ALGO_CONT") != "GCP") return;
+  definition.algorithm = solver::ContactAlgorithm::projected_gradient;
+  if (!call.has("RESI_ABSO"))
+    throw DiagnosticError("missing-keyword", "DEFI_CONTACT: ALGO_CONT='GCP' needs RESI_ABSO, the largest interpenetration left", call.span,
+                          "give RESI_ABSO, 1e-6 of the size of a cell for instance");
+  definition.gradient_tolerance = call.real("RESI_ABSO");
+  definition.gradient_iterations = static_cast<int>(call.integer("ITER_GCP_MAXI"));
+  definition.gradient_scaled = call.text("PRE_COND") == "DIRICHLET";
+}
+
+// The discrete formulation solves all zones together, by one algorithm (U4.44.11).
+void check_one_algorithm(const Call& call) {
+  const auto& zones = call.factors("ZONE");
+  for (const Keywords& zone : zones) {
+    if (zone.text("ALGO_CONT") == zones.front().text("ALGO_CONT")) continue;
+    throw DiagnosticError("mixed-algorithms", "DEFI_CONTACT: all zones of the discrete formulation take one ALGO_CONT", zone.span_of("ALGO_CONT"),
+                          "write " + zones.front().text("ALGO_CONT") + " here too");
+  }
+}
+
 // One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest.
 void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
   constexpr int most_updates_by_newton = 100;
@@ -148,6 +169,10 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
+  if (!is_mixed) {
+    check_one_algorithm(call);
+    take_algorithm(call, definition);
+  }
   for (const Keywords& keywords : call.factors("ZONE")) {
     solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
     zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : discrete_zone(keywords);

@@ -87,7 +87,7 @@ const ResultStep& only_step(const Keywords& keywords, const solver::Result& resu
 
 std::vector<const ResultStep*> steps_with_field(const Keywords& keywords, const solver::Result& result) {
   auto steps = selected_steps(keywords, result);
-  const bool named = std::ranges::any_of(std::array{"INST", "LIST_INST", "NUME_ORDRE"}, [&](const char* name) { return keywords.given(name); });
+  const bool named = std::ranges::any_of(std::array{"INST", "NUME_ORDRE"}, [&](const char* name) { return keywords.given(name); });
   if (named) return steps;
   const std::string& field = keywords.text("NOM_CHAM");
   const auto lacks = [&](const ResultStep* step) { return !step->fields.contains(field); };

@@ -20,8 +20,8 @@ double instant_reach(const interpreter::Keywords& keywords, double instant);
 /// The one step that the keywords name. Throws DiagnosticError `wrong-count` with the reason for one alone when they name several.
 const solver::ResultStep& only_step(const interpreter::Keywords& keywords, const solver::Result& result, const char* reason);
 
-/// Of the selected steps those that hold the field NOM_CHAM: a file that names no step means all that have it (the initial
-/// state has no contact field, say). Throws as selected_steps and field_of where a step is named, or none has the field.
+/// Of the selected steps those that hold the field NOM_CHAM: a file that names no step, or a list of instants, means all that have it
+/// (the initial state has no contact field, say). Throws as selected_steps and field_of where a step is named, or none has the field.
 std::vector<const solver::ResultStep*> steps_with_field(const interpreter::Keywords& keywords, const solver::Result& result);
 
 /// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.

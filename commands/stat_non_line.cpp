@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "commands/observation.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/selection.hpp"
 #include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -16,8 +17,22 @@ namespace {
 
 using interpreter::DiagnosticError;
 
+// Green-Lagrange strains where COMPORTEMENT asks for them.
+std::shared_ptr<const solver::KinematicsOfCells> kinematics(const Call& call, const solver::Mesh& mesh) {
+  auto result = std::make_shared<solver::KinematicsOfCells>();
+  for (const Keywords& behaviour : call.factors("COMPORTEMENT")) {
+    if (behaviour.text("DEFORMATION") != "GREEN_LAGRANGE") continue;
+    result->resize(static_cast<std::size_t>(mesh.cell_count()), solver::Kinematics::small);
+    if (!behaviour.has("GROUP_MA") && !behaviour.has("MAILLE")) std::ranges::fill(*result, solver::Kinematics::green_lagrange);
+    for (const int cell : selected_cells(behaviour, mesh)) (*result)[static_cast<std::size_t>(cell)] = solver::Kinematics::green_lagrange;
+  }
+  if (result->empty()) return nullptr;
+  return result;
+}
+
 solver::StaticProblem problem_of(const Call& call) {
   solver::StaticProblem problem = static_problem(call);
+  problem.kinematics = kinematics(call, *problem.model->mesh);
   if (!call.has("CONTACT")) return problem;
   const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
   if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {

@@ -19,8 +19,10 @@ constexpr double not_paired = -1.0;
 constexpr double open = 0.0;
 constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
+constexpr double overlapping = 3.0;
 
 double status_of(const NodeContact& contact) {
+  if (contact.pair.status == PairingStatus::watched) return contact.gap < 0.0 ? overlapping : not_paired;
   if (contact.sticking) return sticking;
   return contact.normal_force > 0.0 ? sliding : open;
 }
@@ -40,7 +42,7 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
       if (row[cont] != row[cont]) row[cont] = not_paired;
       continue;
     }
-    row[cont] = pair.status == PairingStatus::watched ? not_paired : status_of(contact);
+    row[cont] = status_of(contact);
     row[jeu] = contact.gap;
     row[rn] = contact.normal_force;
     const Eigen::Vector3d whole = contact.normal_force * pair.normal + contact.shear_force;

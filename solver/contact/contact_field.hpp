@@ -20,7 +20,8 @@ struct NodeContact {
   Eigen::Vector2d slip = Eigen::Vector2d::Constant(absent);  ///< along two tangents; absent without friction
 };
 
-/// Components (U2.04.04): CONT: -1 not paired or not enforced, 0 open, 1 sticking, 2 in contact and free to slide; JEU: gap, positive when open; RN: normal
+/// Components (U2.04.04): CONT: -1 not paired, or apart where contact is not enforced, 0 open, 1 sticking, 2 in contact and free to slide, 3 overlapping
+/// where contact is not enforced; JEU: gap, positive when open; RN: normal
 /// force on the slave node, positive in compression, and its components RNX RNY RNZ; the tangential forces of sticking RTAX..
 /// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
 /// foot on the master surface. GLIX GLIY GLI: slip along two

@@ -19,7 +19,8 @@ struct UnilateralCondition {
   FieldFunction bound;
 };
 
-enum class ContactAlgorithm : std::uint8_t { active_set };
+/// How the inequalities of the discrete formulation are solved.
+enum class ContactAlgorithm : std::uint8_t { active_set, projected_gradient };
 /// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a weak form
 /// (R5.03.52).
 enum class ContactFormulation : std::uint8_t { discrete, mixed };
@@ -78,6 +79,9 @@ struct ContactDefinition {
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
   bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
+  double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
+  int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number
+  bool gradient_scaled = false;      ///< PRE_COND
   std::vector<ContactZone> zones;
 };
 

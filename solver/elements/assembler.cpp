@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ namespace comma::solver {
 namespace {
 
 /// Cells with stiffness, gathered by what they share; each group's cells keep the order of the mesh.
-using CellGroups = std::map<std::pair<Formulation, CellType>, std::vector<int>>;
+using CellGroups = std::map<std::tuple<Formulation, CellType, Kinematics>, std::vector<int>>;
 
 std::vector<int> stiff_cells(const Model& model) {
   std::vector<int> cells;
@@ -28,17 +29,21 @@ std::vector<int> stiff_cells(const Model& model) {
   return cells;
 }
 
-CellGroups group_cells(const Model& model, const std::vector<int>& cells) {
+CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
   CellGroups groups;
-  for (const int cell : cells) groups[{model.formulations[cell], model.mesh->cell_types[cell]}].push_back(cell);
+  for (const int cell : cells)
+    groups[{input.model.formulations[cell], input.model.mesh->cell_types[cell], input.kinematics_of(cell)}].push_back(cell);
   return groups;
 }
 
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
-  if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
+  if (input.kinematics_of(cells.front()) != Kinematics::small)
+    throw Error("unsupported", fmt::format("cell {}: bars, beams and plates know small strains only", input.model.mesh->cell_name(cells.front())),
+                "give these cells small strains (DEFORMATION='PETIT')");
+  if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
 }
 
@@ -110,12 +115,13 @@ struct Assembler::Blocks {
   std::vector<std::unique_ptr<ElementBlock>> list;
 };
 
-Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs)
+Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
+                     const KinematicsOfCells* kinematics)
     : model_(model), materials_(materials), properties_(properties), dofs_(dofs) {
   const std::vector<int> cells = stiff_cells(model);
   blocks_.reset(new Blocks{SparsePattern(*model.mesh, cells, dofs), {}});
-  const BlockInput input{model_, materials_, properties_, dofs_, blocks_->pattern};
-  for (auto& [kind, group] : group_cells(model, cells)) blocks_->list.push_back(make_block(input, std::move(group)));
+  const BlockInput input{model_, materials_, properties_, dofs_, blocks_->pattern, kinematics};
+  for (auto& [kind, group] : group_cells(input, cells)) blocks_->list.push_back(make_block(input, std::move(group)));
 }
 
 Assembler::~Assembler() = default;

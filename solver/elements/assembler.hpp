@@ -13,6 +13,7 @@
 #include "solver/loads/load.hpp"
 #include "solver/materials/command_variables.hpp"
 #include "solver/materials/material.hpp"
+#include "solver/model/kinematics.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {
@@ -26,7 +27,9 @@ class Assembler {
   /// Throws Error `missing-material` / `missing-properties` naming a cell that lacks what its element needs, `wrong-size` for a
   /// spring's matrix, `invalid-material`, `invalid-properties`, `distorted-cell`, `unsupported` for a formulation on a cell type
   /// without such an element.
-  Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs);
+  /// `kinematics`: null or empty for small strains everywhere. Throws Error `unsupported` where an element knows no other.
+  Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
+            const KinematicsOfCells* kinematics = nullptr);
   ~Assembler();
 
   /// Takes the command variables of the materials at a time: from now on stiffness, forces, stresses and energies are those of that

@@ -1,5 +1,5 @@
 // Solids and plane or axisymmetric bodies in small strains: one template on dimension, number of nodes and axisymmetry. Only
-// continuum_plane.cpp and continuum_solid.cpp include it, each to make its blocks.
+// large_strain_block.hpp, which builds on it, and through that continuum_plane.cpp and continuum_solid.cpp include it.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,8 @@ inline constexpr std::array<std::string_view, 4> plane_stress_names = {"SIXX", "
 inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 template <int Dim, int Nodes, bool Axisymmetric>
-class ContinuumBlock final : public ElementBlock {
+class ContinuumBlock : public ElementBlock {
+ protected:
   static constexpr int strains = Dim == 3 ? 6 : 4;
   static constexpr int size = Nodes * Dim;
   using Coordinates = Eigen::Matrix<double, Nodes, Dim>;  // one node a row; also displacements and gradients of N
@@ -151,7 +152,7 @@ class ContinuumBlock final : public ElementBlock {
     }
   }
 
- private:
+ protected:
   /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing. The
   /// radial displacement is absolute as well, for the hoop strain.
   struct Displacements {

@@ -1,16 +1,23 @@
 // Plane and axisymmetric bodies, from the continuum template.
-#include "solver/elements/continuum_block.hpp"
+#include "solver/elements/large_strain_block.hpp"
 
 namespace comma::solver {
 
 namespace {
 
+template <int Dim, int Nodes, bool Axisymmetric>
+std::unique_ptr<ElementBlock> of_kinematics(const BlockInput& input, std::vector<int> cells) {
+  if (input.kinematics_of(cells.front()) == Kinematics::green_lagrange)
+    return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
+  return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
+}
+
 template <int Nodes>
 std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
   if (is_axisymmetric(input.model.formulations[cells.front()])) {
-    return std::make_unique<ContinuumBlock<2, Nodes, true>>(input, std::move(cells));
+    return of_kinematics<2, Nodes, true>(input, std::move(cells));
   }
-  return std::make_unique<ContinuumBlock<2, Nodes, false>>(input, std::move(cells));
+  return of_kinematics<2, Nodes, false>(input, std::move(cells));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/materials/elasticity.hpp"
+#include "solver/model/kinematics.hpp"
 
 namespace comma::solver {
 
@@ -21,6 +22,11 @@ struct BlockInput {
   const ElementProperties& properties;
   const DofMap& dofs;
   const SparsePattern& pattern;
+  const KinematicsOfCells* kinematics;  ///< null or empty: small strains
+
+  Kinematics kinematics_of(int cell) const {
+    return kinematics && !kinematics->empty() ? (*kinematics)[static_cast<std::size_t>(cell)] : Kinematics::small;
+  }
 };
 
 /// Internal forces add up in extended precision (64 significant bits).

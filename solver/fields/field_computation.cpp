@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ FieldComputation::FieldComputation(const StaticProblem& problem, const Result& r
     : problem_(problem),
       result_(result),
       dofs_(*problem.model),
-      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_) {}
+      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()) {}
 
 const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputation::rules() {
   using F = FieldComputation;
@@ -88,6 +89,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPOT_ELEM", &F::potential_energy_of_cells},
       {"ETOT_ELGA", &F::total_energy},
       {"ETOT_ELEM", &F::total_energy_of_cells},
+      {"VARI_ELGA", &F::internal_variables},
       {"FORC_NODA", &F::internal_forces},
       {"REAC_NODA", &F::reactions},
   };
@@ -168,6 +170,22 @@ Field FieldComputation::stresses(std::size_t step) {
   return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
 }
 
+// Elasticity has no memory: Code_Aster gives it one variable, which stays zero (U4.51.11).
+Field FieldComputation::internal_variables(std::size_t step) {
+  ElementField field = element_field("SIEF_ELGA", step);
+  const std::size_t stresses = field.components.size();
+  for (std::size_t k = 0; k < field.values.size() / stresses; ++k) {
+    const bool exists = std::any_of(field.values.begin() + static_cast<std::ptrdiff_t>(k * stresses),
+                                    field.values.begin() + static_cast<std::ptrdiff_t>((k + 1) * stresses),
+                                    [](double value) { return !std::isnan(value); });
+    field.values[k] = exists ? 0.0 : absent;
+  }
+  field.values.resize(field.values.size() / stresses);
+  field.components = {"V1"};
+  field.quantity = "VARI_R";
+  return field;
+}
+
 Field FieldComputation::continuum_stress_field(std::size_t step) {
   return continuum_stresses(element_field("SIEF_ELGA", step));
 }
@@ -213,7 +231,13 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
   return equivalent_stresses(element_field("SIGM_ELNO", step));
 }
 
+void FieldComputation::require_small_strains(std::string_view name) const {
+  if (problem_.kinematics && std::ranges::any_of(*problem_.kinematics, [](Kinematics each) { return each != Kinematics::small; }))
+    throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
+}
+
 Field FieldComputation::elastic_energy(std::size_t step) {
+  require_small_strains("ENEL_ELGA");
   return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
 }
 
@@ -231,6 +255,7 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
 
 // The work of stresses adds up from step to step.
 Field FieldComputation::total_energy(std::size_t step) {
+  require_small_strains("ETOT_ELGA");
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
   if (step > 0) {
     stress_before = &element_field("SIEF_ELGA", step - 1);

@@ -58,11 +58,13 @@ class FieldComputation {
   Field green_strains(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
+  void require_small_strains(std::string_view name) const;
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
+  Field internal_variables(std::size_t step);
   Field internal_forces(std::size_t step);
   Field reactions(std::size_t step);
 

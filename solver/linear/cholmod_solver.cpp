@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 
 #include <cholmod.h>
 
@@ -18,6 +19,9 @@ constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
 /// The digits by which such a pivot is recognised.
 constexpr int zero_pivot_digits = 14;
 
+/// Operations from which a factorisation gains by more than one thread: below, threads wait for each other longer than they work.
+constexpr double many_operations = 2e9;
+
 struct Cholmod {
   SharedLibrary library{COMMA_CHOLMOD_LIBRARY};
   decltype(&cholmod_start) start = library.function<decltype(cholmod_start)>("cholmod_start");
@@ -27,6 +31,12 @@ struct Cholmod {
   decltype(&cholmod_solve) solve = library.function<decltype(cholmod_solve)>("cholmod_solve");
   decltype(&cholmod_free_factor) free_factor = library.function<decltype(cholmod_free_factor)>("cholmod_free_factor");
   decltype(&cholmod_free_dense) free_dense = library.function<decltype(cholmod_free_dense)>("cholmod_free_dense");
+  void (*set_threads)(int) = library.function_if_any<void(int)>("openblas_set_num_threads");
+
+  /// Of the BLAS below, where it lets itself be told.
+  void use_threads(int count) const {
+    if (set_threads) set_threads(count);
+  }
 };
 
 /// CHOLMOD's view of a lower triangle; it copies nothing and writes nothing.
@@ -105,10 +115,13 @@ class CholmodSolver final : public RefinedSolver {
     cholmod_.free_factor(&factor_, &common_);
     cholmod_.free_factor(&indefinite_factor_, &common_);
     factor_ = symbolic_factor(matrix, CHOLMOD_AUTO);
+    operations_ = common_.fl;
   }
 
   FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) override {
     int digits = options().singular_digits;
+    const int all = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    cholmod_.use_threads(operations_ > many_operations ? all : 1);
     current_ = factor_;
     if (!factorised(matrix, 0.0)) {
       if (!indefinite_factor_) indefinite_factor_ = symbolic_factor(matrix, CHOLMOD_SIMPLICIAL);
@@ -130,6 +143,7 @@ class CholmodSolver final : public RefinedSolver {
     view.x = rhs.data();
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
+    cholmod_.use_threads(1);
     cholmod_dense* solution = cholmod_.solve(CHOLMOD_A, current_, &view, &common_);
     check();
     rhs = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());
@@ -166,6 +180,7 @@ class CholmodSolver final : public RefinedSolver {
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_factor_ = nullptr;
   cholmod_factor* current_ = nullptr;
+  double operations_ = 0.0;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ class RefinedSolver : public LinearSolver {
   void analyse(const SymmetricMatrix& matrix) final;
   FactorReport factorise(const SymmetricMatrix& matrix) final;
   double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const final;
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> rhs) const final;
 
  protected:
   /// Each solver's own part; `matrix` is already scaled, its rows and columns never zero in number. `references` (n):
@@ -25,6 +26,7 @@ class RefinedSolver : public LinearSolver {
 
  private:
   bool has_pattern_of(const SymmetricMatrix& matrix) const;
+  void check_not_singular() const;
 
   LinearOptions options_;
   SymmetricMatrix matrix_;

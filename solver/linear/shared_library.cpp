@@ -23,8 +23,10 @@ SharedLibrary::SharedLibrary(const std::string& file)
   if (!handle_) fail(file_);
 }
 
+void* SharedLibrary::symbol_if_any(const char* name) const { return dlsym(handle_, name); }
+
 void* SharedLibrary::symbol(const char* name) const {
-  void* address = dlsym(handle_, name);
+  void* address = symbol_if_any(name);
   if (!address) fail(file_);
   return address;
 }

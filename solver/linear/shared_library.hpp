@@ -13,7 +13,12 @@ class SharedLibrary {
   /// Throws Error `missing-library` naming the file and the loader's reason.
   explicit SharedLibrary(const std::string& file);
 
-  /// The address of a function. Throws Error `missing-library` if there is none of that name.
+  /// The address of a function, here or in a library below; null where there is none.
+  template <typename Function>
+  Function* function_if_any(const char* name) const {
+    return reinterpret_cast<Function*>(symbol_if_any(name));
+  }
+  /// The same. Throws Error `missing-library` if there is none of that name.
   template <typename Function>
   Function* function(const char* name) const {
     return reinterpret_cast<Function*>(symbol(name));
@@ -21,6 +26,7 @@ class SharedLibrary {
 
  private:
   void* symbol(const char* name) const;
+  void* symbol_if_any(const char* name) const;
 
   std::string file_;
   void* handle_;

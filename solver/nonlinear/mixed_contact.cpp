@@ -307,7 +307,7 @@ void MixedContact::update_schur() {
     std::set<int> support(support_.begin(), support_.end());
     for (const auto& spring : springs) support.insert(spring.first);
     schur_ = std::make_unique<SchurComplement>(
-        std::move(rows), [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); },
+        std::move(rows), [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); },
         std::vector<int>(support.begin(), support.end()));
     spring_count_ = springs.size();
   } else {

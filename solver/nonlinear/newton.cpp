@@ -10,10 +10,12 @@
 
 #include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
-#include "solver/unilateral/active_set.hpp"
+#include "solver/unilateral/projected_gradient.hpp"
 
 namespace comma::solver {
 namespace {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A correction below this share of the solution is rounding.
 constexpr double negligible_step = 4e-16;
@@ -81,7 +83,7 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
   if (!schur_) {
     schur_ = std::make_unique<SchurComplement>(
-        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve(columns); }, support_);
+        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_);
   } else {
     schur_->replace_rows(reduced_.inequalities.rows);
   }
@@ -134,10 +136,8 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   ActiveSetProblem problem;
   problem.guess = active_;
   problem.max_iterations = active_set_limit_;
-  schur_->require(active_);
   // `free` is balanced by the present multipliers: taking these back gives what it would be without any.
-  Eigen::VectorXd held = Eigen::VectorXd::Zero(row_multipliers_.size());
-  for (const int row : active_) held += row_multipliers_[row] * schur_->column(row);
+  const Eigen::VectorXd held = push_of_active();
   problem.excess = rows.rows * free - rows.bounds + held;
   const double displacement = largest(free);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
@@ -145,14 +145,15 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
     problem.scale[row] += displacement * Eigen::VectorXd(rows.rows.row(row)).lpNorm<1>();
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
 
-  ActiveSetSolution solution = solve_active_set(*schur_, problem);
+  ActiveSetSolution solution = solve_conditions(problem);
   counters_.contact_iterations += solution.iterations;
   if (solution.verdict == ActiveSetVerdict::contradictory) {
     std::vector<int> full;
     for (const int row : solution.contradiction) full.push_back(reduced_.origin[row]);
     throw_contradiction(*conditions_, full, mesh_, dofs_);
   }
-  if (solution.verdict == ActiveSetVerdict::too_many_iterations) throw_active_set_limit(active_set_limit_);
+  if (solution.verdict == ActiveSetVerdict::too_many_iterations)
+    throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_);
 
   const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
   state.reduced = free;
@@ -168,6 +169,49 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   state.multipliers.setZero();
   for (const int row : active_) state.multipliers[conditions_->row_slots[reduced_.origin[row]]] = row_multipliers_[row];
   return correction;
+}
+
+/// S times the present multipliers.
+Eigen::VectorXd NewtonSolver::push_of_active() {
+  Eigen::VectorXd held = Eigen::VectorXd::Zero(row_multipliers_.size());
+  if (by_gradients()) {
+    if (!active_.empty()) held = compliance_times(row_multipliers_);
+    return held;
+  }
+  schur_->require(active_);
+  for (const int row : active_) held += row_multipliers_[row] * schur_->column(row);
+  return held;
+}
+
+ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
+  return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem);
+}
+
+Eigen::VectorXd NewtonSolver::compliance_times(const Eigen::VectorXd& multipliers) {
+  Eigen::MatrixXd push = reduced_.inequalities.rows.transpose() * multipliers;
+  tangent_.solve_once(push);
+  return reduced_.inequalities.rows * push;
+}
+
+/// Projected conjugate gradients take no column of the compliance, but a solve an iteration.
+ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& problem) {
+  const auto& rows = reduced_.inequalities.rows;
+  ProjectedGradientOptions options;
+  options.tolerance = definition_->gradient_tolerance;
+  options.max_iterations = definition_->gradient_iterations;
+  options.start = row_multipliers_;
+  if (definition_->gradient_scaled) {
+    options.scaling = Eigen::VectorXd::Zero(rows.rows());
+    for (int row = 0; row < rows.outerSize(); ++row)
+      for (SparseRows::InnerIterator it(rows, row); it; ++it)
+        options.scaling[row] += it.value() * it.value() * tangent_.row_sizes()[it.col()];
+    options.scaling = options.scaling.cwiseSqrt();
+  }
+  ActiveSetSolution solution = solve_projected_gradient([this](const Eigen::VectorXd& x) { return compliance_times(x); }, problem, options);
+  if (solution.verdict == ActiveSetVerdict::contradictory)
+    throw Error("contradictory-conditions", "projected conjugate gradients find contact forces without bound: some conditions cannot hold together",
+                "solve with ALGO_CONT='CONTRAINTE', which names them");
+  return solution;
 }
 
 /// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put

@@ -15,6 +15,7 @@
 #include "solver/nonlinear/mixed_contact.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
+#include "solver/unilateral/active_set.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
@@ -46,6 +47,9 @@ class NewtonSolver {
   int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
             int active_set_limit, NewtonState& state);
 
+  /// How inequalities are solved from now on; the definition must outlive the solver.
+  void use_algorithm(const ContactDefinition& definition) { definition_ = &definition; }
+
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
@@ -62,6 +66,11 @@ class NewtonSolver {
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
+  bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
+  Eigen::VectorXd push_of_active();
+  Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
+  ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);
+  ActiveSetSolution solve_by_gradients(const ActiveSetProblem& problem);
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
   bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
@@ -80,6 +89,7 @@ class NewtonSolver {
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
 
+  const ContactDefinition* definition_ = nullptr;
   MixedContact* mixed_ = nullptr;
   const ConditionSet* conditions_ = nullptr;
   int active_set_limit_ = 0;

@@ -36,12 +36,13 @@ class StaticAnalysis {
         result_(result),
         counters_(counters),
         dofs_(*problem.model),
-        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+    if (problem.contact) newton_.use_algorithm(*problem.contact);
     require_symmetry();
     if (!is_mixed()) return;
     tangent_.allow_springs();
@@ -161,6 +162,7 @@ class StaticAnalysis {
     assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
+    if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     append(std::move(step));
   }
 
@@ -207,6 +209,7 @@ class StaticAnalysis {
     if (mixed_) mixed_->start_step(now_.state.u);
     start_.clear();
     for (const int node : contact_nodes_) start_.push_back(displacement(node));
+    const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
@@ -218,7 +221,7 @@ class StaticAnalysis {
         now_.conditions = std::move(next);
         const int limit = active_set_limit();
         const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
-        iterations = mixed_ ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
+        iterations = is_weak ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
@@ -308,11 +311,7 @@ class StaticAnalysis {
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
-    if (mixed_) {
-      step.fields.emplace("CONT_NOEU", mixed_->contact_state(now_.state.u, positions()));
-    } else if (problem_.contact) {
-      step.fields.emplace("CONT_NOEU", contact_state());
-    }
+    if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));
   }
@@ -356,7 +355,16 @@ class StaticAnalysis {
     }
   }
 
+  /// How the surfaces stand before anything presses.
+  NodalField initial_contact_state(double instant) {
+    pair(instant);
+    now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
+    resize_multipliers(now_.conditions);
+    return contact_state();
+  }
+
   NodalField contact_state() const {
+    if (mixed_) return mixed_->contact_state(now_.state.u, positions());
     const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
     std::vector<double> gaps(now_.conditions.pairs.size(), absent);
     for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {

@@ -12,6 +12,7 @@
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
+#include "solver/model/kinematics.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nonlinear/step_sequence.hpp"
 
@@ -37,6 +38,7 @@ struct StaticProblem {
   std::vector<AppliedLoad> loads;
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
+  std::shared_ptr<const KinematicsOfCells> kinematics;  ///< null: small strains everywhere
 };
 
 struct NewtonOptions {

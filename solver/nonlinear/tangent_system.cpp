@@ -133,6 +133,17 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
     }
 }
 
+void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
+  if (!has_factor()) {
+    solve(columns);
+    return;
+  }
+  if (columns.rows() == 0) return;
+  counters_.solves += columns.cols();
+  const Stopwatch stopwatch(counters_.solving);
+  solver_->solve_once(columns);
+}
+
 void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
   if (columns.rows() == 0) return;
   counters_.solves += columns.cols();

@@ -39,6 +39,8 @@ class TangentSystem {
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
+  /// The same for the compliance of conditions (LinearSolver::solve_once).
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
 
   /// Whether a factor stands behind the solutions, so that another one costs little.
   bool has_factor() const { return unsymmetric_ || (solver_ && solver_->method() != LinearMethod::multigrid); }

@@ -144,3 +144,57 @@ TEST_CASE("Imposed displacements that push one surface into the other are an err
   stack.scene.impose(stack.lower.nodes.back(), Component::dy, 0);
   CHECK_THROWS_WITH(stack.scene.solve(1), Catch::Contains("imposed displacements push"));
 }
+
+TEST_CASE("Discrete contact by a penalty: the force on a slave node is E_N times its depth") {
+  Stack stack(4, 4);
+  stack.scene.problem.contact->formulation = ContactFormulation::discrete;
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  MixedZone& zone = stack.scene.problem.contact->zones.front().mixed;
+  zone.penalised = true;
+  zone.augmentation = 1e5;
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  double total = 0.0;
+  for (const int node : stack.upper.nodes[0]) {
+    const double gap = stack.scene.contact(node, "JEU");
+    CHECK(stack.scene.contact(node, "RN") == Approx(-1e5 * gap).epsilon(1e-9));
+    total += stack.scene.contact(node, "RNY");
+  }
+  double carried = 0.0;
+  for (const int node : stack.lower.nodes[0]) carried += stack.scene.internal_force(node, Component::dy);
+  CHECK(total == Approx(carried).epsilon(1e-10));
+}
+
+TEST_CASE("Thickness on either side closes the gap by as much") {
+  Stack stack(4, 4, 0.1);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  ContactZone& zone = stack.scene.problem.contact->zones.front();
+  zone.slave_thickness = [](const Point&, double) { return 0.07; };
+  zone.master_thickness = [](const Point&, double) { return 0.03; };
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  for (const ContactFormulation formulation : {ContactFormulation::mixed, ContactFormulation::discrete}) {
+    stack.scene.problem.contact->formulation = formulation;
+    stack.scene.result = {};
+    stack.scene.solve(1);
+    for (const int node : stack.upper.nodes[0]) CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("A guided surface pulls where free contact would open") {
+  Stack stack(4, 4);
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.problem.contact->zones.front().mixed.bilateral = true;
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, 0.02);
+  stack.scene.solve(1);
+  for (const int node : stack.upper.nodes[0]) CHECK(pressure(stack.scene, node) == Approx(-2000.0).epsilon(1e-9));
+}
+
+TEST_CASE("Nodes paired with nodes transmit a uniform pressure on matching meshes") {
+  Stack stack(4, 4);
+  stack.scene.problem.contact->formulation = ContactFormulation::discrete;
+  stack.scene.problem.contact->zones.front().pairing = PairingRule::node;
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  for (const int node : stack.upper.nodes[0]) CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
+}

@@ -1,0 +1,193 @@
+// Continua in large displacements and rotations: Green-Lagrange strains on the initial geometry, with the template of small
+// strains beneath.
+#pragma once
+
+#include "solver/elements/continuum_block.hpp"
+
+namespace comma::solver {
+
+/// E = (H + H^T + H^T H) / 2 with H = du/dX, second Piola-Kirchhoff stresses S = D (E - strains of the command variables), internal
+/// forces F S grad N on the initial volume (total Lagrangian; R5.03.22, GREEN_LAGRANGE of U4.51.11). stresses() are Cauchy's, F S F^T / det F.
+/// Made for large rotations; Hooke's law between S and E is a law of small strains.
+template <int Dim, int Nodes, bool Axisymmetric>
+class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
+  using Base = ContinuumBlock<Dim, Nodes, Axisymmetric>;
+  using typename Base::Behaviour;
+  using typename Base::Coordinates;
+  using typename Base::Displacements;
+  using typename Base::Law;
+  using typename Base::Point;
+  using typename Base::Sample;
+  using typename Base::Stiffness;
+  using typename Base::Strain;
+  using typename Base::StrainRow;
+  using Base::size;
+  using Base::strains;
+
+ public:
+  LargeStrainBlock(const BlockInput& input, std::vector<int> cells) : Base(input, std::move(cells)) {
+    if (this->formulation_ == Formulation::plane_stress || this->formulation_ == Formulation::plane_stress_reduced)
+      throw Error("unsupported", fmt::format("cell {}: Green-Lagrange strains in plane stress are not known", this->mesh_.cell_name(this->cells_.front())),
+                  "take plane strain or a solid, or small strains (DEFORMATION='PETIT')");
+  }
+
+  bool is_linear() const override { return false; }
+  bool is_constant() const override { return false; }
+
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    Stiffness k;
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      tangent(element, Base::relative_displacements(u, dofs), state, k);
+      this->map_.add(element, k.data(), column_starts, values);
+    }
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      const Displacements displacements = Base::relative_displacements(u, dofs);
+      const Coordinates x = this->coordinates(element);
+      Coordinates force = Coordinates::Zero();
+      for (int g = 0; g < this->point_count(); ++g) {
+        const Deformed at(*this, element, g, x, displacements, state);
+        const Strain stress = at.point.weight * at.stress;
+        for (int a = 0; a < Nodes; ++a) force.row(a) += (at.row(a).transpose() * stress).transpose();
+      }
+      Base::scatter_forces(force, dofs, forces);
+    }
+  }
+
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
+    for (const int cell : this->cells_)
+      if (imposed.acts_on(cell))
+        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only", this->mesh_.cell_name(cell)));
+  }
+
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    double* target = out.data();
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      const Displacements displacements = Base::relative_displacements(u, dofs);
+      const Coordinates x = this->coordinates(element);
+      for (int g = 0; g < this->point_count(); ++g) {
+        const Deformed at(*this, element, g, x, displacements, state);
+        const Eigen::Matrix3d cauchy = at.gradient * tensor(at.stress) * at.gradient.transpose() / at.gradient.determinant();
+        Eigen::Map<Strain> written(target);
+        written = components(cauchy);
+        target += strains;
+      }
+    }
+  }
+
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      const Displacements displacements = Base::relative_displacements(u, dofs);
+      const Coordinates x = this->coordinates(element);
+      out[element] = 0.0;
+      for (int g = 0; g < this->point_count(); ++g) {
+        const Deformed at(*this, element, g, x, displacements, state);
+        out[element] += 0.5 * at.point.weight * at.elastic.dot(at.stress);
+      }
+    }
+  }
+
+ private:
+  static Eigen::Matrix3d tensor(const Strain& s) {
+    Eigen::Matrix3d t = Eigen::Matrix3d::Zero();
+    t.diagonal() << s(0), s(1), s(2);
+    t(0, 1) = t(1, 0) = s(3);
+    if constexpr (Dim == 3) {
+      t(0, 2) = t(2, 0) = s(4);
+      t(1, 2) = t(2, 1) = s(5);
+    }
+    return t;
+  }
+
+  static Strain components(const Eigen::Matrix3d& t) {
+    Strain s;
+    s.template head<4>() << t(0, 0), t(1, 1), t(2, 2), t(0, 1);
+    if constexpr (Dim == 3) s.template tail<2>() << t(0, 2), t(1, 2);
+    return s;
+  }
+
+  /// What an integration point knows of its deformation.
+  struct Deformed {
+    const Sample& sample;
+    Point point;
+    Behaviour behaviour;
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  ///< F
+    Strain elastic;  ///< Green-Lagrange's less that of the command variables; shears doubled
+    Strain stress;   ///< second Piola-Kirchhoff
+
+    Deformed(const LargeStrainBlock& block, int element, int g, const Coordinates& x, const Displacements& u, const VariableState& state)
+        : sample(block.samples_[g]), point(Base::locate(x, sample)), behaviour(block, element, g, x, state) {
+      gradient.template topLeftCorner<Dim, Dim>() += u.relative.transpose() * point.gradients;
+      if constexpr (Axisymmetric) gradient(2, 2) += sample.values.dot(u.radial) / point.radius;
+      // From H rather than from F: small strains must not drown in the rounding of 1.
+      const Eigen::Matrix3d h = gradient_of_displacement(u);
+      const Eigen::Matrix3d green = 0.5 * (h + h.transpose() + h.transpose() * h);
+      elastic = components(green);
+      elastic.template tail<strains - 3>() *= 2.0;
+      elastic -= behaviour.inelastic;
+      stress.noalias() = *behaviour.law * elastic;
+    }
+
+    Eigen::Matrix3d gradient_of_displacement(const Displacements& u) const {
+      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+      h.template topLeftCorner<Dim, Dim>() = u.relative.transpose() * point.gradients;
+      if constexpr (Axisymmetric) h(2, 2) = sample.values.dot(u.radial) / point.radius;
+      return h;
+    }
+
+    /// The variation of E that a displacement of node a causes.
+    StrainRow row(int a) const {
+      StrainRow result = StrainRow::Zero();
+      const auto n = point.gradients.row(a);
+      for (int i = 0; i < Dim; ++i) {
+        result(0, i) = gradient(i, 0) * n(0);
+        result(1, i) = gradient(i, 1) * n(1);
+        result(3, i) = gradient(i, 0) * n(1) + gradient(i, 1) * n(0);
+        if constexpr (Dim == 3) {
+          result(2, i) = gradient(i, 2) * n(2);
+          result(4, i) = gradient(i, 0) * n(2) + gradient(i, 2) * n(0);
+          result(5, i) = gradient(i, 1) * n(2) + gradient(i, 2) * n(1);
+        }
+      }
+      if constexpr (Axisymmetric) result(2, 0) = gradient(2, 2) * sample.values(a) / point.radius;
+      return result;
+    }
+  };
+
+  void tangent(int element, const Displacements& u, const VariableState& state, Stiffness& k) const {
+    const Coordinates x = this->coordinates(element);
+    k.setZero();
+    std::array<StrainRow, Nodes> rows;
+    for (int g = 0; g < this->point_count(); ++g) {
+      const Deformed at(*this, element, g, x, u, state);
+      const double weight = at.point.weight;
+      const Eigen::Matrix<double, Dim, Dim> stress = tensor(at.stress).template topLeftCorner<Dim, Dim>();
+      for (int a = 0; a < Nodes; ++a) rows[a] = at.row(a);
+      for (int b = 0; b < Nodes; ++b) {
+        const StrainRow image = weight * (*at.behaviour.law * rows[b]);
+        const Eigen::Matrix<double, Dim, 1> pull = weight * (stress * at.point.gradients.row(b).transpose());
+        for (int a = b; a < Nodes; ++a) {
+          auto block = k.template block<Dim, Dim>(a * Dim, b * Dim);
+          block.noalias() += rows[a].transpose() * image;
+          block.diagonal().array() += at.point.gradients.row(a).dot(pull);
+          if constexpr (Axisymmetric)
+            block(0, 0) += weight * at.stress(2) * at.sample.values(a) * at.sample.values(b) / (at.point.radius * at.point.radius);
+        }
+      }
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
+  }
+};
+
+}  // namespace comma::solver
