@@ -63,7 +63,7 @@ bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& red
 LinearMethod TangentSystem::chosen_method(const SymmetricMatrix& reduced) {
   if (options_.method) return *options_.method;
   const LinearMethod direct = choose_method(reduced);
-  if (direct == LinearMethod::mumps || !options_.few_solutions || reduced.rows() < large_solid) return direct;
+  if (direct == LinearMethod::mumps || multigrid_failed_ || !options_.few_solutions || reduced.rows() < large_solid) return direct;
   linear_.solid = solid_unknowns(model_, dofs_, elimination_);
   return linear_.solid ? LinearMethod::multigrid : direct;
 }
@@ -162,7 +162,8 @@ void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
     columns = loads;
     solver_.reset();
     linear_.solid.reset();
-    factorise_with(LinearMethod::cholmod, assembled(Eigen::VectorXd::Zero(elimination_.full_size())));
+    multigrid_failed_ = true;
+    factorise(assembled(Eigen::VectorXd::Zero(elimination_.full_size())));
     const Stopwatch stopwatch(counters_.solving);
     solver_->solve(columns);
   }

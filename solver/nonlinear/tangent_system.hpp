@@ -68,6 +68,7 @@ class TangentSystem {
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   bool factorised_ = false;
+  bool multigrid_failed_ = false;
   bool may_add_springs_ = false;
   std::vector<std::pair<int, double>> springs_;
   int version_ = 0;  ///< of the assembler's stiffness, when last factorised
