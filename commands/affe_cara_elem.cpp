@@ -3,6 +3,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/discrete_building.hpp"
+#include "commands/plate_building.hpp"
 #include "commands/section_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -66,6 +67,7 @@ Product affe_cara_elem(const Call& call, Context&) {
     if (const auto turned = orientations.find(cell); turned != orientations.end()) section.roll = turned->second.roll;
   }
   for (const Keywords& assignment : call.factors("BARRE")) add_bar_sections(assignment, model, *properties);
+  for (const Keywords& assignment : call.factors("COQUE")) add_plate_sections(assignment, model, *properties);
   for (const char* name : {"DISCRET", "DISCRET_2D"}) {
     for (const Keywords& assignment : call.factors(name)) add_discrete_matrices(assignment, name, model, orientations, *properties);
   }

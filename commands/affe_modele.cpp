@@ -28,6 +28,8 @@ const std::map<std::string, Formulation, std::less<>>& formulations() {
       {"DIS_TR", Formulation::spring_rotation_3d},
       {"2D_DIS_T", Formulation::spring_2d},
       {"2D_DIS_TR", Formulation::spring_rotation_2d},
+      {"DKT", Formulation::thin_plate},
+      {"DST", Formulation::shear_plate},
   };
   return table;
 }
@@ -51,7 +53,7 @@ Product affe_modele(const Call& call, Context&) {
     if (assigned == 0) {
       throw interpreter::DiagnosticError(
           "no-element", "AFFE_MODELE: none of these cells can carry " + assignment.texts("MODELISATION").front(),
-          assignment.span, "name cells of the right dimension: faces for D_PLAN and C_PLAN, segments or points for 2D_DIS_T");
+          assignment.span, "name cells of the right dimension: faces for D_PLAN and C_PLAN, TRIA3 and QUAD4 for DKT and DST, segments or points for 2D_DIS_T");
     }
   }
   auto product = std::make_shared<ModelConcept>();

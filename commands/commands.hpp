@@ -47,6 +47,7 @@ Product impr_table(const Call& call, Context& context);
 Product lire_maillage(const Call& call, Context& context);
 Product meca_statique(const Call& call, Context& context);
 Product modi_maillage(const Call& call, Context& context);
+Product post_champ(const Call& call, Context& context);
 Product post_elem(const Call& call, Context& context);
 Product post_releve_t(const Call& call, Context& context);
 Product recu_fonction(const Call& call, Context& context);

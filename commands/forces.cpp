@@ -107,6 +107,10 @@ void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load
     const auto amounts = given_amounts<2>(occurrence, {"PRES", "CISA_2D"});
     int loaded = 0;
     for (const int cell : selected_cells(occurrence, target.mesh)) {
+      if (solver::is_plate(target.model.formulations[cell])) {
+        throw DiagnosticError("unsupported", "comma does not support PRES_REP on plates yet: " + target.mesh.cell_name(cell) + " is one",
+                              occurrence.span, "give the pressure as forces on the nodes (FORCE_NODALE)");
+      }
       if (!target.model.is_skin(cell)) continue;
       auto& pressure = pressures[cell];
       pressure.cell = cell;
@@ -273,6 +277,10 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
     const auto is_given = [](const auto& amount) { return amount.has_value(); };
     for (const int cell : selected_cells(occurrence, target.mesh)) {
       const auto formulation = target.model.formulations[cell];
+      if (solver::is_plate(formulation) && !target.model.is_skin(cell)) {
+        throw DiagnosticError("unsupported", fmt::format("PRE_EPSI: comma does not support it on plates such as {}", target.mesh.cell_name(cell)),
+                              occurrence.span, "name the cells without plates");
+      }
       if (std::ranges::any_of(amounts, is_given) && solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell)) {
         strains[cell].cell = cell;
         override_given(amounts, strains[cell].strain, strains[cell].functions);

@@ -47,6 +47,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"LIRE_MAILLAGE", lire_maillage},
     {"MECA_STATIQUE", meca_statique},
     {"MODI_MAILLAGE", modi_maillage},
+    {"POST_CHAMP", post_champ},
     {"POST_ELEM", post_elem},
     {"POST_RELEVE_T", post_releve_t},
     {"RECU_FONCTION", recu_fonction},

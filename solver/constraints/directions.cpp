@@ -85,7 +85,7 @@ std::map<int, Eigen::Vector3d> mean_normals(const Mesh& mesh, std::span<const in
   std::map<int, Eigen::Vector3d> normals;
   for (const int cell : cells) {
     const int cell_dimension = dimension(mesh.cell_types[cell]);
-    if (cell_dimension != mesh.dimension - 1) {
+    if (cell_dimension != 2 && cell_dimension != mesh.dimension - 1) {
       throw Error("not-a-skin", fmt::format("cell {}, a {}, has no normal in {} dimensions", mesh.cell_name(cell),
                                             name_of(mesh.cell_types[cell]), mesh.dimension));
     }

@@ -41,8 +41,9 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
   if (input.kinematics_of(cells.front()) != Kinematics::small)
-    throw Error("unsupported", fmt::format("cell {}: bars and beams know small strains only", input.model.mesh->cell_name(cells.front())),
+    throw Error("unsupported", fmt::format("cell {}: bars, beams and plates know small strains only", input.model.mesh->cell_name(cells.front())),
                 "give these cells small strains (DEFORMATION='PETIT')");
+  if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
 }
 
@@ -93,7 +94,7 @@ CellMaterial elastic_material(const BlockInput& input, int cell) {
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
   const auto* isotropic = std::get_if<IsotropicElasticity>(elastic_material(input, cell).elasticity);
   if (isotropic == nullptr) {
-    throw Error("unsupported", fmt::format("the bar or beam on cell {} has an anisotropic material, but needs an isotropic one",
+    throw Error("unsupported", fmt::format("the bar, beam or plate on cell {} has an anisotropic material, but needs an isotropic one",
                                            input.model.mesh->cell_name(cell)));
   }
   return *isotropic;

@@ -69,7 +69,8 @@ class Assembler {
   int stiffness_version() const { return version_; }
 
   /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), with SIXZ SIYZ in 3D; N for bars; N VY VZ MT MFY MFZ in own
-  /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node). N > 0 in tension.
+  /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node); NXX NYY NXY MXX MYY MXY
+  /// QX QY for plates, a length, in own axes at the corners, moments about the surface of the mesh. N > 0 in tension.
   ElementField stresses(const Eigen::VectorXd& u) const;
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;

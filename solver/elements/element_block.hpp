@@ -71,11 +71,12 @@ std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vec
 std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells);
 
 /// The elastic material of a cell, checked where its constants are known. Throws Error `missing-material` naming the cell,
 /// `invalid-material`.
 CellMaterial elastic_material(const BlockInput& input, int cell);
-/// The same for bars and beams, which need an isotropic one. Throws Error `unsupported` for others.
+/// The same for bars, beams and plates, which need an isotropic one. Throws Error `unsupported` for others.
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell);
 
 /// The nodes of cells of one type, one cell after the other.

@@ -59,6 +59,12 @@ void check_distributed_force(const Model& model, const DistributedForce& load) {
   const Mesh& mesh = *model.mesh;
   const int body = continuum_dimension(model.formulations[load.cell]);
   const int type_dimension = dimension(mesh.cell_types[load.cell]);
+  const bool on_plate = is_plate(model.formulations[load.cell]);
+  if (on_plate && model.is_skin(load.cell)) return;
+  if (on_plate) {
+    throw Error("unsupported", fmt::format("a distributed force acts on plate {}, but comma supports forces on the edges of plates alone",
+                                           mesh.cell_name(load.cell)));
+  }
   if (body == 0 || type_dimension == 0 || type_dimension > body) {
     throw Error("unsupported",
                 fmt::format("a distributed force acts on cell {}, a {}, which is no part of a continuum of the model",

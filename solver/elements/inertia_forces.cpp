@@ -116,6 +116,10 @@ void add_inertia_forces(const ForceInput& input, int cell, const AccelerationFie
   const Formulation formulation = input.model.formulations[cell];
   if (continuum_dimension(formulation) > 0) return add_continuum(input, cell, field, factor, samples, forces);
   if (is_bar(formulation) || is_beam(formulation)) return add_slender(input, cell, field, factor, forces);
+  if (is_plate(formulation)) {
+    throw Error("unsupported", fmt::format("gravity or rotation acts on plate {}, which comma does not support yet",
+                                           input.model.mesh->cell_name(cell)), "name the cells without plates");
+  }
   add_discrete(input, cell, field, factor, forces);
 }
 

@@ -1,4 +1,4 @@
-// What discrete and slender elements have beside their mesh: stiffnesses, sections, orientations.
+// What discrete elements, bars, beams and plates have beside their mesh: stiffnesses, sections, orientations.
 #pragma once
 
 #include <memory>
@@ -98,6 +98,18 @@ struct BeamSection {
   VariationPowers powers{};  ///< see varying_section.hpp
 };
 
+/// What a plate has beside its mesh (AFFE_CARA_ELEM, COQUE of U4.42.01).
+struct PlateSection {
+  double thickness = 0.0;
+  double offset = 0.0;  ///< from the mesh to the mid-surface, along the normal of the cell
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< its part in the plane of the plate is the first own axis
+  double shear_factor = 5.0 / 6.0;                       ///< effective share of the thickness in shear
+  /// Resistance to rotation about the normal, which plates do not have. Positive: that share of the smallest resistance to
+  /// rotation in the plane, at each node against the ground. Negative: its amount is the share of E times the thickness with
+  /// which the rotation is tied to that of the membrane, (dv/dx - du/dy) / 2. Zero: none.
+  double drilling = 1e-5;
+};
+
 /// The mass matrix of a discrete element in global axes, of the size of its stiffness.
 using DiscreteMass = Eigen::MatrixXd;
 
@@ -128,6 +140,7 @@ struct ElementProperties {
   std::unordered_map<int, DiscreteStiffness> discrete;
   std::unordered_map<int, DiscreteMass> masses;
   std::unordered_map<int, BeamSection> sections;
+  std::unordered_map<int, PlateSection> plates;
 };
 
 }  // namespace comma::solver

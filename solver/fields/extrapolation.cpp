@@ -15,7 +15,8 @@ namespace comma::solver {
 namespace {
 
 constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
-constexpr std::array<std::string_view, 6> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
+constexpr std::array<std::string_view, 14> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ", "NXX",
+                                                          "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 
 CellType linear_type(CellType type) {
   switch (dimension(type) * 10 + corner_count(type)) {

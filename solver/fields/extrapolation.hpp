@@ -34,7 +34,7 @@ ElementField select_components(const ElementField& field, std::span<const std::s
 
 /// Stresses of continua out of a field of stresses and section forces (SIGM out of SIEF).
 ElementField continuum_stresses(const ElementField& field);
-/// Section forces of bars, beams and discrete elements (EFGE out of SIEF).
+/// Section forces of bars, beams, plates and discrete elements (EFGE out of SIEF).
 ElementField section_forces(const ElementField& field);
 
 }  // namespace comma::solver

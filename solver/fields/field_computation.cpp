@@ -1,7 +1,9 @@
 #include "solver/fields/field_computation.hpp"
 
-#include <cmath>
 #include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -36,6 +38,23 @@ std::vector<int> skin_cells(const Model& model) {
     if (model.is_skin(cell)) cells.push_back(cell);
   }
   return cells;
+}
+
+// What plates have: forces in their own axes, energies, forces on nodes. Their other fields lie in layers.
+constexpr std::array<std::string_view, 6> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+
+void check_plates(const Model& model, std::string_view name, std::optional<std::span<const int>> cells) {
+  if (std::ranges::find(plate_fields, name) != plate_fields.end()) return;
+  const auto check = [&](int cell) {
+    if (!is_plate(model.formulations[cell]) || model.is_skin(cell)) return;
+    throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(cell)),
+                "name the cells without plates, or take EFGE_ELNO");
+  };
+  if (cells) {
+    std::ranges::for_each(*cells, check);
+    return;
+  }
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) check(cell);
 }
 
 bool ends(std::string_view name, std::string_view place) {
@@ -88,6 +107,11 @@ bool FieldComputation::knows(std::string_view name) {
 
 Field FieldComputation::compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells) {
   if (!knows(name)) throw Error("unsupported", fmt::format("the field {} is not known how to compute", name));
+  check_plates(*problem_.model, name, cells);
+  return derive(name, step, cells);
+}
+
+Field FieldComputation::derive(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells) {
   const std::string quantity = quantity_of(name);
   move_to(step);
   if (const auto found = known_.find(Key(step, name)); found != known_.end() && !cells) return found->second;
@@ -118,7 +142,7 @@ const Field& FieldComputation::needed(const std::string& name, std::size_t step)
   if (!knows(name)) {
     throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}", result_.steps[step].instant, name));
   }
-  Field field = compute(name, step);
+  Field field = derive(name, step);
   return known_.emplace(key, std::move(field)).first->second;
 }
 

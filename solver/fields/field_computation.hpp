@@ -29,7 +29,8 @@ class FieldComputation {
   static bool knows(std::string_view name);
 
   /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given. SIRO_ELEM lies on skin
-  /// cells, all of the model's without `cells`. Throws Error `unsupported` for another name, `unknown-field` naming one that the step lacks,
+  /// cells, all of the model's without `cells`. Throws Error `unsupported` for another name and for one that plates do not have in
+  /// comma, `unknown-field` naming one that the step lacks,
   /// and what the functions of solver/fields throw.
   Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
 
@@ -38,6 +39,7 @@ class FieldComputation {
   using Rule = Field (FieldComputation::*)(std::size_t);
   static const std::map<std::string, Rule, std::less<>>& rules();
 
+  Field derive(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
   const Field& needed(const std::string& name, std::size_t step);
   const ElementField& element_field(const std::string& name, std::size_t step);
   const NodalField& displacement(std::size_t step);

@@ -27,6 +27,11 @@ class Moments {
       case Formulation::euler_beam:
       case Formulation::timoshenko_beam:
         return add_member(cell, true);
+      case Formulation::thin_plate:
+      case Formulation::shear_plate:
+        if (input_.model.is_skin(cell)) return;
+        throw Error("unsupported", fmt::format("the mass of plate {} is asked for, which comma does not support yet",
+                                               input_.model.mesh->cell_name(cell)), "name the cells without plates");
       default:
         return;
     }

@@ -31,6 +31,8 @@ ComponentMask components_of_formulation(Formulation formulation) {
     case Formulation::euler_beam:
     case Formulation::timoshenko_beam:
     case Formulation::spring_rotation_3d:
+    case Formulation::thin_plate:
+    case Formulation::shear_plate:
       return space_translations | space_rotations;
   }
   return 0;
@@ -63,6 +65,7 @@ int continuum_dimension(Formulation formulation) {
 bool has_element(Formulation formulation, CellType type) {
   const int continuum = continuum_dimension(formulation);
   if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
+  if (is_plate(formulation)) return type == CellType::tria3 || type == CellType::quad4 || type == CellType::seg2;
   if (is_spring(formulation)) return type == CellType::poi1 || type == CellType::seg2;
   return formulation != Formulation::none && type == CellType::seg2;
 }
@@ -71,9 +74,14 @@ bool is_axisymmetric(Formulation formulation) {
   return formulation == Formulation::axisymmetric || formulation == Formulation::axisymmetric_reduced;
 }
 
+bool is_plate(Formulation formulation) {
+  return formulation == Formulation::thin_plate || formulation == Formulation::shear_plate;
+}
+
 bool Model::is_skin(int cell) const {
   const int type_dimension = dimension(mesh->cell_types[cell]);
-  return type_dimension > 0 && type_dimension < continuum_dimension(formulations[cell]);
+  const int body = is_plate(formulations[cell]) ? 2 : continuum_dimension(formulations[cell]);
+  return type_dimension > 0 && type_dimension < body;
 }
 
 ComponentMask Model::components_of(int cell) const {

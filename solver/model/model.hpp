@@ -14,7 +14,7 @@ namespace comma::solver {
 enum class Formulation : std::uint8_t {
   none, solid, solid_reduced, plane_strain, plane_strain_reduced, plane_stress, plane_stress_reduced,
   axisymmetric, axisymmetric_reduced, bar, bar_2d, euler_beam, timoshenko_beam,
-  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d
+  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d, thin_plate, shear_plate
 };
 
 /// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric bodies,
@@ -23,14 +23,17 @@ int continuum_dimension(Formulation formulation);
 /// Whether elements of a formulation exist on cells of a type at all, skin elements included.
 bool has_element(Formulation formulation, CellType type);
 bool is_axisymmetric(Formulation formulation);
+/// Whether elements are flat plates in space, with three translations and three rotations a node.
+bool is_plate(Formulation formulation);
 
 /// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces and
-/// edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact.
+/// edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact. The edges of plates are skin
+/// elements too, which take forces along a line.
 struct Model {
   std::shared_ptr<Mesh> mesh;             ///< shared: a group added to the mesh later is known here
   std::vector<Formulation> formulations;  ///< one a cell
 
-  /// Whether the cell is the skin of its formulation's continuum rather than part of it.
+  /// Whether the cell is the skin of its formulation's continuum or plate rather than part of it.
   bool is_skin(int cell) const;
   /// The components that the element of a cell gives to each of its nodes (0 where it carries none).
   ComponentMask components_of(int cell) const;

@@ -1,0 +1,51 @@
+#include "commands/plate_building.hpp"
+
+#include <numbers>
+
+#include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/mesh/axes.hpp"
+
+namespace comma::commands {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+
+namespace {
+
+// The direction whose part in the plane is the first axis of a plate.
+Eigen::Vector3d direction_of(const Keywords& assignment) {
+  if (assignment.given("VECTEUR")) {
+    const auto values = assignment.reals("VECTEUR");
+    const Eigen::Vector3d direction(values[0], values[1], values[2]);
+    if (direction.isZero(0.0)) throw DiagnosticError("zero-vector", "COQUE/VECTEUR has no length", assignment.span_of("VECTEUR"));
+    return direction;
+  }
+  if (!assignment.given("ANGL_REP")) return Eigen::Vector3d::UnitX();
+  const auto angles = assignment.reals("ANGL_REP");
+  constexpr double degree = std::numbers::pi / 180.0;
+  return solver::nautical_axes(angles[0] * degree, angles[1] * degree, 0.0).row(0).transpose();
+}
+
+}  // namespace
+
+void add_plate_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
+  solver::PlateSection section;
+  section.thickness = assignment.real("EPAIS");
+  if (assignment.given("EXCENTREMENT")) section.offset = assignment.real("EXCENTREMENT");
+  section.direction = direction_of(assignment);
+  section.shear_factor = assignment.real("A_CIS");
+  section.drilling = assignment.real("COEF_RIGI_DRZ");
+  int assigned = 0;
+  for (const int cell : selected_cells(assignment, *model.mesh)) {
+    if (!solver::is_plate(model.formulations[cell]) || model.is_skin(cell)) continue;
+    properties.plates[cell] = section;
+    ++assigned;
+  }
+  if (assigned == 0) {
+    throw DiagnosticError("no-element", "COQUE: none of these cells is a plate", assignment.span,
+                          "give them MODELISATION=\"DKT\" or \"DST\" in AFFE_MODELE");
+  }
+}
+
+}  // namespace comma::commands

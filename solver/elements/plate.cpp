@@ -1,0 +1,315 @@
+// Flat plates on three or four nodes, thin (DKT, DKQ) or with shear (DST, DSQ): see plate_kinematics.hpp. Offsets as R3.07.06: the
+// nodes lie on the surface of the mesh, the strains of the mid-surface are those of the nodes plus offset times curvature.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/elements/element_block.hpp"
+#include "solver/elements/plate_kinematics.hpp"
+#include "solver/elements/quadrature.hpp"
+#include "solver/elements/translation.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 8> force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
+
+/// A corner off the plane of the others by more than this share of the cell's size makes a cell that a flat plate cannot stand for.
+constexpr double largest_warp = 1e-3;
+/// The reference direction must have at least this sine with the normal, or rounding would turn the axes.
+constexpr double smallest_sine = 1e-6;
+
+template <int Nodes>
+struct Plate {
+  Eigen::Matrix3d axes;  ///< rows
+  Eigen::Matrix<double, 2, Nodes> corners;
+  const PlateSection* section;
+  const IsotropicElasticity* material;
+};
+
+const PlateSection& section_of(const BlockInput& input, int cell) {
+  const std::string name = input.model.mesh->cell_name(cell);
+  const auto found = input.properties.plates.find(cell);
+  if (found == input.properties.plates.end()) {
+    throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", name));
+  }
+  if (!(found->second.thickness > 0.0) || !(found->second.shear_factor > 0.0)) {
+    throw Error("invalid-properties", fmt::format("the plate on cell {} needs a positive thickness and shear factor", name));
+  }
+  return found->second;
+}
+
+/// Corners relative to the first, one a column.
+template <int Nodes>
+Eigen::Matrix<double, 3, Nodes> relative_corners(const Mesh& mesh, int cell) {
+  Eigen::Matrix<double, 3, Nodes> places;
+  const auto nodes = mesh.cell(cell);
+  for (int i = 0; i < Nodes; ++i) places.col(i) = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[i]].data());
+  return places.colwise() - places.col(0).eval();
+}
+
+template <int Nodes>
+Eigen::Vector3d normal_of(const Eigen::Matrix<double, 3, Nodes>& corners) {
+  if constexpr (Nodes == 3) return corners.col(1).cross(corners.col(2));
+  else return (corners.col(2) - corners.col(0)).cross(corners.col(3) - corners.col(1));
+}
+
+template <int Nodes>
+Plate<Nodes> make_plate(const BlockInput& input, int cell) {
+  const Mesh& mesh = *input.model.mesh;
+  const auto corners = relative_corners<Nodes>(mesh, cell);
+  const Eigen::Vector3d across = normal_of<Nodes>(corners);
+  const double size = corners.colwise().norm().maxCoeff();
+  if (!(across.norm() > 0.0)) throw Error("distorted-cell", fmt::format("plate {} has no area", mesh.cell_name(cell)));
+  const Eigen::Vector3d z = across.normalized();
+  if ((z.transpose() * corners).cwiseAbs().maxCoeff() > largest_warp * size) {
+    throw Error("distorted-cell", fmt::format("the corners of plate {} do not lie in one plane", mesh.cell_name(cell)),
+                "mesh curved surfaces with triangles or smaller cells");
+  }
+  const PlateSection& section = section_of(input, cell);
+  const Eigen::Vector3d in_plane = section.direction - section.direction.dot(z) * z;
+  if (!(in_plane.norm() > smallest_sine * section.direction.norm())) {
+    throw Error("zero-vector", fmt::format("the direction that gives plate {} its axes lies along its normal", mesh.cell_name(cell)),
+                "give a direction in the plane of the plate");
+  }
+  const Eigen::Vector3d x = in_plane.normalized();
+  Plate<Nodes> plate{{}, {}, &section, &isotropic_material(input, cell)};
+  plate.axes << x.transpose(), z.cross(x).transpose(), z.transpose();
+  plate.corners = plate.axes.template topRows<2>() * corners;
+  return plate;
+}
+
+PlateRigidity rigidity_of(const PlateSection& section, const IsotropicModuli& material, bool shears) {
+  const double h = section.thickness;
+  const double plane = material.young / (1.0 - material.poisson * material.poisson);
+  const double shear_modulus = 0.5 * material.young / (1.0 + material.poisson);
+  return {plane * h, plane * h * h * h / 12.0, material.poisson, section.offset,
+          shears ? 1.0 / (section.shear_factor * shear_modulus * h) : 0.0};
+}
+
+Eigen::Matrix3d plane_law(double rigidity, double poisson) {
+  Eigen::Matrix3d law;
+  law << 1, poisson, 0, poisson, 1, 0, 0, 0, 0.5 * (1 - poisson);
+  return rigidity * law;
+}
+
+/// All plates of a model on cells of one type. Materials count by their constants at the middle of a cell.
+template <int Nodes>
+class PlateBlock final : public ElementBlock {
+  static constexpr int size = 6 * Nodes;
+  static constexpr CellType type = Nodes == 3 ? CellType::tria3 : CellType::quad4;
+  using Matrix = Eigen::Matrix<double, size, size>;
+
+ public:
+  PlateBlock(const BlockInput& input, std::vector<int> cells)
+      : mesh_(*input.model.mesh),
+        shears_(input.model.formulations[cells.front()] == Formulation::shear_plate),
+        cells_(std::move(cells)),
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), Nodes, gather_nodes(mesh_, cells_)),
+        // Exact for the squares of curvatures, which are linear in triangles.
+        points_(quadrature(type, Nodes == 3 ? "FPG3" : "FPG4")) {
+    for (const int cell : cells_) {
+      plates_.push_back(make_plate<Nodes>(input, cell));
+      check_convex(static_cast<int>(plates_.size()) - 1);
+      const bool constant = is_constant_material(plates_.back());
+      constant_ = constant_ && constant;
+      matrices_.push_back(constant ? matrix(plates_.back(), MaterialPoint()) : Matrix::Zero().eval());
+    }
+  }
+
+  void add_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
+    Matrix own;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.add(element, matrix_at(element, state, own).data(), column_starts, values);
+    }
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    Matrix own;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      check_unstrained(element, state);
+      map_.dofs(element, dofs.data());
+      const Matrix& k = matrix_at(element, state, own);
+      const auto moved = relative(u, dofs);
+      std::array<long double, 3> balance{};
+      for (int i = 0; i < size; ++i) {
+        const bool balances = i >= size - 6 && i < size - 3;
+        long double force = 0.0L;
+        for (int j = 0; !balances && j < size; ++j) force += k(i, j) * moved[j];
+        if (balances) force = -balance[i - (size - 6)];
+        else if (i % 6 < 3) balance[i % 6] += force;
+        forces[dofs[i]] += force;
+      }
+    }
+  }
+
+  std::span<const int> cells() const override { return cells_; }
+  int point_count() const override { return Nodes; }
+  std::span<const std::string_view> stress_names() const override { return force_names; }
+
+  /// Forces and moments per length at the corners, about the surface of the mesh, in the plate's own axes.
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      check_unstrained(element, state);
+      map_.dofs(element, dofs.data());
+      const auto moved = relative(u, dofs);
+      Eigen::Matrix<double, size, 1> own;
+      for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
+      for (int i = 0; i < size; i += 3) own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
+      const PlateRigidity rigidity = this->rigidity(element, state);
+      const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
+      for (const ReferencePoint& corner : reference_nodes(type)) {
+        const PlateRows<Nodes> rows = kinematics.at(corner);
+        const double offset = plates_[element].section->offset;
+        const Eigen::Vector3d curvature = rows.curvature * own;
+        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature);
+        const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
+        const Eigen::Vector2d shear = rows.shear_force * own;
+        target = std::copy(normal.begin(), normal.end(), target);
+        target = std::copy(moment.begin(), moment.end(), target);
+        target = std::copy(shear.begin(), shear.end(), target);
+      }
+    }
+  }
+
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::array<int, size> dofs;
+    Matrix own;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      check_unstrained(element, state);
+      map_.dofs(element, dofs.data());
+      const Matrix& k = matrix_at(element, state, own);
+      const auto moved = relative(u, dofs);
+      long double work = 0.0L;
+      for (int j = 0; j < size; ++j) {
+        for (int i = 0; i < size; ++i) work += moved[i] * k(i, j) * moved[j];
+      }
+      out[element] = static_cast<double>(0.5L * work);
+    }
+  }
+
+  bool is_linear() const override { return true; }
+  bool is_constant() const override { return constant_; }
+
+ private:
+  static bool is_constant_material(const Plate<Nodes>& plate) {
+    return plate.material->young.is_constant() && plate.material->poisson.is_constant();
+  }
+
+  void check_convex(int element) const {
+    const auto& corners = plates_[element].corners;
+    for (int i = 0; i < Nodes; ++i) {
+      const Eigen::Vector2d before = corners.col(i) - corners.col((i + Nodes - 1) % Nodes);
+      const Eigen::Vector2d after = corners.col((i + 1) % Nodes) - corners.col(i);
+      if (before[0] * after[1] - before[1] * after[0] > 0.0) continue;
+      throw Error("distorted-cell", fmt::format("plate {} is not convex", mesh_.cell_name(cells_[element])));
+    }
+  }
+
+  MaterialPoint material_point(int element, const VariableState& state) const {
+    std::array<double, Nodes> shares;
+    shares.fill(1.0 / Nodes);
+    const auto nodes = map_.nodes(element);
+    MaterialPoint at;
+    state.sample(cells_[element], nodes, shares, 0, at);
+    std::array<double, 3> place{};
+    for (const int node : nodes) {
+      for (int j = 0; j < 3; ++j) place[j] += mesh_.nodes[node][j] / Nodes;
+    }
+    at.place(place);
+    return at;
+  }
+
+  PlateRigidity rigidity(int element, const VariableState& state) const {
+    const Plate<Nodes>& plate = plates_[element];
+    return rigidity_of(*plate.section, moduli(*plate.material, material_point(element, state)), shears_);
+  }
+
+  void check_unstrained(int element, const VariableState& state) const {
+    if (state.empty()) return;
+    if (inelastic_axial_strain(*plates_[element].material, material_point(element, state)) == 0.0) return;
+    throw Error("unsupported", fmt::format("command variables strain the plate on cell {}, which comma does not support for plates",
+                                           mesh_.cell_name(cells_[element])));
+  }
+
+  const Matrix& matrix_at(int element, const VariableState& state, Matrix& own) const {
+    if (is_constant_material(plates_[element])) return matrices_[element];
+    own = matrix(plates_[element], material_point(element, state));
+    return own;
+  }
+
+  /// Displacements relative to the last corner: a translation strains nothing, to the last bit (translation.hpp).
+  static std::array<long double, size> relative(const Eigen::VectorXd& u, const std::array<int, size>& dofs) {
+    std::array<long double, size> moved;
+    for (int i = 0; i < size; ++i) {
+      moved[i] = u[dofs[i]];
+      if (i % 6 < 3) moved[i] -= u[dofs[size - 6 + i % 6]];
+    }
+    return moved;
+  }
+
+  Matrix matrix(const Plate<Nodes>& plate, const MaterialPoint& at) const {
+    const IsotropicModuli constants = moduli(*plate.material, at);
+    Matrix k = own_stiffness(plate, rigidity_of(*plate.section, constants, shears_), constants.young);
+    Matrix turn = Matrix::Zero();
+    for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = plate.axes;
+    k = (turn.transpose() * k * turn).eval();
+    k = (0.5 * (k + k.transpose())).eval();
+    make_translation_exact<Nodes, 6>(k, {true, true, true, false, false, false});
+    return k;
+  }
+
+  Matrix own_stiffness(const Plate<Nodes>& plate, const PlateRigidity& rigidity, double young) const {
+    const PlateSection& section = *plate.section;
+    const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
+    const Eigen::Matrix3d membrane = plane_law(rigidity.membrane, rigidity.poisson);
+    const Eigen::Matrix3d bending = plane_law(rigidity.bending, rigidity.poisson);
+    const double tie = section.drilling < 0.0 ? -section.drilling * young * section.thickness : 0.0;
+    Matrix k = Matrix::Zero();
+    for (const QuadraturePoint& point : points_) {
+      const PlateRows<Nodes> rows = kinematics.at(point.at);
+      const double area = point.weight * rows.measure;
+      const Eigen::Matrix<double, 3, size> strain = rows.membrane + section.offset * rows.curvature;
+      k += area * (strain.transpose() * membrane * strain + rows.curvature.transpose() * bending * rows.curvature);
+      if (shears_) k += area * rigidity.shear_compliance * rows.shear_force.transpose() * rows.shear_force;
+      if (tie > 0.0) k += area * tie * rows.spin.transpose() * rows.spin;
+    }
+    if (section.drilling > 0.0) hold_normal_rotations(k, section.drilling);
+    return k;
+  }
+
+  static void hold_normal_rotations(Matrix& k, double share) {
+    double smallest = k(3, 3);
+    for (int i = 0; i < Nodes; ++i) smallest = std::min({smallest, k(6 * i + 3, 6 * i + 3), k(6 * i + 4, 6 * i + 4)});
+    for (int i = 0; i < Nodes; ++i) k(6 * i + 5, 6 * i + 5) += share * smallest;
+  }
+
+  const Mesh& mesh_;
+  bool shears_;
+  bool constant_ = true;
+  std::vector<int> cells_;
+  ElementMap map_;
+  Quadrature points_;
+  std::vector<Plate<Nodes>> plates_;
+  std::vector<Matrix> matrices_;  ///< where the material is constant
+};
+
+}  // namespace
+
+std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells) {
+  switch (input.model.mesh->cell_types[cells.front()]) {
+    case CellType::tria3: return std::make_unique<PlateBlock<3>>(input, std::move(cells));
+    case CellType::quad4: return std::make_unique<PlateBlock<4>>(input, std::move(cells));
+    default: throw_unsupported_element(input.model, cells.front());
+  }
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,17 @@
+// Forces and moments of plates about their own middle (POST_CHAMP, COQU_EXCENT; U4.81.05, R3.07.06).
+#pragma once
+
+#include <span>
+
+#include "solver/elements/section.hpp"
+#include "solver/fields/field.hpp"
+
+namespace comma::solver {
+
+/// NXX ... QY of the plates among `cells`, whose moments are given about the surface of the mesh: about the mid-surface, from which
+/// the offset e separates it, they are M - e N. Throws Error `unknown-component` for a field without these components,
+/// `not-a-plate` where none of the cells is a plate, `missing-properties` for a plate without section.
+ElementField forces_about_middle(const Model& model, const ElementProperties& properties, const ElementField& forces,
+                                 std::span<const int> cells);
+
+}  // namespace comma::solver
