@@ -32,16 +32,8 @@ void add_fields(const Call& call, ResultConcept& data) {
 
 }  // namespace
 
-// A new result holds the fields of the one that it is computed from, and the new ones beside them.
 Product calc_champ(const Call& call, Context&) {
-  auto& source = call.data<ResultConcept>("RESULTAT");
-  if (call.reuse) {
-    add_fields(call, source);
-    return nullptr;
-  }
-  auto product = std::make_shared<ResultConcept>(source);
-  add_fields(call, *product);
-  return product;
+  return result_with(call, [&](ResultConcept& result) { add_fields(call, result); });
 }
 
 }  // namespace comma::commands

@@ -48,14 +48,7 @@ void add_pressures(const Call& call, ResultConcept& data) {
 }  // namespace
 
 Product calc_pression(const Call& call, Context&) {
-  auto& source = call.data<ResultConcept>("RESULTAT");
-  if (call.reuse) {
-    add_pressures(call, source);
-    return nullptr;
-  }
-  auto product = std::make_shared<ResultConcept>(source);
-  add_pressures(call, *product);
-  return product;
+  return result_with(call, [&](ResultConcept& result) { add_pressures(call, result); });
 }
 
 }  // namespace comma::commands

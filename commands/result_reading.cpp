@@ -115,4 +115,15 @@ int component_of(const Keywords& keywords, const std::vector<std::string>& compo
                         fmt::format("it has {}", fmt::join(components, ", ")));
 }
 
+Product result_with(const interpreter::Call& call, const std::function<void(ResultConcept&)>& add) {
+  auto& source = call.data<ResultConcept>("RESULTAT");
+  if (call.reuse) {
+    add(source);
+    return nullptr;
+  }
+  auto product = std::make_shared<ResultConcept>(source);
+  add(*product);
+  return product;
+}
+
 }  // namespace comma::commands

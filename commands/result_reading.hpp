@@ -1,6 +1,7 @@
 // Finding a step, a field and a component in a result by the keywords of post-processing commands.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,9 @@ const solver::Field& field_of(const interpreter::Keywords& keywords, const solve
 /// Index of a component among a field's names. Throws DiagnosticError `unknown-component` at the keyword, listing them.
 int component_of(const interpreter::Keywords& keywords, const std::vector<std::string>& components, const std::string& name,
                  const char* keyword = "NOM_CMP");
+
+/// What a command that computes fields of RESULTAT gives back: with reuse= nothing, for `add` then works on that result itself; else a new
+/// result with the fields of RESULTAT and those that `add` puts beside them.
+Product result_with(const interpreter::Call& call, const std::function<void(ResultConcept&)>& add);
 
 }  // namespace comma::commands

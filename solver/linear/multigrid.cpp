@@ -361,8 +361,6 @@ Multigrid::~Multigrid() = default;
 
 bool Multigrid::usable() const { return hierarchy_->coarsest.info() == Eigen::Success; }
 
-int Multigrid::level_count() const { return static_cast<int>(hierarchy_->coarser.size()) + 2; }
-
 Eigen::Index Multigrid::size() const { return static_cast<Eigen::Index>(hierarchy_->finest.matrix.rows()) * 3; }
 
 Eigen::VectorXd Multigrid::padded(const Eigen::Ref<const Eigen::VectorXd>& x) const {

@@ -23,7 +23,6 @@ class Multigrid {
 
   /// False where the coarsest grid's matrix is not positive definite: nothing else of this class may be used then.
   bool usable() const;
-  int level_count() const;
 
   /// The sizes below count padded unknowns: three for each node.
   Eigen::Index size() const;

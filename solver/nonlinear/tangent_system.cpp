@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/constraints/rigid_motion.hpp"
 #include "solver/constraints/solid_unknowns.hpp"
@@ -31,9 +32,9 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
-  const SymmetricMatrix reduced = assembled(u);
+  SymmetricMatrix reduced = assembled(u);
   if (assembler_.is_symmetric())
-    factorise(reduced);
+    factorise(std::move(reduced));
   else
     factorise(reduced, elimination_.reduce_skew(assembler_.skew_stiffness(u)));
   return true;
