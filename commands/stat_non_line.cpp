@@ -17,22 +17,50 @@ namespace {
 
 using interpreter::DiagnosticError;
 
-// Green-Lagrange strains where COMPORTEMENT asks for them.
-std::shared_ptr<const solver::KinematicsOfCells> kinematics(const Call& call, const solver::Mesh& mesh) {
-  auto result = std::make_shared<solver::KinematicsOfCells>();
-  for (const Keywords& behaviour : call.factors("COMPORTEMENT")) {
-    if (behaviour.text("DEFORMATION") != "GREEN_LAGRANGE") continue;
-    result->resize(static_cast<std::size_t>(mesh.cell_count()), solver::Kinematics::small);
-    if (!behaviour.has("GROUP_MA") && !behaviour.has("MAILLE")) std::ranges::fill(*result, solver::Kinematics::green_lagrange);
-    for (const int cell : selected_cells(behaviour, mesh)) (*result)[static_cast<std::size_t>(cell)] = solver::Kinematics::green_lagrange;
+// RELATION and DEFORMATION in the solver's words.
+constexpr std::pair<std::string_view, solver::Relation> relations[] = {
+    {"ELAS", solver::Relation::elastic},
+    {"VMIS_ISOT_LINE", solver::Relation::isotropic_linear},
+    {"VMIS_ISOT_TRAC", solver::Relation::isotropic_traction},
+    {"VMIS_ISOT_PUIS", solver::Relation::isotropic_power},
+    {"VMIS_ISOT_NL", solver::Relation::isotropic_nonlinear},
+    {"VMIS_CINE_LINE", solver::Relation::kinematic_linear},
+    {"VMIS_ECMI_LINE", solver::Relation::mixed_linear},
+    {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
+};
+constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
+    {"PETIT", solver::Kinematics::small},
+    {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
+    {"GDEF_LOG", solver::Kinematics::logarithmic},
+    {"SIMO_MIEHE", solver::Kinematics::multiplicative},
+};
+
+solver::CellBehaviour behaviour_of(const Keywords& keywords) {
+  const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
+  const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"), &std::pair<std::string_view, solver::Kinematics>::first);
+  solver::CellBehaviour behaviour{deformation->second, relation->second};
+  if (behaviour.kinematics == solver::Kinematics::green_lagrange && behaviour.relation != solver::Relation::elastic) {
+    throw DiagnosticError("unsupported", "STAT_NON_LINE: GREEN_LAGRANGE goes with RELATION='ELAS' only", keywords.span_of("DEFORMATION"),
+                          "plastic flow in large strains goes with DEFORMATION='GDEF_LOG'");
   }
-  if (result->empty()) return nullptr;
+  return behaviour;
+}
+
+// One behaviour a cell, the later occurrence winning; null where all are linear.
+std::shared_ptr<const solver::BehaviourOfCells> behaviours(const Call& call, const solver::Mesh& mesh) {
+  auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()));
+  for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
+    const solver::CellBehaviour behaviour = behaviour_of(keywords);
+    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) std::ranges::fill(*result, behaviour);
+    for (const int cell : selected_cells(keywords, mesh)) (*result)[static_cast<std::size_t>(cell)] = behaviour;
+  }
+  if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;
 }
 
 solver::StaticProblem problem_of(const Call& call) {
   solver::StaticProblem problem = static_problem(call);
-  problem.kinematics = kinematics(call, *problem.model->mesh);
+  problem.behaviours = behaviours(call, *problem.model->mesh);
   if (!call.has("CONTACT")) return problem;
   const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
   if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
@@ -77,8 +105,22 @@ solver::StepPlan steps_of(const Keywords& increment) {
   return plan;
 }
 
+// comma makes the tangent again at each iteration unless REAC_ITER is written.
+solver::TangentPolicy tangent_policy(const Keywords& newton) {
+  const auto kind = [&](const char* keyword) {
+    return newton.text(keyword) == "ELASTIQUE" ? solver::TangentKind::elastic : solver::TangentKind::tangent;
+  };
+  solver::TangentPolicy policy;
+  policy.correction = kind("MATRICE");
+  policy.prediction = newton.has("PREDICTION") ? kind("PREDICTION") : policy.correction;
+  policy.steps = static_cast<int>(newton.integer("REAC_INCR"));
+  if (newton.given("REAC_ITER")) policy.iterations = static_cast<int>(newton.integer("REAC_ITER"));
+  return policy;
+}
+
 solver::NewtonOptions newton_options(const Call& call) {
   solver::NewtonOptions options;
+  if (call.has("NEWTON")) options.tangent = tangent_policy(call.factor("NEWTON"));
   if (call.has("CONVERGENCE")) {
     const Keywords& convergence = call.factor("CONVERGENCE");
     const bool relative = convergence.given("RESI_GLOB_RELA");

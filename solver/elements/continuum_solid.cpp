@@ -1,4 +1,5 @@
 // Solid bodies, from the continuum template.
+#include "solver/elements/inelastic_block.hpp"
 #include "solver/elements/large_strain_block.hpp"
 
 namespace comma::solver {
@@ -6,15 +7,17 @@ namespace comma::solver {
 namespace {
 
 template <int Dim, int Nodes, bool Axisymmetric>
-std::unique_ptr<ElementBlock> of_kinematics(const BlockInput& input, std::vector<int> cells) {
-  if (input.kinematics_of(cells.front()) == Kinematics::green_lagrange)
+std::unique_ptr<ElementBlock> of_behaviour(const BlockInput& input, std::vector<int> cells) {
+  const CellBehaviour behaviour = input.behaviour_of(cells.front());
+  if (has_memory(behaviour)) return std::make_unique<InelasticBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
+  if (behaviour.kinematics == Kinematics::green_lagrange)
     return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
   return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
 }
 
 template <int Nodes>
 std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
-  return of_kinematics<3, Nodes, false>(input, std::move(cells));
+  return of_behaviour<3, Nodes, false>(input, std::move(cells));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ FieldComputation::FieldComputation(const StaticProblem& problem, const Result& r
     : problem_(problem),
       result_(result),
       dofs_(*problem.model),
-      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()) {}
+      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()) {}
 
 const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputation::rules() {
   using F = FieldComputation;
@@ -166,12 +166,26 @@ FieldInput FieldComputation::input() const {
   return {*problem_.model, *problem_.materials, *problem_.properties, assembler_.state()};
 }
 
+/// What a material with a memory has left in the result: it does not follow from the displacements.
+const Field& FieldComputation::remembered(std::string_view name, std::size_t step) const {
+  const auto& held = result_.steps[step].fields;
+  if (const auto found = held.find(name); found != held.end()) return found->second;
+  throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}, which a material with a memory needs", result_.steps[step].instant, name),
+              "archive it (ARCHIVAGE without CHAM_EXCLU)");
+}
+
+const ElementField* FieldComputation::remembered_stresses(std::size_t step) const {
+  return assembler_.has_memory() ? &std::get<ElementField>(remembered("SIEF_ELGA", step)) : nullptr;
+}
+
 Field FieldComputation::stresses(std::size_t step) {
+  if (assembler_.has_memory()) return remembered("SIEF_ELGA", step);
   return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
 }
 
 // Elasticity has no memory: Code_Aster gives it one variable, which stays zero (U4.51.11).
 Field FieldComputation::internal_variables(std::size_t step) {
+  if (assembler_.has_memory()) return remembered("VARI_ELGA", step);
   ElementField field = element_field("SIEF_ELGA", step);
   const std::size_t stresses = field.components.size();
   for (std::size_t k = 0; k < field.values.size() / stresses; ++k) {
@@ -232,7 +246,7 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
 }
 
 void FieldComputation::require_small_strains(std::string_view name) const {
-  if (problem_.kinematics && std::ranges::any_of(*problem_.kinematics, [](Kinematics each) { return each != Kinematics::small; }))
+  if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) { return each.kinematics != Kinematics::small; }))
     throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
 }
 
@@ -272,11 +286,11 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
 }
 
 Field FieldComputation::internal_forces(std::size_t step) {
-  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
 }
 
 Field FieldComputation::reactions(std::size_t step) {
-  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
 }
 
 }  // namespace comma::solver

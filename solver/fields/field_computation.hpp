@@ -65,6 +65,8 @@ class FieldComputation {
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
   Field internal_variables(std::size_t step);
+  const Field& remembered(std::string_view name, std::size_t step) const;
+  const ElementField* remembered_stresses(std::size_t step) const;
   Field internal_forces(std::size_t step);
   Field reactions(std::size_t step);
 

@@ -53,11 +53,10 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
                         const ConditionSet& conditions, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(conditions, offset, state);
-  state.u = elimination_.transformation() * state.reduced + offset;
-  evaluate(state, external);
+  start(external, offset, state);
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
-    if (tangent_.refresh(state.u)) forget_compliance();
+    if (iteration > 1 && is_tangent_due(iteration) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Correction correction = correct(state, offset);
     evaluate(state, external);
@@ -71,6 +70,25 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     if (!std::isfinite(measure.absolute)) break;
   }
   fail(time, history);
+}
+
+bool NewtonSolver::is_tangent_due(int iteration) const {
+  if (!tangent_.is_ready() || assembler_.is_linear()) return true;
+  const TangentPolicy& policy = options_.tangent;
+  if (iteration == 1) return policy.steps > 0 && steps_ % policy.steps == 0;
+  return policy.iterations > 0 && (iteration - 1) % policy.iterations == 0;
+}
+
+/// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the conditions on
+/// displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the elements beside them.
+void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+  const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
+  const Eigen::VectorXd imposed = moved - state.u;
+  const bool is_linear = assembler_.is_linear();
+  if (is_linear) state.u = moved;
+  if (is_tangent_due(1) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  evaluate(state, external);
+  if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
 void NewtonSolver::forget_compliance() {

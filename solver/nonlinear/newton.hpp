@@ -54,7 +54,10 @@ class NewtonSolver {
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
   /// The step is accepted: its loads count in the criterion of later ones.
-  void accept_step() { criterion_.accept(load_); }
+  void accept_step() {
+    criterion_.accept(load_);
+    ++steps_;
+  }
 
  private:
   struct Correction {
@@ -62,6 +65,9 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
+  TangentKind kind_of(int iteration) const { return iteration == 1 ? options_.tangent.prediction : options_.tangent.correction; }
+  bool is_tangent_due(int iteration) const;
+  void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
@@ -99,6 +105,7 @@ class NewtonSolver {
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
   double load_ = 0.0;
+  int steps_ = 0;                    ///< accepted so far
 };
 
 }  // namespace comma::solver

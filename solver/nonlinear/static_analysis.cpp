@@ -36,7 +36,7 @@ class StaticAnalysis {
         result_(result),
         counters_(counters),
         dofs_(*problem.model),
-        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
@@ -60,6 +60,7 @@ class StaticAnalysis {
       if (!iterations) continue;
       newton_.accept_step();
       archive(instant, *iterations);
+      assembler_.accept(now_.state.u);
       sequence.accept(*iterations);
     }
   }
@@ -96,7 +97,7 @@ class StaticAnalysis {
 
   /// What a shorter step may overcome.
   static bool is_failure_of_step(std::string_view code) {
-    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix";
+    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
   }
 
   static IterationReport cut_report(double instant, double next) {
@@ -154,13 +155,18 @@ class StaticAnalysis {
     if (!result_.steps.empty()) take_last_step();
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
-    if (!result_.steps.empty()) return;
+    assembler_.set_time(instant);
+    if (!result_.steps.empty()) {
+      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), field_of_last_step("VARI_ELGA"));
+      return;
+    }
+    assembler_.resume(now_.state.u, nullptr, nullptr);
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
-    assembler_.set_time(instant);
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
+    add_internal_variables(step);
     step.parameters["ITER_GLOB"] = 0.0;
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     append(std::move(step));
@@ -181,6 +187,17 @@ class StaticAnalysis {
       const int column = field.component(name_of(dofs_.component_of(dof)));
       if (column >= 0) now_.state.u[dof] = field.at(dofs_.node_of(dof), column);
     }
+  }
+
+  /// Null where the step has it not.
+  const ElementField* field_of_last_step(std::string_view name) const {
+    const auto& fields = result_.steps.back().fields;
+    const auto found = fields.find(name);
+    return found == fields.end() ? nullptr : &std::get<ElementField>(found->second);
+  }
+
+  void add_internal_variables(ResultStep& step) const {
+    if (assembler_.has_memory()) step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
   std::vector<Vector3d> positions() const {
@@ -311,6 +328,7 @@ class StaticAnalysis {
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
+    add_internal_variables(step);
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));

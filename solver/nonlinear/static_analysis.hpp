@@ -12,7 +12,7 @@
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
-#include "solver/model/kinematics.hpp"
+#include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nonlinear/step_sequence.hpp"
 
@@ -38,7 +38,20 @@ struct StaticProblem {
   std::vector<AppliedLoad> loads;
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
-  std::shared_ptr<const KinematicsOfCells> kinematics;  ///< null: small strains everywhere
+  std::shared_ptr<const BehaviourOfCells> behaviours;  ///< null: linear elasticity in small strains everywhere
+};
+
+enum class TangentKind : std::uint8_t {
+  tangent,  ///< of what the material does
+  elastic   ///< as if it could only answer elastically
+};
+
+/// When the stiffness of nonlinear bodies is made again, and which one (U4.51.03, NEWTON). It changes the way to the solution alone.
+struct TangentPolicy {
+  TangentKind prediction = TangentKind::tangent;  ///< of the first iteration of a step
+  TangentKind correction = TangentKind::tangent;  ///< of the others
+  int steps = 1;       ///< REAC_INCR: made again for the first iteration of so many steps; 0: never
+  int iterations = 1;  ///< REAC_ITER: and after so many iterations within a step; 0: never
 };
 
 struct NewtonOptions {
@@ -48,6 +61,7 @@ struct NewtonOptions {
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
+  TangentPolicy tangent;
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };
 
@@ -71,8 +85,8 @@ using IterationObserver = std::function<void(const IterationReport&)>;
 using StepObserver = std::function<void(Result& result)>;
 
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
-/// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
-/// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
+/// `result`: DEPL, SIEF_ELGA, VARI_ELGA where a material has a memory, and CONT_NOEU with contact. Steps already appended stay when it throws.
+/// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
 void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                   Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});

@@ -28,11 +28,16 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
       counters_(counters),
       linear_(options.linear) {}
 
-bool TangentSystem::refresh(const Eigen::VectorXd& u) {
-  if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
-  if (elimination_.reduced_size() == 0) return false;
+bool TangentSystem::is_known(TangentKind kind) const {
+  if (!factorised_ || version_ != assembler_.stiffness_version()) return false;
+  return assembler_.is_linear() || (kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
+}
+
+bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
+  if (is_known(kind) || elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
-  SymmetricMatrix reduced = assembled(u);
+  kind_ = kind;
+  SymmetricMatrix reduced = assembled(u, kind);
   if (assembler_.is_symmetric())
     factorise(std::move(reduced));
   else
@@ -40,9 +45,21 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   return true;
 }
 
-SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
+SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
+  return kind == TangentKind::elastic ? assembler_.elastic_stiffness(u) : assembler_.stiffness(u);
+}
+
+Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const {
   const Stopwatch stopwatch(counters_.assembling);
-  SymmetricMatrix reduced = elimination_.reduce(assembler_.stiffness(u));
+  const SymmetricMatrix matrix = stiffness(u, kind);
+  Eigen::VectorXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
+  if (!assembler_.is_symmetric()) forces += assembler_.skew_stiffness(u) * d;
+  return elimination_.transformation().transpose() * forces;
+}
+
+SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind kind) const {
+  const Stopwatch stopwatch(counters_.assembling);
+  SymmetricMatrix reduced = elimination_.reduce(stiffness(u, kind));
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
 }
@@ -164,7 +181,7 @@ void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
     solver_.reset();
     linear_.solid.reset();
     multigrid_failed_ = true;
-    factorise(assembled(Eigen::VectorXd::Zero(elimination_.full_size())));
+    factorise(assembled(Eigen::VectorXd::Zero(elimination_.full_size()), kind_));
     const Stopwatch stopwatch(counters_.solving);
     solver_->solve(columns);
   }

@@ -16,7 +16,7 @@ struct Body {
   Model model;
   MaterialField materials;
   ElementProperties properties;
-  KinematicsOfCells kinematics;
+  BehaviourOfCells behaviours;
 
   Body(Formulation formulation, bool solid) {
     model.mesh = std::make_shared<Mesh>();
@@ -35,7 +35,7 @@ struct Body {
     Material material;
     material.elasticity = IsotropicElasticity{young, poisson};
     materials.by_cell.assign(count, std::make_shared<const Material>(material));
-    kinematics.assign(count, Kinematics::green_lagrange);
+    behaviours.assign(count, {Kinematics::green_lagrange});
   }
 };
 
@@ -52,7 +52,7 @@ TEST_CASE("the tangent of large strains is the derivative of the internal forces
                                              std::pair{Formulation::axisymmetric, false});
   const Body body(formulation, solid);
   const DofMap dofs(body.model);
-  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.kinematics);
+  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.behaviours);
   const Eigen::VectorXd u = rough(dofs.size(), 0.15);
   const Eigen::MatrixXd lower = assembler.stiffness(u);
   const Eigen::MatrixXd tangent = lower.selfadjointView<Eigen::Lower>();
@@ -71,7 +71,7 @@ TEST_CASE("the tangent of large strains is the derivative of the internal forces
 TEST_CASE("a finite rotation strains nothing, and stretching a turned block gives Cauchy's stress in its axes") {
   const Body body(Formulation::solid, true);
   const DofMap dofs(body.model);
-  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.kinematics);
+  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.behaviours);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto displaced = [&](const Eigen::Matrix3d& gradient) {
     Eigen::VectorXd u(dofs.size());
@@ -99,5 +99,5 @@ TEST_CASE("a finite rotation strains nothing, and stretching a turned block give
 TEST_CASE("what has no large strains says so") {
   Body body(Formulation::plane_stress, false);
   const DofMap dofs(body.model);
-  CHECK_THROWS_WITH(Assembler(body.model, body.materials, body.properties, dofs, &body.kinematics), Catch::Contains("plane stress"));
+  CHECK_THROWS_WITH(Assembler(body.model, body.materials, body.properties, dofs, &body.behaviours), Catch::Contains("plane stress"));
 }
