@@ -4,6 +4,7 @@
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/materials/behaviour/hyperelastic.hpp"
 
 namespace comma::commands {
 
@@ -134,6 +135,25 @@ solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
   return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0)};
 }
 
+// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01) as U4.43.01 has it.
+solver::Hyperelasticity hyperelasticity(const Keywords& law) {
+  solver::Hyperelasticity rubber{law.real("C10"), law.real("C01"), law.real("C20"), 0.0};
+  if (law.has("K")) {
+    rubber.bulk = law.real("K");
+  } else {
+    rubber.bulk = 6.0 * (rubber.c10 + rubber.c01) / (3.0 * (1.0 - 2.0 * law.real("NU")));
+  }
+  return rubber;
+}
+
+// Rubber at rest, for what looks at the elasticity: weight, energies, contact.
+solver::IsotropicElasticity small_strain_elasticity(const Keywords& law) {
+  const solver::IsotropicModuli moduli = solver::small_strain_moduli(hyperelasticity(law));
+  solver::IsotropicElasticity elasticity{moduli.young, moduli.poisson};
+  elasticity.density = property(law, "RHO");
+  return elasticity;
+}
+
 solver::Plasticity plasticity_of(const Call& call) {
   solver::Plasticity plasticity;
   for (const char* keyword : {"ECRO_LINE", "ECRO_LINE_FO"})
@@ -141,6 +161,7 @@ solver::Plasticity plasticity_of(const Call& call) {
   if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
   if (call.has("ECRO_PUIS")) plasticity.power = power_hardening(call.factor("ECRO_PUIS"));
   if (call.has("ECRO_NL")) plasticity.nonlinear = nonlinear_hardening(call.factor("ECRO_NL"));
+  if (call.has("ELAS_HYPER")) plasticity.hyperelasticity = hyperelasticity(call.factor("ELAS_HYPER"));
   for (const char* keyword : {"PRAGER", "PRAGER_FO"})
     if (call.has(keyword)) plasticity.prager = property(call.factor(keyword), "C");
   return plasticity;
@@ -154,6 +175,7 @@ Product defi_materiau(const Call& call, Context&) {
   if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
   if (call.has("ELAS_ORTH")) material->elasticity = orthotropic(call.factor("ELAS_ORTH"));
   if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
+  if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
   material->plasticity = plasticity_of(call);
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);

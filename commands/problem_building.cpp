@@ -21,6 +21,7 @@ std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
   for (const Keywords& excitation : call.factors("EXCIT")) {
     solver::AppliedLoad& applied = loads.emplace_back();
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
     }

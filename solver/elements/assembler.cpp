@@ -95,6 +95,9 @@ std::vector<double> read_block(const ElementBlock& block, const std::vector<std:
   return values;
 }
 
+/// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
+constexpr double initial_stress_tolerance = 1e-6;
+
 std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed) {
   std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) * block.stress_names().size());
   block.stresses(u, state, values);
@@ -219,9 +222,25 @@ void Assembler::accept(const Eigen::VectorXd& u) {
 
 void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables) {
   for (const auto& block : blocks_->list) {
-    if (!block->has_memory()) continue;
+    if (!block->has_memory()) {
+      if (stresses != nullptr) check_initial_stresses(*block, u, *stresses);
+      continue;
+    }
     block->resume(u, state_, read_block(*block, stress_names(*block), stresses, *model_.mesh),
                   read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
+  }
+}
+
+void Assembler::check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
+  const std::vector<double> wanted = read_block(block, stress_names(block), &given, *model_.mesh);
+  const std::vector<double> known = stresses_of(block, u, state_, nullptr);
+  double largest = 0.0;
+  for (const double each : known) largest = std::max(largest, std::abs(each));
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    if (std::abs(wanted[k] - known[k]) <= initial_stress_tolerance * std::max(largest, std::abs(wanted[k]))) continue;
+    const std::size_t each = static_cast<std::size_t>(block.point_count()) * block.stress_names().size();
+    throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[k / each])),
+                "only isotropic continua in small or logarithmic strains take up stresses of another origin");
   }
 }
 

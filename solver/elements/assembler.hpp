@@ -18,6 +18,7 @@
 
 namespace comma::solver {
 
+class ElementBlock;
 class ImposedStrains;
 
 /// Sums element contributions over all degrees of freedom of a DofMap (no condition applied yet). Blocks of like cells are
@@ -64,7 +65,8 @@ class Assembler {
   /// The step has converged at u, at the assembler's instant.
   void accept(const Eigen::VectorXd& u);
   /// A step begins at u, at the assembler's instant. `stresses`, `variables`: as stresses() and internal_variables() give them; null: zero.
-  /// Throws Error `incompatible-field` where a field lacks a cell, a point or a component.
+  /// Throws Error `incompatible-field` where a field lacks a cell, a point or a component; `unsupported` for stresses that an element without
+  /// memory does not have at u.
   void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other components.
   ElementField internal_variables(const Eigen::VectorXd& u) const;
@@ -101,6 +103,7 @@ class Assembler {
 
  private:
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+  void check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
 
   struct Blocks;

@@ -1,5 +1,4 @@
 // Solid bodies, from the continuum template.
-#include "solver/elements/inelastic_block.hpp"
 #include "solver/elements/large_strain_block.hpp"
 
 namespace comma::solver {
@@ -8,9 +7,7 @@ namespace {
 
 template <int Dim, int Nodes, bool Axisymmetric>
 std::unique_ptr<ElementBlock> of_behaviour(const BlockInput& input, std::vector<int> cells) {
-  const CellBehaviour behaviour = input.behaviour_of(cells.front());
-  if (has_memory(behaviour)) return std::make_unique<InelasticBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
-  if (behaviour.kinematics == Kinematics::green_lagrange)
+  if (input.behaviour_of(cells.front()).kinematics == Kinematics::green_lagrange)
     return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
   return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
 }

@@ -46,7 +46,8 @@ class ElementBlock {
   virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
-  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory.
+  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory. In plane stress
+  /// with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
   virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {
     add_internal_forces(u, state, forces);
   }
@@ -87,10 +88,16 @@ class ElementBlock {
   virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
 
+/// Whether like cells get an element with a memory: not anisotropic elasticity, which follows from displacements alone whatever it starts from; but
+/// Green and Lagrange's strains in plane stress do, though elastic, for the element knows plane stress in large strains.
+bool keeps_memory(const BlockInput& input, std::span<const int> cells);
+
 /// Blocks for cells that share type and formulation.
 std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_inelastic_plane_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_inelastic_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solver/elements/continuum_block.hpp"
-#include "solver/materials/behaviour/logarithmic_strain.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
 #include "solver/materials/behaviour/point_law.hpp"
 
 namespace comma::solver {
@@ -89,7 +89,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
     visit(u, state, [&](std::size_t point, const Eigen::Matrix3d& gradient, const PointResponse& response) {
       past_[point].gradient = gradient;
-      past_[point].stress = response.reported;
+      past_[point].stress = response.own;
       past_[point].variables = response.variables;
     });
     remember_materials(state);
@@ -97,16 +97,16 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
     const auto count = static_cast<std::size_t>(law_.variable_count());
+    remember_materials(state);
     each_point(u, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
       const std::size_t index = point_index(element, g);
       PointPast& past = past_[index];
-      past = PointPast();
       past.gradient = gradient;
-      if (!reported.empty()) past.stress = padded(reported.data() + index * strains);
+      past.stress.setZero();
+      past.variables.fill(0.0);
       if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
-      if (!reported.empty()) law_.take_stress(past, !variables.empty());
+      if (!reported.empty()) past.stress = law_.own_stress(past, padded(reported.data() + index * strains), !variables.empty());
     });
-    remember_materials(state);
   }
 
  private:

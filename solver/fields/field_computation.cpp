@@ -82,6 +82,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPSI_ELGA", &F::total_strains},
       {"EPME_ELGA", &F::mechanical_strains},
       {"EPSG_ELGA", &F::green_strains},
+      {"EPSP_ELGA", &F::plastic_strains_at_points},
       {"SIEQ_ELGA", &F::stress_criteria_at_points},
       {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
       {"ENEL_ELGA", &F::elastic_energy},
@@ -231,6 +232,11 @@ Field FieldComputation::total_strains(std::size_t step) {
 
 Field FieldComputation::mechanical_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::mechanical);
+}
+
+Field FieldComputation::plastic_strains_at_points(std::size_t step) {
+  require_small_strains("EPSP_ELGA");
+  return plastic_strains(input(), displacement(step), element_field("SIEF_ELGA", step));
 }
 
 Field FieldComputation::green_strains(std::size_t step) {

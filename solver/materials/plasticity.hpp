@@ -1,4 +1,4 @@
-// What a metal's plastic flow is described by: hardening curves and the motion of the yield surface.
+// What lies beyond linear elasticity: hardening curves and the motion of the yield surface of metals, the energy of rubber.
 #pragma once
 
 #include <optional>
@@ -44,12 +44,21 @@ struct NonlinearHardening {
   double power = 1.0;         ///< m
 };
 
+/// The energy of Signorini (see hyperelastic.hpp).
+struct Hyperelasticity {
+  double c10 = 0.0;
+  double c01 = 0.0;
+  double c20 = 0.0;
+  double bulk = 0.0;
+};
+
 /// What is given of a material; a relation takes what it needs.
 struct Plasticity {
   std::optional<LinearHardening> linear;
   std::optional<TractionHardening> traction;
   std::optional<PowerHardening> power;
   std::optional<NonlinearHardening> nonlinear;
+  std::optional<Hyperelasticity> hyperelasticity;
   std::optional<Property> prager;  ///< C: the centre of the yield surface moves by C times the plastic strain
 };
 

@@ -15,6 +15,7 @@ enum class Kinematics : std::uint8_t {
 
 enum class Relation : std::uint8_t {
   elastic,
+  hyperelastic,           ///< rubber, in Green and Lagrange's strains (R5.03.19)
   isotropic_linear,       ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
   isotropic_traction,     ///< ... by a traction curve
   isotropic_power,        ///< ... by a power law
@@ -35,7 +36,8 @@ struct CellBehaviour {
 
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {
-  return behaviour.relation != Relation::elastic || behaviour.from_initial_state || behaviour.kinematics == Kinematics::logarithmic ||
+  return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && behaviour.kinematics == Kinematics::small) ||
+         behaviour.kinematics == Kinematics::logarithmic ||
          behaviour.kinematics == Kinematics::multiplicative;
 }
 

@@ -10,6 +10,7 @@
 
 #include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/line_search.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
 
 namespace comma::solver {
@@ -58,8 +59,12 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
     if (iteration > 1 && is_tangent_due(iteration) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
+    const Eigen::VectorXd before = state.reduced;
     const Correction correction = correct(state, offset);
-    evaluate(state, external);
+    if (searches(iteration))
+      search(before, external, offset, state);
+    else
+      evaluate(state, external);
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
     history.push_back(report(time, iteration, measure, correction.changes));
     if (observer_) observer_(history.back());
@@ -147,6 +152,28 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   correction.step = size > 0.0 ? largest(state.reduced - before) / size : 0.0;
   state.u = elimination_.transformation() * state.reduced + offset;
   return correction;
+}
+
+bool NewtonSolver::searches(int iteration) const {
+  return options_.line_search && iteration > 1 && !assembler_.is_linear() && !mixed_ && row_multipliers_.size() == 0;
+}
+
+/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there.
+void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+  const Eigen::VectorXd step = state.reduced - before;
+  const auto go = [&](double rho) {
+    state.reduced = before + rho * step;
+    state.u = elimination_.transformation() * state.reduced + offset;
+  };
+  const auto work = [&](double rho) {
+    go(rho);
+    evaluate(state, external);
+    return step.dot(residual_);
+  };
+  const double start = step.dot(residual_);
+  const double reached = search_line(*options_.line_search, start, work);
+  go(reached);
+  evaluate(state, external);
 }
 
 NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free) {

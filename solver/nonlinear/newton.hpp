@@ -71,6 +71,8 @@ class NewtonSolver {
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
+  bool searches(int iteration) const;
+  void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
   Eigen::VectorXd push_of_active();

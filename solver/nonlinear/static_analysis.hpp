@@ -31,6 +31,13 @@ struct Counters {
   double solving = 0.0;      ///< s: right-hand sides, refinement
 };
 
+/// Where a computation starts instead of undisplaced and without stress. What is not given is zero.
+struct InitialState {
+  std::optional<NodalField> displacement;
+  std::optional<ElementField> stresses;   ///< as SIEF_ELGA
+  std::optional<ElementField> variables;  ///< as VARI_ELGA
+};
+
 struct StaticProblem {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const MaterialField> materials;
@@ -39,6 +46,7 @@ struct StaticProblem {
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
   std::shared_ptr<const BehaviourOfCells> behaviours;  ///< null: linear elasticity in small strains everywhere
+  std::shared_ptr<const InitialState> initial;         ///< null: at rest, or where the result that goes on left off
 };
 
 enum class TangentKind : std::uint8_t {
@@ -54,6 +62,23 @@ struct TangentPolicy {
   int iterations = 1;  ///< REAC_ITER: and after so many iterations within a step; 0: never
 };
 
+/// How far to go along a correction d of Newton's method (R5.03.01, RECH_LINEAIRE): where the work of the residual on d, g(rho) = d . R(u + rho d),
+/// has fallen below a share of g(0). It takes no part in the first iteration of a step.
+struct LineSearch {
+  bool bracketed = false;   ///< MIXTE: secants between bounds of a change of sign; else CORDE: secants alone
+  double tolerance = 0.1;   ///< RESI_LINE_RELA
+  int max_iterations = 3;   ///< ITER_LINE_MAXI
+  double smallest = 1e-2;   ///< RHO_MIN
+  double largest = 10.0;    ///< RHO_MAX
+  double excluded = 9e-3;   ///< RHO_EXCL: no |rho| below
+};
+
+/// What the first iteration of a step starts from.
+enum class StepGuess : std::uint8_t {
+  stay,        ///< the step before, and a prediction by the tangent
+  extrapolate  ///< where the displacements go if they keep their speed (EXTRAPOLE)
+};
+
 struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
@@ -62,6 +87,9 @@ struct NewtonOptions {
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
   TangentPolicy tangent;
+  std::optional<LineSearch> line_search;  ///< for problems without contact and unilateral conditions
+  StepGuess guess = StepGuess::stay;
+  std::shared_ptr<const Result> guessed;  ///< not null: instead, steps start from the displacements of this result at their instants, linear between its steps (DEPL_CALCULE)
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };
 

@@ -174,6 +174,10 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
   }
   switch (relation) {
     case Relation::elastic: return point;
+    case Relation::hyperelastic:
+      if (!plasticity.hyperelasticity) throw_missing("ELAS_HYPER");
+      point.hyperelasticity = &*plasticity.hyperelasticity;
+      return point;
     case Relation::isotropic_linear:
     case Relation::mixed_linear:
       if (!plasticity.linear) throw_missing(keyword_of(relation));

@@ -43,6 +43,7 @@ struct PlasticModuli {
 /// What a point needs for von Mises plasticity.
 struct PlasticPoint : PlasticModuli {
   HardeningCurve curve;
+  const Hyperelasticity* hyperelasticity = nullptr;  ///< of rubber
 };
 
 /// Whether a relation finds the same at all points and times.

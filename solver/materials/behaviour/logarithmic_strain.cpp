@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "solver/error.hpp"
-
 namespace comma::solver {
 
 namespace {
@@ -50,25 +48,9 @@ Matrix3d basis(int component) {
 
 }  // namespace
 
-Matrix3d tensor_of_stress(const Vector6d& s) {
-  Matrix3d t;
-  t << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-  return t;
-}
-
-Vector6d components_of_stress(const Matrix3d& t) {
-  Vector6d s;
-  s << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(0, 2), t(1, 2);
-  return s;
-}
-
 LogarithmicStrain::LogarithmicStrain(const Matrix3d& h) {
-  if (!((Matrix3d::Identity() + h).determinant() > 0.0)) {
-    throw Error("integration-failure", "a point is turned inside out: the determinant of its deformation gradient is not positive", "take smaller steps");
-  }
-  // From H rather than from F: small strains must not drown in the rounding of 1.
-  const Matrix3d green = 0.5 * (h + h.transpose() + h.transpose() * h);
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(green);
+  deformation_gradient(h);  // which must not be turned inside out
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(green_lagrange_strain(h));
   values_ = solver.eigenvalues();
   vectors_ = solver.eigenvectors();
   const Vector3d logarithms(0.5 * std::log1p(2.0 * values_[0]), 0.5 * std::log1p(2.0 * values_[1]), 0.5 * std::log1p(2.0 * values_[2]));
@@ -105,17 +87,6 @@ Matrix6d LogarithmicStrain::second_tangent(const Matrix6d& d, const Vector6d& t)
     }
   }
   return tangent;
-}
-
-Vector6d cauchy_stress(const Matrix3d& h, const Vector6d& second) {
-  const Matrix3d f = Matrix3d::Identity() + h;
-  return components_of_stress(f * tensor_of_stress(second) * f.transpose() / f.determinant());
-}
-
-Vector6d second_stress_of(const Matrix3d& h, const Vector6d& cauchy) {
-  const Matrix3d f = Matrix3d::Identity() + h;
-  const Matrix3d inverse = f.inverse();
-  return components_of_stress(f.determinant() * inverse * tensor_of_stress(cauchy) * inverse.transpose());
 }
 
 }  // namespace comma::solver

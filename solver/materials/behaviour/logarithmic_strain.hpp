@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/materials/elasticity.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
 
 namespace comma::solver {
 
@@ -30,14 +30,5 @@ class LogarithmicStrain {
   Vector6d strain_;
   Matrix6d projection_;      ///< dE / dE_green, both with shear angles
 };
-
-/// (xx, yy, zz, xy, xz, yz) and back.
-Eigen::Matrix3d tensor_of_stress(const Vector6d& stress);
-Vector6d components_of_stress(const Eigen::Matrix3d& tensor);
-
-/// F S F^T / det F.
-Vector6d cauchy_stress(const Eigen::Matrix3d& displacement_gradient, const Vector6d& second_stress);
-/// det(F) F^-1 sigma F^-T.
-Vector6d second_stress_of(const Eigen::Matrix3d& displacement_gradient, const Vector6d& cauchy);
 
 }  // namespace comma::solver

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/error.hpp"
-#include "solver/materials/behaviour/logarithmic_strain.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
 #include "solver/materials/behaviour/von_mises.hpp"
 
 namespace comma::solver {
@@ -12,25 +11,6 @@ namespace comma::solver {
 namespace {
 
 using Eigen::Matrix3d;
-
-Matrix3d gradient_of(const Matrix3d& displacement_gradient) {
-  const Matrix3d f = Matrix3d::Identity() + displacement_gradient;
-  if (!(f.determinant() > 0.0)) {
-    throw Error("integration-failure", "a point is turned inside out: the determinant of its deformation gradient is not positive", "take smaller steps");
-  }
-  return f;
-}
-
-/// The strain (with shear angles) -> the change of C^-1, for C changing by twice the strain.
-Matrix6d derivative_of_inverse(const Matrix3d& inverse) {
-  constexpr int first[] = {0, 1, 2, 0, 0, 1};
-  constexpr int second[] = {0, 1, 2, 1, 2, 2};
-  Matrix6d d;
-  for (int m = 0; m < 6; ++m)
-    for (int n = 0; n < 6; ++n)
-      d(m, n) = -(inverse(first[m], first[n]) * inverse(second[m], second[n]) + inverse(first[m], second[n]) * inverse(second[m], first[n]));
-  return d;
-}
 
 /// What trial and flow are made from, on the initial geometry: C = F^T F, and G = C_p^-1, which the step begins with. All derivatives are by
 /// the strain E, where dC = 2 dE: those of scalars are stresses in form.
@@ -82,8 +62,8 @@ void add_volume(const PlasticPoint& point, double expansion, const Trial& trial,
 
 MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state, const Matrix3d& before,
                                                 const Matrix3d& now, double expansion) {
-  const Matrix3d last = gradient_of(before);
-  const Matrix3d f = gradient_of(now);
+  const Matrix3d last = deformation_gradient(before);
+  const Matrix3d f = deformation_gradient(now);
   const Matrix3d back = std::cbrt(last.determinant()) * last.inverse();
   const Matrix3d g = back * state.elastic * back.transpose();
   const Trial trial(point, f, g);

@@ -1,6 +1,10 @@
 #include "solver/materials/behaviour/point_law.hpp"
 
+#include <cmath>
+
 #include "solver/error.hpp"
+#include "solver/materials/behaviour/hyperelastic.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
 #include "solver/materials/behaviour/logarithmic_strain.hpp"
 #include "solver/materials/behaviour/multiplicative.hpp"
 
@@ -16,9 +20,28 @@ Vector6d small_strain(const Eigen::Matrix3d& h) {
   return strain;
 }
 
+bool keeps_tensor(Kinematics kinematics) { return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative; }
+
+/// The strain across the plane in plane stress: all volume is elastic or thermal.
+double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic, const PlasticModuli& now) {
+  return stress.head<3>().sum() / (3.0 * now.bulk) + inelastic.head<3>().sum() - strain[0] - strain[1];
+}
+
+/// Green and Lagrange's, with shear angles.
+Vector6d green_strain(const Eigen::Matrix3d& h) {
+  Vector6d strain = components_of_stress(green_lagrange_strain(h));
+  strain.tail<3>() *= 2.0;
+  return strain;
+}
+
 }  // namespace
 
 PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(behaviour), in_plane_(in_plane) {
+  if (behaviour.relation == Relation::hyperelastic) {
+    if (in_plane) throw Error("unsupported", "rubber is not known in plane stress", "take plane strain or a solid");
+    if (behaviour.kinematics != Kinematics::green_lagrange)
+      throw Error("unsupported", "rubber has large strains on the initial geometry", "take DEFORMATION='GREEN_LAGRANGE'");
+  }
   if (behaviour.kinematics != Kinematics::multiplicative) return;
   if (in_plane) throw Error("unsupported", "the multiplicative split of strains is not known in plane stress", "take DEFORMATION='GDEF_LOG'");
   if (own_count() > 2) throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only", "take DEFORMATION='GDEF_LOG'");
@@ -26,7 +49,8 @@ PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(b
 
 int PointLaw::own_count() const {
   switch (behaviour_.relation) {
-    case Relation::elastic: return 1;
+    case Relation::elastic:
+    case Relation::hyperelastic: return 1;
     case Relation::kinematic_linear: return tensor_size + 1;
     case Relation::mixed_linear:
     case Relation::mixed_traction: return 2 + tensor_size;
@@ -35,7 +59,7 @@ int PointLaw::own_count() const {
 }
 
 int PointLaw::variable_count() const {
-  return own_count() + (is_large() ? tensor_size : 0);
+  return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0);
 }
 
 PlasticState PointLaw::state_of(const PointPast& past) const {
@@ -43,7 +67,8 @@ PlasticState PointLaw::state_of(const PointPast& past) const {
   state.stress = past.stress;
   const auto& v = past.variables;
   switch (behaviour_.relation) {
-    case Relation::elastic: break;
+    case Relation::elastic:
+    case Relation::hyperelastic: break;
     case Relation::kinematic_linear:
       state.back_stress = Eigen::Map<const Vector6d>(v.data());
       state.flowing = v[tensor_size] > 0.5;
@@ -62,7 +87,8 @@ PlasticState PointLaw::state_of(const PointPast& past) const {
 void PointLaw::write(const PlasticState& state, PointResponse& response) const {
   auto& v = response.variables;
   switch (behaviour_.relation) {
-    case Relation::elastic: break;
+    case Relation::elastic:
+    case Relation::hyperelastic: break;
     case Relation::kinematic_linear:
       Eigen::Map<Vector6d>(v.data()) = state.back_stress;
       v[tensor_size] = state.flowing ? 1.0 : 0.0;
@@ -78,15 +104,15 @@ void PointLaw::write(const PlasticState& state, PointResponse& response) const {
 }
 
 PlasticResponse PointLaw::integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const {
-  PlasticState state = state_of(past);
-  if (behaviour_.kinematics == Kinematics::logarithmic) state.stress = Eigen::Map<const Vector6d>(past.variables.data() + own_count());
+  const PlasticState state = state_of(past);
   return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment) : integrate_von_mises(past.moduli, now, state, increment);
 }
 
 PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) const {
   const Vector6d increment = small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
   const PlasticResponse result = integrate(input.past, now, increment);
-  PointResponse response{result.state.stress, result.tangent, result.state.stress, {}};
+  const Vector6d& stress = result.state.stress;
+  PointResponse response{stress, result.tangent, stress, stress, {}};
   write(result.state, response);
   return response;
 }
@@ -96,8 +122,9 @@ PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint&
   const Vector6d increment = strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
   const PlasticResponse result = integrate(input.past, now, increment);
   const Vector6d& t = result.state.stress;
-  PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), {}};
+  PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), t, {}};
   response.reported = cauchy_stress(input.gradient, response.stress);
+  if (in_plane_) response.reported /= std::exp(strain_across(strain.strain(), t, input.inelastic, now));
   write(result.state, response);
   Eigen::Map<Vector6d>(response.variables.data() + own_count()) = t;
   return response;
@@ -108,7 +135,7 @@ PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoi
   const Eigen::Map<const Vector6d> compression(input.past.variables.data() + own_count());
   const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p, past.flowing};
   const MultiplicativeResponse result = integrate_multiplicative(now, state, input.past.gradient, input.gradient, input.inelastic[0]);
-  PointResponse response{result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), {}};
+  PointResponse response{result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
   PlasticState reached;
   reached.p = result.state.p;
   reached.flowing = result.state.flowing;
@@ -119,20 +146,60 @@ PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoi
 }
 
 PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint& now) const {
-  if (behaviour_.kinematics == Kinematics::multiplicative) return multiplicative(input, now);
-  return behaviour_.kinematics == Kinematics::logarithmic ? logarithmic(input, now) : small(input, now);
+  if (behaviour_.relation == Relation::hyperelastic) return rubber(input, now);
+  switch (behaviour_.kinematics) {
+    case Kinematics::green_lagrange: return green(input, now);
+    case Kinematics::logarithmic: return logarithmic(input, now);
+    case Kinematics::multiplicative: return multiplicative(input, now);
+    default: return small(input, now);
+  }
 }
 
-void PointLaw::take_stress(PointPast& past, bool has_variables) const {
-  if (behaviour_.kinematics != Kinematics::logarithmic || has_variables) return;
-  const LogarithmicStrain strain(past.gradient);
-  Eigen::Map<Vector6d>(past.variables.data() + own_count()) = strain.stress_of(second_stress_of(past.gradient, past.stress));
+/// In plane stress the thickness takes part, which the second stress decides itself: a few rounds settle it.
+Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const {
+  const Vector6d on_initial_thickness = second_stress_of(gradient, reported);
+  if (!in_plane_) return on_initial_thickness;
+  constexpr int rounds = 30;
+  Vector6d stress = on_initial_thickness;
+  for (int round = 0; round < rounds; ++round)
+    stress = std::sqrt(1.0 + 2.0 * strain_across(green_strain(gradient), stress, past.inelastic, past.moduli)) * on_initial_thickness;
+  return stress;
+}
+
+Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const {
+  switch (behaviour_.kinematics) {
+    case Kinematics::small: return reported;
+    case Kinematics::green_lagrange: return second_stress(past.gradient, reported, past);
+    case Kinematics::logarithmic:
+      if (has_variables) return Eigen::Map<const Vector6d>(past.variables.data() + own_count());
+      return LogarithmicStrain(past.gradient).stress_of(second_stress_of(past.gradient, reported));
+    case Kinematics::multiplicative: return Vector6d::Zero();
+  }
+  return reported;
+}
+
+PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) const {
+  const Vector6d strain = green_strain(input.gradient);
+  const Vector6d increment = strain - green_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  deformation_gradient(input.gradient);  // which must not be turned inside out
+  const PlasticResponse result = integrate(input.past, now, increment);
+  const Vector6d& stress = result.state.stress;
+  PointResponse response{stress, result.tangent, cauchy_stress(input.gradient, stress), stress, {}};
+  if (in_plane_) response.reported /= std::sqrt(1.0 + 2.0 * strain_across(strain, stress, input.inelastic, now));
+  write(result.state, response);
+  return response;
+}
+
+PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now) const {
+  const HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, input.gradient);
+  return {result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
 }
 
 PointResponse PointLaw::respond(const PointInput& input) const { return respond_with(input, input.constants); }
 
 PointResponse PointLaw::respond_elastically(const PointInput& input) const {
-  const PlasticPoint elastic{input.constants, NoYield{}};
+  PlasticPoint elastic{input.constants, NoYield{}};
+  elastic.hyperelasticity = input.constants.hyperelasticity;
   return respond_with(input, elastic);
 }
 

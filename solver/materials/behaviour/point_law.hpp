@@ -17,7 +17,7 @@ inline constexpr int most_variables = 16;
 /// A point where the step began.
 struct PointPast {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< H = du / dX
-  Vector6d stress = Vector6d::Zero();                  ///< as reported: Cauchy's in large strains
+  Vector6d stress = Vector6d::Zero();                  ///< of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff
   Vector6d inelastic = Vector6d::Zero();               ///< strain of the command variables
   PlasticModuli moduli;
   std::array<double, most_variables> variables{};
@@ -34,14 +34,15 @@ struct PointInput {
 struct PointResponse {
   Vector6d stress;    ///< whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress
   Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
-  Vector6d reported;  ///< the stress that results show
+  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in plane stress
+  Vector6d own = Vector6d::Zero();  ///< the stress of the law's own strain, which the next step begins with
   std::array<double, most_variables> variables{};
 };
 
 class PointLaw {
  public:
-  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what the multiplicative split does not go with: plane stress
-  /// and kinematic hardening.
+  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the multiplicative split and rubber with
+  /// plane stress, the split with kinematic hardening, rubber with other strains than Green and Lagrange's.
   PointLaw(const CellBehaviour& behaviour, bool in_plane);
 
   /// Large strains have their forces on the deformed, small ones on the initial geometry.
@@ -60,8 +61,8 @@ class PointLaw {
   /// The same as if nothing could flow from here on.
   PointResponse respond_elastically(const PointInput& input) const;
 
-  /// Makes what else a point remembers fit the reported stress that it has been given, as far as its variables do not tell.
-  void take_stress(PointPast& past, bool has_variables) const;
+  /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress that results show.
+  Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
 
  private:
   PointResponse respond_with(const PointInput& input, const PlasticPoint& now) const;
@@ -69,6 +70,9 @@ class PointLaw {
   PlasticState state_of(const PointPast& past) const;
   void write(const PlasticState& state, PointResponse& response) const;
   PlasticResponse integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const;
+  Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
+  PointResponse green(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse rubber(const PointInput& input, const PlasticPoint& now) const;
   PointResponse small(const PointInput& input, const PlasticPoint& now) const;
   PointResponse logarithmic(const PointInput& input, const PlasticPoint& now) const;
   PointResponse multiplicative(const PointInput& input, const PlasticPoint& now) const;
