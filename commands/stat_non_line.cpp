@@ -182,12 +182,12 @@ solver::NewtonOptions newton_options(const Call& call) {
 
 // The result to go on with, up to the step that the computation starts from.
 std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateChoice& initial) {
-  if (!initial.order) {
-    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from a step of that result", call.span,
+  if (!initial.state) {
+    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from an initial state", call.span,
                           "give ETAT_INIT=_F(EVOL_NOLI=" + call.result->name + ")");
   }
   auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
-  std::erase_if(product->result.steps, [&](const solver::ResultStep& step) { return step.order > *initial.order; });
+  if (initial.order) std::erase_if(product->result.steps, [&](const solver::ResultStep& step) { return step.order > *initial.order; });
   return product;
 }
 

@@ -256,6 +256,18 @@ ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
   return field;
 }
 
+ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const {
+  ElementField field = field_at_points("ENER_R", {"TOTALE"});
+  for (const auto& block : blocks_->list) {
+    if (!block->has_memory()) continue;
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count()));
+    block->energy_densities(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh),
+                            read_block(*block, variable_names(block->variable_count()), &variables, *model_.mesh), values);
+    write_block(*block, field.components, values, field);
+  }
+  return field;
+}
+
 Eigen::VectorXd Assembler::variable_forces() const { return -internal_forces(Eigen::VectorXd::Zero(dofs_.size())); }
 
 Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {

@@ -71,6 +71,9 @@ class Assembler {
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other components.
   ElementField internal_variables(const Eigen::VectorXd& u) const;
 
+  /// Elastic energy for an initial volume at the Gauss points of cells with a memory (TOTALE), from stresses and internal variables.
+  ElementField energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const;
+
   /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.
   Eigen::VectorXd variable_forces() const;
 
@@ -97,7 +100,7 @@ class Assembler {
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
-  /// Elastic energy of each element (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
+  /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
   /// per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;
 

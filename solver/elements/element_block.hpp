@@ -63,7 +63,7 @@ class ElementBlock {
   virtual std::span<const std::string_view> stress_names() const = 0;
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
   virtual void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
-  /// Writes the elastic energy of each element (one value a cell).
+  /// Writes the elastic energy of each element (one value a cell); absent where the material has a memory.
   virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;
   /// Whether add_elastic_stiffness() is the same for every u.
@@ -77,6 +77,9 @@ class ElementBlock {
   virtual void variables(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const { std::ranges::fill(out, 0.0); }
   /// Whether stresses depend on more than the displacements of the moment.
   virtual bool has_memory() const { return false; }
+  /// Of materials with a memory: writes the elastic energy for an initial volume at each point (cells x points), of stresses and variables laid
+  /// out as above.
+  virtual void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double>) const {}
   /// A step has converged at u: the next begins there.
   virtual void accept(const Eigen::VectorXd&, const VariableState&) {}
   /// A step begins at u with stresses and variables laid out as above; zero where empty.

@@ -80,10 +80,22 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
-    throw Error("unsupported", fmt::format("cell {}: the potential energy of a material with a memory does not follow from its displacements",
-                                           this->mesh_.cell_name(this->cells_.front())),
-                "take ENEL_ELEM or ENEL_ELGA, from the stresses");
+  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const override { std::ranges::fill(out, absent); }
+
+  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables,
+                        std::span<double> out) const override {
+    const auto count = static_cast<std::size_t>(law_.variable_count());
+    each_point(u, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      const std::size_t index = point_index(element, g);
+      const Constants constants(*this, element, g, x, state);
+      PointPast at;
+      at.gradient = gradient;
+      at.inelastic = constants.inelastic;
+      at.moduli = *constants.plastic;
+      std::copy_n(variables.data() + index * count, count, at.variables.begin());
+      at.stress = law_.own_stress(at, padded(reported.data() + index * strains), true);
+      out[index] = law_.elastic_energy(at, *constants.plastic);
+    });
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
@@ -105,7 +117,9 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       past.stress.setZero();
       past.variables.fill(0.0);
       if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
-      if (!reported.empty()) past.stress = law_.own_stress(past, padded(reported.data() + index * strains), !variables.empty());
+      if (reported.empty() && variables.empty()) return;
+      const Vector6d shown = reported.empty() ? Vector6d::Zero().eval() : padded(reported.data() + index * strains);
+      past.stress = law_.own_stress(past, shown, !variables.empty());
     });
   }
 

@@ -257,19 +257,29 @@ void FieldComputation::require_small_strains(std::string_view name) const {
 }
 
 Field FieldComputation::elastic_energy(std::size_t step) {
-  require_small_strains("ENEL_ELGA");
-  return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
+  if (!assembler_.has_memory()) {
+    require_small_strains("ENEL_ELGA");
+    return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
+  }
+  const auto& stresses = std::get<ElementField>(remembered("SIEF_ELGA", step));
+  const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
+  Field energies = elastic_energy_density(input(), stresses);
+  put_piece(energies, {&of_memory, {}, {}, 1.0, false});
+  return energies;
 }
 
 // Of continua from their stresses; of springs, bars and beams from their displacements.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
-  Field energies = potential_energy_of_cells(step);
+  Field energies = assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
   const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
   return energies;
 }
 
 Field FieldComputation::potential_energy_of_cells(std::size_t step) {
+  if (assembler_.has_memory())
+    throw Error("unsupported", "the potential energy of a material with a memory does not follow from its displacements",
+                "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
   return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
 }
 

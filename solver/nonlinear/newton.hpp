@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,10 @@ class NewtonSolver {
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
+  int accepted_steps() const { return steps_; }
+  /// Which stiffness the first iteration of the next steps takes.
+  void predict_with(TangentKind kind) { prediction_ = kind; }
+
   /// The step is accepted: its loads count in the criterion of later ones.
   void accept_step() {
     criterion_.accept(load_);
@@ -65,7 +70,7 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
-  TangentKind kind_of(int iteration) const { return iteration == 1 ? options_.tangent.prediction : options_.tangent.correction; }
+  TangentKind kind_of(int iteration) const { return iteration == 1 ? prediction_ : options_.tangent.correction; }
   bool is_tangent_due(int iteration) const;
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
@@ -73,7 +78,9 @@ class NewtonSolver {
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   bool searches(int iteration) const;
   void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
-  Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
+  Correction correct_with_conditions(NewtonState& state);
+  std::optional<double> settle_conditions(NewtonState& state);
+  void throw_unless_solved(const ActiveSetSolution& solution) const;
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
   Eigen::VectorXd push_of_active();
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
@@ -103,11 +110,13 @@ class NewtonSolver {
   int active_set_limit_ = 0;
   ReducedInequalities reduced_;
   std::unique_ptr<SchurComplement> schur_;
+  ActiveSetMemory memory_;
   Eigen::VectorXd row_multipliers_;  ///< one a reduced row
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
   double load_ = 0.0;
   int steps_ = 0;                    ///< accepted so far
+  TangentKind prediction_;
 };
 
 }  // namespace comma::solver

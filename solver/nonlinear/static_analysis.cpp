@@ -81,22 +81,45 @@ class StaticAnalysis {
 
   /// The number of iterations; nothing when the step has failed and is cut. Throws what a step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence) {
-    Progress before = now_;
+    const Progress before = now_;
     if (mixed_) mixed_->remember();
     try {
-      const int iterations = solve_step(instant);
-      if (problem_.contact) check_watched_zones(instant);
-      return iterations;
+      return solve_from_either_side(instant, before);
     } catch (const Error& error) {
       if (!is_failure_of_step(error.code()) || !sequence.cut()) throw;
-      now_ = std::move(before);
-      if (mixed_) {
-        mixed_->restore();
-        now_.paired = false;
-      }
-      if (observer_) observer_(cut_report(instant, sequence.target()));
+      take_back(before);
+      if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, sequence.target())));
       return std::nullopt;
     }
+  }
+
+  /// A prediction by the tangent leads astray where what flowed is unloaded: such a step is tried again from the elastic side.
+  int solve_from_either_side(double instant, const Progress& before) {
+    try {
+      return solve_and_check(instant);
+    } catch (const Error& error) {
+      const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent && newton_.accepted_steps() > 0;
+      if (!may_unload || !is_failure_of_step(error.code())) throw;
+    }
+    take_back(before);
+    if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
+    newton_.predict_with(TangentKind::elastic);
+    const auto as_before = [&](void*) { newton_.predict_with(options_.tangent.prediction); };
+    const std::unique_ptr<void, decltype(as_before)> guard(this, as_before);
+    return solve_and_check(instant);
+  }
+
+  int solve_and_check(double instant) {
+    const int iterations = solve_step(instant);
+    if (problem_.contact) check_watched_zones(instant);
+    return iterations;
+  }
+
+  void take_back(const Progress& before) {
+    now_ = before;
+    if (!mixed_) return;
+    mixed_->restore();
+    now_.paired = false;
   }
 
   /// What a shorter step may overcome.
@@ -104,12 +127,13 @@ class StaticAnalysis {
     return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
   }
 
-  static IterationReport cut_report(double instant, double next) {
+  static IterationReport event(double instant, std::string text) {
     IterationReport report;
     report.instant = instant;
-    report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
+    report.event = std::move(text);
     return report;
   }
+
   void require_symmetry() const {
     if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
     throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",

@@ -39,6 +39,16 @@ HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, cons
   return response;
 }
 
+double hyperelastic_energy(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient) {
+  const Eigen::Matrix3d f = deformation_gradient(displacement_gradient);
+  const Eigen::Matrix3d c = f.transpose() * f;
+  const double jacobian = f.determinant();
+  const double shape = std::pow(jacobian, -2.0 / 3.0);
+  const double first = shape * c.trace() - 3.0;
+  const double second = shape * shape * 0.5 * (c.trace() * c.trace() - c.squaredNorm()) - 3.0;
+  return material.c10 * first + material.c01 * second + material.c20 * first * first + 0.5 * material.bulk * (jacobian - 1.0) * (jacobian - 1.0);
+}
+
 IsotropicModuli small_strain_moduli(const Hyperelasticity& material) {
   const double shear = 2.0 * (material.c10 + material.c01);
   return {9.0 * material.bulk * shear / (3.0 * material.bulk + shear), (3.0 * material.bulk - 2.0 * shear) / (2.0 * (3.0 * material.bulk + shear))};

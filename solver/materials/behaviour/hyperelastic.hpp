@@ -15,6 +15,9 @@ struct HyperelasticResponse {
 /// II = J^(-4/3) (tr(C)^2 - tr(C^2)) / 2. Throws Error `integration-failure` where det F <= 0.
 HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient);
 
+/// That energy. Throws as above.
+double hyperelastic_energy(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient);
+
 /// Moduli of small strains: mu = 2 (C10 + C01), and K.
 IsotropicModuli small_strain_moduli(const Hyperelasticity& material);
 

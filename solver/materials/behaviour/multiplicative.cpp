@@ -50,6 +50,20 @@ struct Trial {
   }
 };
 
+/// m with det(D + m I) = 1 for a deviator D: the return must not change the volume of b.
+double mean_of_unit_volume(const Matrix3d& deviator) {
+  const double half_square = 0.5 * deviator.squaredNorm();
+  const double rest = deviator.determinant() - 1.0;
+  double mean = 1.0 + std::sqrt(half_square / 3.0);  // right of the largest turning point, where Newton's method falls onto the root
+  constexpr int most_iterations = 60;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const double step = (mean * (mean * mean - half_square) + rest) / (3.0 * mean * mean - half_square);
+    mean -= step;
+    if (std::abs(step) <= 1e-15 * mean) break;
+  }
+  return mean;
+}
+
 void add_volume(const PlasticPoint& point, double expansion, const Trial& trial, const Matrix3d& f, MultiplicativeResponse& response) {
   const double j = trial.jacobian;
   const double pressure = 0.5 * point.bulk * (j * j - 1.0) - 1.5 * point.bulk * expansion * (j + 1.0 / j);
@@ -91,8 +105,8 @@ MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const
   add_volume(point, expansion, trial, f, response);
   response.tangent = 0.5 * (response.tangent + response.tangent.transpose()).eval();
   const Matrix3d elastic = trial.shape * (f * g * f.transpose());
-  const Matrix3d mean = trial.trace / 3.0 * Matrix3d::Identity();
-  response.state.elastic = kept * (elastic - mean) + mean;
+  const Matrix3d deviator = kept * (elastic - trial.trace / 3.0 * Matrix3d::Identity());
+  response.state.elastic = deviator + mean_of_unit_volume(deviator) * Matrix3d::Identity();
   return response;
 }
 

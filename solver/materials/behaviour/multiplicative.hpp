@@ -22,10 +22,11 @@ struct MultiplicativeResponse {
 ///
 ///     tau = mu dev b + (K / 2 (J^2 - 1) - 3/2 K e (J + 1 / J)) I,
 ///
-/// e the expansion by the temperature; yield where sqrt(3/2) |tau| > R(p), and then, the trace t of b being kept,
+/// e the expansion by the temperature; yield where sqrt(3/2) |tau| > R(p), and then, with the trace t of the trial,
 ///
-///     sqrt(3/2) |tau_trial| - mu t dp - R(p + dp) = 0.
+///     sqrt(3/2) |tau_trial| - mu t dp - R(p + dp) = 0;
 ///
+/// the trace of the new b is that of a tensor of determinant 1.
 /// Throws Error `integration-failure` where det F <= 0.
 MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state, const Eigen::Matrix3d& before,
                                                 const Eigen::Matrix3d& now, double expansion);

@@ -178,6 +178,21 @@ Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, b
   return reported;
 }
 
+double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constants) const {
+  if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, at.gradient);
+  if (behaviour_.kinematics == Kinematics::multiplicative) {
+    const double j = deformation_gradient(at.gradient).determinant();
+    const double compression = at.variables[static_cast<std::size_t>(own_count())] + at.variables[static_cast<std::size_t>(own_count() + 1)] +
+                               at.variables[static_cast<std::size_t>(own_count() + 2)];
+    return 0.5 * constants.bulk * (0.5 * (j * j - 1.0) - std::log(j)) - constants.shear * compression;
+  }
+  const double pressure = at.stress.head<3>().sum() / 3.0;
+  Vector6d deviator = at.stress;
+  deviator.head<3>().array() -= pressure;
+  const double square = deviator.head<3>().squaredNorm() + 2.0 * deviator.tail<3>().squaredNorm();
+  return 0.25 * square / constants.shear + 0.5 * pressure * pressure / constants.bulk;
+}
+
 PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) const {
   const Vector6d strain = green_strain(input.gradient);
   const Vector6d increment = strain - green_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);

@@ -64,6 +64,9 @@ class PointLaw {
   /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress that results show.
   Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
 
+  /// The elastic energy for an initial volume of a point with its gradient, own stress and variables.
+  double elastic_energy(const PointPast& at, const PlasticPoint& constants) const;
+
  private:
   PointResponse respond_with(const PointInput& input, const PlasticPoint& now) const;
   int own_count() const;

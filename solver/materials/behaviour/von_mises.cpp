@@ -82,9 +82,10 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
   response.state.p = state.p;
   response.state.back_stress = back;
   response.state.stress = deviatoric;
-  if (std::holds_alternative<NoYield>(now.curve) || !(size > hardening(now.curve, state.p).first * (1.0 + rounding_share))) {
+  const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
+  if (!may_flow || !(size > hardening(now.curve, state.p).first * (1.0 + rounding_share))) {
     response.tangent = elastic_matrix(now, 1.0);
-    if (state.flowing && size > 0.0 && increment.isZero(0.0)) {
+    if (may_flow && state.flowing && size > 0.0 && increment.isZero(0.0)) {
       // Nothing moves yet: what flowed in the last step is taken to flow on.
       const Vector6d normal = 1.5 / size * relative;
       response.state.flowing = true;

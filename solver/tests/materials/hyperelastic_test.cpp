@@ -19,14 +19,7 @@ Matrix3d rough(double amplitude) {
   return h;
 }
 
-double energy(const Matrix3d& h) {
-  const Matrix3d f = Matrix3d::Identity() + h;
-  const Matrix3d c = f.transpose() * f;
-  const double j = f.determinant();
-  const double i1 = c.trace() * std::pow(j, -2.0 / 3.0);
-  const double i2 = 0.5 * (c.trace() * c.trace() - (c * c).trace()) * std::pow(j, -4.0 / 3.0);
-  return rubber.c10 * (i1 - 3) + rubber.c01 * (i2 - 3) + rubber.c20 * (i1 - 3) * (i1 - 3) + 0.5 * rubber.bulk * (j - 1) * (j - 1);
-}
+double energy(const Matrix3d& h) { return hyperelastic_energy(rubber, h); }
 
 Vector6d strain_of(const Matrix3d& h) {
   Vector6d e = components_of_stress(green_lagrange_strain(h));
