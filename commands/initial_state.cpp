@@ -2,6 +2,7 @@
 
 #include "commands/result_reading.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/discretisation.hpp"
 
 namespace comma::commands {
 
@@ -34,6 +35,12 @@ const solver::ResultStep& step_of(const Keywords& keywords) {
   return result.steps.back();
 }
 
+// Stresses and variables live at Gauss points.
+void bring_to_points(const interpreter::Call& call, std::optional<solver::ElementField>& field) {
+  if (!field || field->support == solver::Support::gauss_point) return;
+  field = solver::brought_to(*call.data<ModelConcept>("MODELE").model, *field, solver::Support::gauss_point, false);
+}
+
 }  // namespace
 
 InitialStateChoice initial_state(const interpreter::Call& call) {
@@ -52,6 +59,8 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
   take_field(keywords, "DEPL", "at nodes", state->displacement);
   take_field(keywords, "SIGM", "on cells", state->stresses);
   take_field(keywords, "VARI", "on cells", state->variables);
+  bring_to_points(call, state->stresses);
+  bring_to_points(call, state->variables);
   if (keywords.has("INST_ETAT_INIT")) choice.instant = keywords.real("INST_ETAT_INIT");
   choice.state = std::move(state);
   return choice;

@@ -98,7 +98,7 @@ class StaticAnalysis {
     try {
       return solve_and_check(instant);
     } catch (const Error& error) {
-      const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent && newton_.accepted_steps() > 0;
+      const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
       if (!may_unload || !is_failure_of_step(error.code())) throw;
     }
     take_back(before);

@@ -62,14 +62,11 @@ PiecewiseCurve linear_curve(const LinearHardening& law, double young, double kin
   return {{{0.0, law.yield(at)}}, modulus, false};
 }
 
-/// A traction curve over the plastic strain.
-PiecewiseCurve over_plastic_strain(const TabulatedFunction& curve, double young) {
-  const double yield = curve.y.front();
-  if (std::abs(curve.x.front() - yield / young) > elastic_line_share * curve.x.front()) {
-    throw Error("invalid-material",
-                fmt::format("the first point of the traction curve ({:.6g}, {:.6g}) does not lie on the elastic line of slope {:.6g}", curve.x.front(), yield, young),
-                "the curve begins at the yield point, where the strain is the stress over Young's modulus");
-  }
+double elastic_slope(const TabulatedFunction& curve) { return curve.y.front() / curve.x.front(); }
+
+/// A traction curve over the plastic strain, the elastic part being that of its own first point.
+PiecewiseCurve over_plastic_strain(const TabulatedFunction& curve) {
+  const double young = elastic_slope(curve);
   PiecewiseCurve result;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     const double p = k == 0 ? 0.0 : curve.x[k] - curve.y[k] / young;
@@ -104,25 +101,36 @@ PiecewiseCurve between(const PiecewiseCurve& a, const PiecewiseCurve& b, double 
   return result;
 }
 
-PiecewiseCurve traction_curve(const TractionHardening& law, double young, const MaterialPoint& at) {
-  if (law.curves.size() == 1) return over_plastic_strain(law.curves.front(), young);
+/// R(p) and Young's modulus at a temperature.
+std::pair<PiecewiseCurve, double> traction_curve(const TractionHardening& law, const MaterialPoint& at) {
+  const auto own = [&](std::size_t index) { return std::pair(over_plastic_strain(law.curves[index]), elastic_slope(law.curves[index])); };
+  if (law.curves.size() == 1) return own(0);
   const double temperature = at[Parameter::temperature];
   if (std::isnan(temperature)) throw Error("missing-variable", "traction curves depend on the temperature, which is not given here", "give it by AFFE_MATERIAU/AFFE_VARC");
   const auto& nodes = law.temperatures;
   if ((temperature < nodes.front() && law.left == Extension::excluded) || (temperature > nodes.back() && law.right == Extension::excluded)) {
     throw Error("out-of-function", fmt::format("the temperature {:.6g} lies outside those of the traction curves, {:.6g} to {:.6g}", temperature, nodes.front(), nodes.back()));
   }
-  if (temperature <= nodes.front() && law.left == Extension::constant) return over_plastic_strain(law.curves.front(), young);
-  if (temperature >= nodes.back() && law.right == Extension::constant) return over_plastic_strain(law.curves.back(), young);
+  if (temperature <= nodes.front() && law.left == Extension::constant) return own(0);
+  if (temperature >= nodes.back() && law.right == Extension::constant) return own(nodes.size() - 1);
   const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, temperature);
   const auto k = static_cast<std::size_t>(above - nodes.begin());
   const double share = (temperature - nodes[k - 1]) / (nodes[k] - nodes[k - 1]);
-  // The elastic part of each curve is that of its own temperature; R(p) is what is interpolated (R5.03.02).
-  const auto own = [&](std::size_t index) {
-    const TabulatedFunction& curve = law.curves[index];
-    return over_plastic_strain(curve, curve.y.front() / curve.x.front());
-  };
-  return between(own(k - 1), own(k), share);
+  // R(p) is what is interpolated, not the stress over the strain (R5.03.02).
+  const auto below = own(k - 1);
+  const auto beyond = own(k);
+  return {between(below.first, beyond.first, share), (1.0 - share) * below.second + share * beyond.second};
+}
+
+void check_elastic_line(double slope, double young) {
+  if (std::abs(slope - young) <= elastic_line_share * young) return;
+  throw Error("invalid-material", fmt::format("the first point of the traction curve does not lie on the elastic line: its slope is {:.6g}, Young's modulus {:.6g}", slope, young),
+              "the curve begins at the yield point, where the strain is the stress over Young's modulus");
+}
+
+void set_elasticity(double young, double poisson, PlasticPoint& point) {
+  point.shear = young / (2 * (1 + poisson));
+  point.bulk = young / (3 * (1 - 2 * poisson));
 }
 
 const char* keyword_of(Relation relation) {
@@ -166,8 +174,7 @@ bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasti
 PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
   const IsotropicModuli elastic = moduli(elasticity, at);
   PlasticPoint point;
-  point.shear = elastic.young / (2 * (1 + elastic.poisson));
-  point.bulk = elastic.young / (3 * (1 - 2 * elastic.poisson));
+  set_elasticity(elastic.young, elastic.poisson, point);
   if (moves(relation)) {
     if (!plasticity.prager) throw_missing("PRAGER or PRAGER_FO");
     point.kinematic = (*plasticity.prager)(at);
@@ -191,7 +198,9 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
     case Relation::isotropic_traction:
     case Relation::mixed_traction: {
       if (!plasticity.traction) throw_missing(keyword_of(relation));
-      PiecewiseCurve curve = traction_curve(*plasticity.traction, elastic.young, at);
+      auto [curve, young] = traction_curve(*plasticity.traction, at);
+      check_elastic_line(young, elastic.young);
+      set_elasticity(young, elastic.poisson, point);
       for (auto& [p, radius] : curve.points) radius -= 1.5 * point.kinematic * p;
       curve.last_slope -= 1.5 * point.kinematic;
       point.curve = std::move(curve);

@@ -22,6 +22,20 @@ Vector6d small_strain(const Eigen::Matrix3d& h) {
 
 bool keeps_tensor(Kinematics kinematics) { return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative; }
 
+/// The energy behind the pressure of the multiplicative split, e being the thermal expansion.
+double volume_energy(double bulk, double expansion, double j) {
+  return 0.5 * bulk * (0.5 * (j * j - 1.0) - std::log(j)) - 1.5 * bulk * expansion * (j - 1.0 / j);
+}
+
+/// Where that pressure vanishes: J (J^2 - 1) = 3 e (J^2 + 1).
+double free_volume(double expansion) {
+  double j = 1.0;
+  constexpr int rounds = 20;  // from 1 on, expansions being small: more than enough
+  for (int round = 0; round < rounds; ++round)
+    j -= (j * (j * j - 1.0) - 3.0 * expansion * (j * j + 1.0)) / (3.0 * j * j - 1.0 - 6.0 * expansion * j);
+  return j;
+}
+
 /// The strain across the plane in plane stress: all volume is elastic or thermal.
 double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic, const PlasticModuli& now) {
   return stress.head<3>().sum() / (3.0 * now.bulk) + inelastic.head<3>().sum() - strain[0] - strain[1];
@@ -182,9 +196,10 @@ double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constan
   if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, at.gradient);
   if (behaviour_.kinematics == Kinematics::multiplicative) {
     const double j = deformation_gradient(at.gradient).determinant();
+    const double rest = free_volume(at.inelastic[0]);
     const double compression = at.variables[static_cast<std::size_t>(own_count())] + at.variables[static_cast<std::size_t>(own_count() + 1)] +
                                at.variables[static_cast<std::size_t>(own_count() + 2)];
-    return 0.5 * constants.bulk * (0.5 * (j * j - 1.0) - std::log(j)) - constants.shear * compression;
+    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) - constants.shear * compression;
   }
   const double pressure = at.stress.head<3>().sum() / 3.0;
   Vector6d deviator = at.stress;
