@@ -1,6 +1,7 @@
 // Local average contact: the patch test on meshes that do not match, in the plane and in space.
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -133,7 +134,12 @@ class Stack {
       }
     };
     for (int axis = 0; axis < dimension_; ++axis) hold(axis, 0.0);
-    for (const int cell : mesh.cell_group("UPPER_TOP")) made->pressures.push_back({.cell = cell, .pressure = load});
+    for (const int cell : mesh.cell_group("UPPER_TOP")) {
+      PressureLoad push;
+      push.cell = cell;
+      push.pressure = load;
+      made->pressures.push_back(push);
+    }
     return made;
   }
 
