@@ -25,7 +25,7 @@ constexpr int segment_points = 4;
 /// Degree of the triangles' rule where both facets are flat and undistorted: shape functions are quadratic in the plane.
 constexpr int triangle_degree = 4;
 /// Gauss points a side where one is distorted: shape functions are then no polynomials in the plane, but smooth.
-constexpr int collapsed_points = 6;
+constexpr int collapsed_points = 10;
 /// Distortion, as a share of the facet's size, whose third power the lower rule leaves.
 constexpr double distortion_tolerance = 1e-3;
 

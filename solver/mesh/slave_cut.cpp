@@ -141,8 +141,7 @@ class SlaveCutter {
     }
     for (const int skin : skins_.at(key)) replace(skin, by_hexahedra ? quadrangles(cell(skin)) : pieces_of_face(skin, key));
     remove_body(body);
-    replace(body, std::move(body_pieces));
-    for (const int piece : family(body)) add_body(piece);
+    for (const int piece : replace(body, std::move(body_pieces))) add_body(piece);
   }
 
   /// The node at the centre of a face, and in front of its corners what their edges to the centre carry. On quadratic faces they
@@ -281,14 +280,18 @@ class SlaveCutter {
     return -1;
   }
 
-  void replace(int index, std::vector<Cell> pieces) {
+  /// Returns the indices of the pieces.
+  std::vector<int> replace(int index, std::vector<Cell> pieces) {
+    std::vector<int> places = {index};
     cells_[static_cast<std::size_t>(index)] = std::move(pieces.front());
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       pieces_[static_cast<std::size_t>(index)].push_back(static_cast<int>(cells_.size()));
       cells_.push_back(std::move(pieces[i]));
       pieces_.emplace_back();
       cell_names_.add();
+      places.push_back(pieces_[static_cast<std::size_t>(index)].back());
     }
+    return places;
   }
 
   /// A cell and what was cut off it.
