@@ -40,9 +40,9 @@ NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const No
 }
 
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
-                           std::span<const AppliedLoad> loads, double time, const ElementField* stresses) {
-  const Eigen::VectorXd internal = internal_forces(assembler, to_dofs(displacement, dofs), stresses);
-  return to_field(internal - assembler.external_forces(loads, time), dofs, "DEPL_R");
+                           std::span<const AppliedLoad> loads, const FollowerForces& followers, double time, const ElementField* stresses) {
+  const Eigen::VectorXd u = to_dofs(displacement, dofs);
+  return to_field(internal_forces(assembler, u, stresses) - assembler.external_forces(loads, time) - followers.at(u), dofs, "DEPL_R");
 }
 
 }  // namespace comma::solver

@@ -84,7 +84,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
 }
 
 bool NewtonSolver::is_tangent_due(int iteration) const {
-  if (!tangent_.is_ready() || assembler_.is_linear()) return true;
+  if (!tangent_.is_ready() || tangent_.is_constant()) return true;
   const TangentPolicy& policy = options_.tangent;
   if (iteration == 1) return policy.steps > 0 && steps_ % policy.steps == 0;
   return policy.iterations > 0 && (iteration - 1) % policy.iterations == 0;
@@ -95,7 +95,7 @@ bool NewtonSolver::is_tangent_due(int iteration) const {
 void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
   const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
   const Eigen::VectorXd imposed = moved - state.u;
-  const bool is_linear = assembler_.is_linear();
+  const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
   if (is_tangent_due(1) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   evaluate(state, external);
@@ -130,11 +130,13 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
 
 /// Residual of the reduced unknowns and the size of the loads, reactions and contact forces included.
 void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
-  const Eigen::VectorXd unbalanced = external - assembler_.internal_forces(state.u);
+  Eigen::VectorXd loads = external;
+  if (followers_) loads += followers_->at(state.u);
+  const Eigen::VectorXd unbalanced = loads - assembler_.internal_forces(state.u);
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = std::max(largest(external), largest(unbalanced));
+  load_ = std::max(largest(loads), largest(unbalanced));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
@@ -163,7 +165,7 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
 }
 
 bool NewtonSolver::searches(int iteration) const {
-  return options_.line_search && iteration > 1 && !assembler_.is_linear() && !mixed_ && row_multipliers_.size() == 0;
+  return options_.line_search && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
 }
 
 /// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there.
@@ -292,7 +294,7 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
 /// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put
 /// it: residuals of 1e-6 of the largest force move a body on weak springs by metres.
 void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
-  if (!assembler_.is_linear()) return;
+  if (!tangent_.is_constant()) return;
   double last = std::numeric_limits<double>::infinity();
   const int rounds = tangent_.loses_few_digits() ? 1 : max_polishing;
   for (int k = 0; k < rounds; ++k) {
@@ -325,7 +327,7 @@ std::string NewtonSolver::worst_place() const {
 }
 
 void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {
-  throw_no_convergence(time, history, options_, assembler_.is_linear());
+  throw_no_convergence(time, history, options_, tangent_.is_constant());
 }
 
 }  // namespace comma::solver

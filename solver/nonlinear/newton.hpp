@@ -57,6 +57,8 @@ class NewtonSolver {
   int accepted_steps() const { return steps_; }
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }
+  /// The forces act beside the external ones from now on; they must outlive the solver.
+  void follow(const FollowerForces& forces) { followers_ = &forces; }
 
   /// The step is accepted: its loads count in the criterion of later ones.
   void accept_step() {
@@ -106,6 +108,7 @@ class NewtonSolver {
 
   const ContactDefinition* definition_ = nullptr;
   MixedContact* mixed_ = nullptr;
+  const FollowerForces* followers_ = nullptr;
   const ConditionSet* conditions_ = nullptr;
   int active_set_limit_ = 0;
   ReducedInequalities reduced_;

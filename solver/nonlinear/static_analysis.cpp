@@ -38,12 +38,17 @@ class StaticAnalysis {
         counters_(counters),
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()),
+        followers_(*problem.model, dofs_, problem.followers),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
     if (problem.contact) newton_.use_algorithm(*problem.contact);
+    if (!followers_.empty()) {
+      tangent_.follow(followers_, !problem.contact && problem.unilateral.empty());
+      newton_.follow(followers_);
+    }
     require_symmetry();
     if (!is_mixed()) return;
     tangent_.allow_springs();
@@ -200,6 +205,7 @@ class StaticAnalysis {
     add_internal_variables(step);
     step.parameters["ITER_GLOB"] = 0.0;
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
+    add_patch_state(step);
     append(std::move(step));
   }
 
@@ -304,6 +310,7 @@ class StaticAnalysis {
 
   int solve_step(double time) {
     assembler_.set_time(time);
+    followers_.set_time(time);
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
@@ -413,6 +420,7 @@ class StaticAnalysis {
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
     add_internal_variables(step);
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    add_patch_state(step);
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));
   }
@@ -464,6 +472,11 @@ class StaticAnalysis {
     return contact_state();
   }
 
+  void add_patch_state(ResultStep& step) const {
+    if (!mixed_) return;
+    if (auto state = mixed_->patch_state(now_.state.u)) step.fields.emplace("CONT_ELEM", *std::move(state));
+  }
+
   NodalField contact_state() const {
     if (mixed_) return mixed_->contact_state(now_.state.u, positions());
     const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
@@ -489,6 +502,7 @@ class StaticAnalysis {
   Counters& counters_;
   DofMap dofs_;
   Assembler assembler_;
+  FollowerForces followers_;
   Elimination elimination_;
   TangentSystem tangent_;
   std::vector<int> contact_nodes_;

@@ -18,6 +18,16 @@ namespace {
 /// Beyond, the rounding of squares hides what holds a body.
 constexpr int most_gram_digits = 15;
 
+/// From the lower triangle of a matrix whose pattern has room for it.
+void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, SymmetricMatrix& matrix) {
+  for (int column = 0; column < change.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(change, column); it; ++it) {
+      const int row = static_cast<int>(it.row());
+      matrix.coeffRef(std::max(row, column), std::min(row, column)) -= (row == column ? 1.0 : 0.5) * it.value();
+    }
+  }
+}
+
 }  // namespace
 
 TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler,
@@ -32,7 +42,7 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
 
 bool TangentSystem::is_known(TangentKind kind) const {
   if (!factorised_ || version_ != assembler_.stiffness_version()) return false;
-  return assembler_.is_linear() || (kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
+  return is_constant() || (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
 }
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
@@ -41,22 +51,27 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   kind_ = kind;
   tangent_at_ = u;
   SymmetricMatrix reduced = assembled(u, kind);
-  if (assembler_.is_symmetric())
+  if (is_symmetric())
     factorise(std::move(reduced));
   else
-    factorise(reduced, elimination_.reduce_skew(assembler_.skew_stiffness(u)));
+    factorise(reduced, elimination_.reduce_skew(skew(u)));
   return true;
 }
 
 SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
-  return kind == TangentKind::elastic ? assembler_.elastic_stiffness(u) : assembler_.stiffness(u);
+  SymmetricMatrix whole = kind == TangentKind::elastic ? assembler_.elastic_stiffness(u) : assembler_.stiffness(u);
+  if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);
+  return whole;
 }
 
 Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const {
   const Stopwatch stopwatch(counters_.assembling);
   const SymmetricMatrix matrix = stiffness(u, kind);
   Eigen::VectorXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
-  if (!assembler_.is_symmetric()) forces += assembler_.skew_stiffness(u) * d;
+  if (!is_symmetric()) {
+    const SkewMatrix lower = skew(u);
+    forces += lower * d - lower.transpose() * d;
+  }
   return elimination_.transformation().transpose() * forces;
 }
 
@@ -65,6 +80,17 @@ SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind k
   SymmetricMatrix reduced = elimination_.reduce(stiffness(u, kind));
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
+}
+
+/// The skew half of the tangent, by its strictly lower triangle.
+SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u) const {
+  SkewMatrix matrix = assembler_.skew_stiffness(u);
+  if (!followers_) return matrix;
+  const SkewMatrix change = followers_->tangent(u);
+  const SkewMatrix transposed = change.transpose();
+  const SkewMatrix half = 0.5 * (change - transposed);
+  const SkewMatrix lower = half.triangularView<Eigen::StrictlyLower>();
+  return matrix - lower;
 }
 
 /// Springs at the rows without a pivot, as stiff as the bodies are there. Whether there were any to add.
