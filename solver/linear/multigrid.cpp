@@ -90,8 +90,10 @@ double largest_eigenvalue(const BlockMatrix<N, N>& matrix, const std::vector<Eig
   double value = 1.0;
   for (int step = 0; step < power_steps; ++step) {
     x.normalize();
-    for (int i = 0; i < matrix.rows(); ++i)
-      y.segment<N>(static_cast<Eigen::Index>(i) * N).noalias() = inverse[i] * matrix.row_times(i, x);
+    run_parts(matrix.part_count(), [&](int part) {
+      for (int i = matrix.part_start(part); i < matrix.part_start(part + 1); ++i)
+        y.segment<N>(static_cast<Eigen::Index>(i) * N).noalias() = inverse[i] * matrix.row_times(i, x);
+    });
     value = y.norm();
     std::swap(x, y);
   }
@@ -169,14 +171,14 @@ void hold_absent_motions(CoarseRows& rows) {
   }
 }
 
-/// P^T A P, fine row by fine row.
+/// What fine rows first .. last - 1 give to P^T A P.
 template <int N>
-CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int count) {
-  CoarseRows rows(count);
-  std::vector<int> slots(static_cast<std::size_t>(count), -1);
+void add_coarse_rows(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int first, int last,
+                     CoarseRows& rows) {
+  std::vector<int> slots(rows.columns.size(), -1);
   std::vector<int> columns;
   std::vector<Eigen::Matrix<double, N, motion_count>> products;
-  for (int i = 0; i < matrix.rows(); ++i) {
+  for (int i = first; i < last; ++i) {
     columns.clear();
     products.clear();
     for (int k = matrix.starts[i]; k < matrix.starts[i + 1]; ++k) {
@@ -196,6 +198,20 @@ CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N,
         rows.at(prolongator.columns[k], columns[l]).noalias() += prolongator.blocks[k].transpose() * products[l];
     for (const int column : columns) slots[column] = -1;
   }
+}
+
+/// P^T A P.
+template <int N>
+CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int count) {
+  std::vector<CoarseRows> parts(static_cast<std::size_t>(matrix.part_count()), CoarseRows(count));
+  run_parts(matrix.part_count(), [&](int part) {
+    add_coarse_rows(matrix, prolongator, matrix.part_start(part), matrix.part_start(part + 1), parts[static_cast<std::size_t>(part)]);
+  });
+  CoarseRows& rows = parts.front();
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    for (int row = 0; row < count; ++row)
+      for (std::size_t k = 0; k < parts[part].columns[row].size(); ++k)
+        rows.at(row, parts[part].columns[row][k]) += parts[part].blocks[row][k];
   hold_absent_motions(rows);
   return rows.matrix();
 }
@@ -207,17 +223,32 @@ struct Level {
   BlockMatrix<N, motion_count> prolongator;          ///< from the next coarser level
   Eigen::VectorXd residual, coarse_rhs, coarse_solution;
 
-  void sweep(int i, const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  /// A step of Gauss and Seidel's method at a node, within part first .. last - 1 of the nodes; the others stand as in `elsewhere`: parts
+  /// do not wait for each other, and forwards and backwards stay the transposes that conjugate gradients need.
+  void sweep(int i, int first, int last, const Eigen::VectorXd& b, const Eigen::VectorXd& elsewhere, Eigen::VectorXd& x) const {
     const Eigen::Index at = static_cast<Eigen::Index>(i) * N;
-    x.template segment<N>(at).noalias() += inverse[i] * (b.template segment<N>(at) - matrix.row_times(i, x));
+    const Eigen::Matrix<double, N, 1> left = b.template segment<N>(at) - matrix.row_times(i, x, elsewhere, first, last);
+    x.template segment<N>(at).noalias() += inverse[i] * left;
   }
 
+  /// From x = 0.
   void smooth_forwards(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-    for (int i = 0; i < matrix.rows(); ++i) sweep(i, b, x);
+    x.setZero(b.size());
+    const Eigen::VectorXd elsewhere = x;
+    run_parts(matrix.part_count(), [&](int part) {
+      const int first = matrix.part_start(part);
+      const int last = matrix.part_start(part + 1);
+      for (int i = first; i < last; ++i) sweep(i, first, last, b, elsewhere, x);
+    });
   }
 
   void smooth_backwards(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-    for (int i = matrix.rows() - 1; i >= 0; --i) sweep(i, b, x);
+    const Eigen::VectorXd elsewhere = x;
+    run_parts(matrix.part_count(), [&](int part) {
+      const int first = matrix.part_start(part);
+      const int last = matrix.part_start(part + 1);
+      for (int i = last - 1; i >= first; --i) sweep(i, first, last, b, elsewhere, x);
+    });
   }
 
   /// Builds the prolongator; `motions` becomes the coarse grid's. Returns the coarse matrix.
@@ -235,7 +266,6 @@ struct Level {
 
   template <typename Coarse>
   void cycle(const Eigen::VectorXd& b, Eigen::VectorXd& x, Coarse&& solve_coarse) {
-    x.setZero(b.size());
     smooth_forwards(b, x);
     matrix.multiply(x, residual);
     residual = b - residual;
