@@ -97,7 +97,7 @@ solver::NewtonOptions newton_options(const Call& call) {
 
 void show_header(const Call& call, const Context& context) {
   context.console.progress("STAT_NON_LINE " + call.result->name);
-  context.console.progress("     instant  iter   relative   absolute  worst                 active  changes");
+  context.console.progress("     instant iter relative absolute  worst              active changes     depth");
 }
 
 solver::IterationObserver live_table(const Context& context) {
@@ -107,9 +107,10 @@ solver::IterationObserver live_table(const Context& context) {
       context.console.progress("  " + report.event);
       return;
     }
-    context.console.progress(fmt::format("  {:>10.5g} {:>5} {:>10.2e} {:>10.2e}  {:<20} {:>7} {:>8}", report.instant, report.iteration,
+    const std::string depth = report.penetration ? fmt::format("{:.2e}", *report.penetration) : "-";
+    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8.1e} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant, report.iteration,
                                          report.relative_residual, report.absolute_residual, report.worst,
-                                         report.active_conditions, report.contact_changes));
+                                         report.active_conditions, report.contact_changes, depth));
   };
 }
 

@@ -398,6 +398,14 @@ int MixedContact::closed_count() const {
   return static_cast<int>(std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
 }
 
+double MixedContact::penetration(const Eigen::VectorXd& u) const {
+  const Eigen::VectorXd now = jumps(u);
+  double deepest = 0.0;
+  for (const CondensedPoint& point : problem_.points)
+    if (point.rows > 0) deepest = std::max(deepest, -now[point.first_row]);
+  return deepest;
+}
+
 void MixedContact::add_multipliers(NodalField& displacements) const {
   if (definition_.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};

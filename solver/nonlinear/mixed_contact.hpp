@@ -52,6 +52,8 @@ class MixedContact {
   int correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected);
 
   int closed_count() const;
+  /// The largest depth of a point at u (a length).
+  double penetration(const Eigen::VectorXd& u) const;
 
   /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
   /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.

@@ -60,6 +60,7 @@ struct IterationReport {
   std::string worst;         ///< "DY at N12": where the residual is largest
   int active_conditions = 0;
   int contact_changes = 0;
+  std::optional<double> penetration;  ///< how deep contact and unilateral conditions are passed at worst (a length, as a rule)
   std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 
