@@ -4,6 +4,7 @@
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/materials/behaviour/hyperelastic.hpp"
 
 namespace comma::commands {
 
@@ -98,6 +99,74 @@ solver::OrthotropicElasticity transverse(const Keywords& law) {
   return solver::as_orthotropic(elasticity);
 }
 
+solver::LinearHardening linear_hardening(const Keywords& law) { return {property(law, "D_SIGM_EPSI"), property(law, "SY")}; }
+
+// A curve, or one for each temperature of a surface.
+solver::TractionHardening traction_hardening(const Keywords& law) {
+  const auto& function = interpreter::data_of<FunctionConcept>(law.concept_of("SIGM"), "SIGM");
+  solver::TractionHardening hardening;
+  if (const auto* table = function.table()) {
+    hardening.curves = {*table};
+  } else if (const auto* surface = dynamic_cast<const SurfaceConcept*>(&function)) {
+    if (surface->parameters().front() != "TEMP") {
+      throw DiagnosticError("wrong-parameter", "DEFI_MATERIAU/TRACTION: SIGM depends on " + surface->parameters().front() + " before EPSI",
+                            law.span_of("SIGM"), "the first parameter of the surface is TEMP");
+    }
+    hardening.temperatures = surface->edges().x;
+    hardening.left = surface->edges().left;
+    hardening.right = surface->edges().right;
+    for (const auto& row : surface->rows()) hardening.curves.push_back(*row);
+  } else {
+    throw DiagnosticError("wrong-function", "DEFI_MATERIAU/TRACTION: SIGM is not given by points", law.span_of("SIGM"),
+                          "give the curve by DEFI_FONCTION, or one for each temperature by DEFI_NAPPE");
+  }
+  for (const auto& curve : hardening.curves) {
+    if (curve.parameter == "EPSI" && curve.x.front() > 0.0) continue;
+    throw DiagnosticError("wrong-function", "DEFI_MATERIAU/TRACTION: SIGM must be the stress over the strain EPSI, from the yield point on",
+                          law.span_of("SIGM"), "its first point has a strain above zero");
+  }
+  return hardening;
+}
+
+solver::PowerHardening power_hardening(const Keywords& law) { return {law.real("SY"), law.real("A_PUIS"), law.real("N_PUIS")}; }
+
+solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
+  const auto value = [&](const char* keyword, double otherwise = 0.0) { return law.has(keyword) ? law.real(keyword) : otherwise; };
+  return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0)};
+}
+
+// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01) as U4.43.01 has it.
+solver::Hyperelasticity hyperelasticity(const Keywords& law) {
+  solver::Hyperelasticity rubber{law.real("C10"), law.real("C01"), law.real("C20"), 0.0};
+  if (law.has("K")) {
+    rubber.bulk = law.real("K");
+  } else {
+    rubber.bulk = 6.0 * (rubber.c10 + rubber.c01) / (3.0 * (1.0 - 2.0 * law.real("NU")));
+  }
+  return rubber;
+}
+
+// Rubber at rest, for what looks at the elasticity: weight, energies, contact.
+solver::IsotropicElasticity small_strain_elasticity(const Keywords& law) {
+  const solver::IsotropicModuli moduli = solver::small_strain_moduli(hyperelasticity(law));
+  solver::IsotropicElasticity elasticity{moduli.young, moduli.poisson};
+  elasticity.density = property(law, "RHO");
+  return elasticity;
+}
+
+solver::Plasticity plasticity_of(const Call& call) {
+  solver::Plasticity plasticity;
+  for (const char* keyword : {"ECRO_LINE", "ECRO_LINE_FO"})
+    if (call.has(keyword)) plasticity.linear = linear_hardening(call.factor(keyword));
+  if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
+  if (call.has("ECRO_PUIS")) plasticity.power = power_hardening(call.factor("ECRO_PUIS"));
+  if (call.has("ECRO_NL")) plasticity.nonlinear = nonlinear_hardening(call.factor("ECRO_NL"));
+  if (call.has("ELAS_HYPER")) plasticity.hyperelasticity = hyperelasticity(call.factor("ELAS_HYPER"));
+  for (const char* keyword : {"PRAGER", "PRAGER_FO"})
+    if (call.has(keyword)) plasticity.prager = property(call.factor(keyword), "C");
+  return plasticity;
+}
+
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
@@ -106,6 +175,8 @@ Product defi_materiau(const Call& call, Context&) {
   if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
   if (call.has("ELAS_ORTH")) material->elasticity = orthotropic(call.factor("ELAS_ORTH"));
   if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
+  if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
+  material->plasticity = plasticity_of(call);
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
   return product;

@@ -71,6 +71,8 @@ class SurfaceConcept : public FunctionConcept {
   SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows);
   const std::vector<std::string>& parameters() const override { return parameters_; }
   double evaluate(std::span<const double> at) const override;
+  const solver::TabulatedFunction& edges() const { return edges_; }
+  const std::vector<std::shared_ptr<const solver::TabulatedFunction>>& rows() const { return rows_; }
 
  private:
   solver::TabulatedFunction edges_;

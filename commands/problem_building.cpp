@@ -51,6 +51,7 @@ void take_loads(const Call& call, solver::StaticProblem& problem) {
   for (const Keywords& excitation : call.factors("EXCIT")) {
     solver::AppliedLoad applied;
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
     }

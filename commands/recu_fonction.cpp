@@ -23,8 +23,20 @@ int only_one(const Call& call, const std::vector<int>& found, const char* keywor
                         call.span_of(keyword), "name a group of one");
 }
 
+std::vector<int> group_nodes(const Call& call, const solver::Mesh& mesh) { return selected_nodes(call, mesh, {"", "GROUP_NO", "", "", ""}); }
+
+// A function is taken at one node: the first, where a group has more.
+void warn_of_more_nodes(const Call& call, Context& context) {
+  if (!call.given("GROUP_NO") || !call.has("RESULTAT")) return;
+  const solver::Mesh& mesh = call.data<ResultConcept>("RESULTAT").result.mesh();
+  const auto nodes = group_nodes(call, mesh);
+  if (nodes.size() < 2) return;
+  context.diagnostics.alarm("many-nodes", fmt::format("RECU_FONCTION: GROUP_NO names {} nodes; the function is taken at the first, {}", nodes.size(), mesh.node_name(nodes.front())),
+                            call.span_of("GROUP_NO"), "name a group of one");
+}
+
 int node_of(const Call& call, const solver::Mesh& mesh) {
-  if (call.given("GROUP_NO")) return only_one(call, selected_nodes(call, mesh, {"", "GROUP_NO", "", "", ""}), "GROUP_NO", "node");
+  if (call.given("GROUP_NO")) return group_nodes(call, mesh).front();
   throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span, "give GROUP_NO");
 }
 
@@ -111,7 +123,8 @@ void sort_points(const Call& call, solver::TabulatedFunction& function) {
 
 }  // namespace
 
-Product recu_fonction(const Call& call, Context&) {
+Product recu_fonction(const Call& call, Context& context) {
+  warn_of_more_nodes(call, context);
   solver::TabulatedFunction function;
   if (call.given("TABLE")) {
     read_table(call, function);

@@ -43,11 +43,17 @@ std::string known_instants(const solver::Result& result) {
                      result.steps.back().instant);
 }
 
-const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
+// Null where no step stands.
+const ResultStep* find_step(const Keywords& keywords, const solver::Result& result, double instant) {
   const double reach = instant_reach(keywords, instant);
   for (const ResultStep& step : result.steps) {
-    if (std::abs(step.instant - instant) <= reach) return step;
+    if (std::abs(step.instant - instant) <= reach) return &step;
   }
+  return nullptr;
+}
+
+const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
+  if (const ResultStep* step = find_step(keywords, result, instant)) return *step;
   throw DiagnosticError("unknown-step", fmt::format("no step of the result stands at INST={}", instant), keywords.span_of("INST"),
                         known_instants(result));
 }
@@ -69,7 +75,11 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   if (keywords.given("INST")) {
     for (const double instant : keywords.reals("INST")) steps.push_back(&step_at(keywords, result, instant));
   } else if (keywords.given("LIST_INST")) {
-    for (const double instant : keywords.data<ListConcept>("LIST_INST").values) steps.push_back(&step_at(keywords, result, instant));
+    // A list is one of computations as a rule, and names the steps that a result has of it.
+    const auto& wanted = keywords.data<ListConcept>("LIST_INST").values;
+    for (const double instant : wanted)
+      if (const ResultStep* step = find_step(keywords, result, instant)) steps.push_back(step);
+    if (steps.empty() && !wanted.empty()) steps.push_back(&step_at(keywords, result, wanted.front()));
   } else if (keywords.given("NUME_ORDRE")) {
     for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order));
   } else {

@@ -5,6 +5,7 @@
 
 #include "commands/archiving.hpp"
 #include "commands/commands.hpp"
+#include "commands/initial_state.hpp"
 #include "commands/observation.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/selection.hpp"
@@ -17,22 +18,50 @@ namespace {
 
 using interpreter::DiagnosticError;
 
-// Green-Lagrange strains where COMPORTEMENT asks for them.
-std::shared_ptr<const solver::KinematicsOfCells> kinematics(const Call& call, const solver::Mesh& mesh) {
-  auto result = std::make_shared<solver::KinematicsOfCells>();
-  for (const Keywords& behaviour : call.factors("COMPORTEMENT")) {
-    if (behaviour.text("DEFORMATION") != "GREEN_LAGRANGE") continue;
-    result->resize(static_cast<std::size_t>(mesh.cell_count()), solver::Kinematics::small);
-    if (!behaviour.has("GROUP_MA") && !behaviour.has("MAILLE")) std::ranges::fill(*result, solver::Kinematics::green_lagrange);
-    for (const int cell : selected_cells(behaviour, mesh)) (*result)[static_cast<std::size_t>(cell)] = solver::Kinematics::green_lagrange;
+// RELATION and DEFORMATION in the solver's words.
+constexpr std::pair<std::string_view, solver::Relation> relations[] = {
+    {"ELAS", solver::Relation::elastic},
+    {"ELAS_HYPER", solver::Relation::hyperelastic},
+    {"VMIS_ISOT_LINE", solver::Relation::isotropic_linear},
+    {"VMIS_ISOT_TRAC", solver::Relation::isotropic_traction},
+    {"VMIS_ISOT_PUIS", solver::Relation::isotropic_power},
+    {"VMIS_ISOT_NL", solver::Relation::isotropic_nonlinear},
+    {"VMIS_CINE_LINE", solver::Relation::kinematic_linear},
+    {"VMIS_ECMI_LINE", solver::Relation::mixed_linear},
+    {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
+};
+constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
+    {"PETIT", solver::Kinematics::small},
+    {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
+    {"GDEF_LOG", solver::Kinematics::logarithmic},
+    {"SIMO_MIEHE", solver::Kinematics::multiplicative},
+};
+
+solver::CellBehaviour behaviour_of(const Keywords& keywords) {
+  const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
+  const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"), &std::pair<std::string_view, solver::Kinematics>::first);
+  return {deformation->second, relation->second};
+}
+
+// One behaviour a cell, the later occurrence winning; null where all are linear.
+std::shared_ptr<const solver::BehaviourOfCells> behaviours(const Call& call, const solver::Mesh& mesh) {
+  solver::CellBehaviour usual;
+  usual.from_initial_state = call.has("ETAT_INIT");
+  auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()), usual);
+  for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
+    solver::CellBehaviour behaviour = behaviour_of(keywords);
+    behaviour.from_initial_state = usual.from_initial_state;
+    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) std::ranges::fill(*result, behaviour);
+    for (const int cell : selected_cells(keywords, mesh)) (*result)[static_cast<std::size_t>(cell)] = behaviour;
   }
-  if (result->empty()) return nullptr;
+  if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;
 }
 
-solver::StaticProblem problem_of(const Call& call) {
+solver::StaticProblem problem_of(const Call& call, const InitialStateChoice& initial) {
   solver::StaticProblem problem = static_problem(call);
-  problem.kinematics = kinematics(call, *problem.model->mesh);
+  problem.initial = initial.state;
+  problem.behaviours = behaviours(call, *problem.model->mesh);
   if (!call.has("CONTACT")) return problem;
   const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
   if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
@@ -49,8 +78,19 @@ solver::StepPlan whole_plan(const Keywords& increment) {
   return solver::StepPlan(increment.data<ListConcept>("LIST_INST").values);
 }
 
+// Without the first instant written, steps go on from that of the initial state.
+void start_at(std::optional<double> instant, const Keywords& increment, solver::StepPlan& plan) {
+  if (!instant || increment.given("NUME_INST_INIT") || increment.given("INST_INIT")) return;
+  const double reach = increment.real("PRECISION") * std::abs(*instant);
+  std::erase_if(plan.instants, [&](double each) { return each <= *instant + reach; });
+  plan.instants.insert(plan.instants.begin(), *instant);
+  if (plan.instants.size() > 1) return;
+  throw DiagnosticError("wrong-order", fmt::format("STAT_NON_LINE: no instant of INCREMENT lies beyond that of the initial state, {}", *instant),
+                        increment.span, "give a list that goes further, or INST_INIT");
+}
+
 // The plan with those instants that INCREMENT keeps of its list; the first is the initial state.
-solver::StepPlan steps_of(const Keywords& increment) {
+solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initial) {
   solver::StepPlan plan = whole_plan(increment);
   const std::vector<double> all = plan.instants;
   const auto index_of = [&](const char* number, const char* instant, std::size_t otherwise) {
@@ -74,11 +114,54 @@ solver::StepPlan steps_of(const Keywords& increment) {
                           "the last instant must lie beyond the first");
   }
   plan.instants.assign(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  start_at(initial, increment, plan);
   return plan;
+}
+
+// comma makes the tangent again at each iteration unless REAC_ITER is written.
+solver::TangentPolicy tangent_policy(const Keywords& newton) {
+  const auto kind_named = [](const std::string& word) {
+    return word == "ELASTIQUE" ? solver::TangentKind::elastic : solver::TangentKind::tangent;
+  };
+  solver::TangentPolicy policy;
+  policy.correction = kind_named(newton.text("MATRICE"));
+  const std::string prediction = newton.has("PREDICTION") ? newton.text("PREDICTION") : newton.text("MATRICE");
+  policy.prediction = prediction == "TANGENTE" || prediction == "ELASTIQUE" ? kind_named(prediction) : policy.correction;
+  policy.steps = static_cast<int>(newton.integer("REAC_INCR"));
+  if (newton.given("REAC_ITER")) policy.iterations = static_cast<int>(newton.integer("REAC_ITER"));
+  return policy;
+}
+
+solver::LineSearch line_search(const Call& call) {
+  const Keywords& search = call.factor("RECH_LINEAIRE");
+  if (call.has("CONTACT")) {
+    throw DiagnosticError("exclusive-keywords", "STAT_NON_LINE: RECH_LINEAIRE does not go with CONTACT", search.span,
+                          "the line search knows nothing of gaps: leave it out");
+  }
+  solver::LineSearch options;
+  options.bracketed = search.text("METHODE") == "MIXTE";
+  options.tolerance = search.real("RESI_LINE_RELA");
+  options.max_iterations = static_cast<int>(search.integer("ITER_LINE_MAXI"));
+  options.smallest = search.real("RHO_MIN");
+  options.largest = search.real("RHO_MAX");
+  options.excluded = search.real("RHO_EXCL");
+  return options;
+}
+
+void read_newton(const Keywords& newton, solver::NewtonOptions& options) {
+  options.tangent = tangent_policy(newton);
+  if (!newton.has("PREDICTION")) return;
+  if (newton.text("PREDICTION") == "EXTRAPOLE") options.guess = solver::StepGuess::extrapolate;
+  if (newton.text("PREDICTION") != "DEPL_CALCULE") return;
+  const auto& handle = newton.concept_of("EVOL_NOLI");
+  const auto& guessed = interpreter::data_of<ResultConcept>(handle, "EVOL_NOLI");
+  options.guessed = std::shared_ptr<const solver::Result>(handle->data, &guessed.result);
 }
 
 solver::NewtonOptions newton_options(const Call& call) {
   solver::NewtonOptions options;
+  if (call.has("NEWTON")) read_newton(call.factor("NEWTON"), options);
+  if (call.has("RECH_LINEAIRE")) options.line_search = line_search(call);
   if (call.has("CONVERGENCE")) {
     const Keywords& convergence = call.factor("CONVERGENCE");
     const bool relative = convergence.given("RESI_GLOB_RELA");
@@ -88,11 +171,24 @@ solver::NewtonOptions newton_options(const Call& call) {
     if (absolute && !relative) options.relative_residual.reset();
     options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
+    if (options.tangent.correction == solver::TangentKind::elastic && convergence.has("ITER_GLOB_ELAS"))
+      options.max_iterations = std::max(options.max_iterations, static_cast<int>(convergence.integer("ITER_GLOB_ELAS")));
   }
   const SolverChoice choice = solver_choice(call);
   options.method = choice.method;
   options.linear = choice.options;
   return options;
+}
+
+// The result to go on with, up to the step that the computation starts from.
+std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateChoice& initial) {
+  if (!initial.state) {
+    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from an initial state", call.span,
+                          "give ETAT_INIT=_F(EVOL_NOLI=" + call.result->name + ")");
+  }
+  auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
+  if (initial.order) std::erase_if(product->result.steps, [&](const solver::ResultStep& step) { return step.order > *initial.order; });
+  return product;
 }
 
 void show_header(const Call& call, const Context& context) {
@@ -117,17 +213,18 @@ solver::IterationObserver live_table(const Context& context) {
 }  // namespace
 
 Product stat_non_line(const Call& call, Context& context) {
-  auto product = std::make_shared<ResultConcept>();
-  product->problem = problem_of(call);
+  const InitialStateChoice initial = initial_state(call);
+  auto product = call.reuse ? continued(call, initial) : std::make_shared<ResultConcept>();
+  product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
-  const auto steps = steps_of(call.factor("INCREMENT"));
+  const auto steps = steps_of(call.factor("INCREMENT"), initial.instant);
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
   const solver::Counters before = context.counters;
   const Observer observer(call, product->result.mesh());
-  if (!observer.empty()) product->observations.emplace();
+  if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
   const auto after_step = [&, number = 0](solver::Result& result) mutable {
     if (product->observations) observer.observe(result.steps.back(), number, *product->observations);

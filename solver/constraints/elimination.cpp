@@ -51,7 +51,7 @@ std::string describe(const LinearRelation& relation, const Mesh& mesh) {
 
 double Elimination::Condition::value(double time) const {
   const double prescribed = relation->function ? relation->function(at, time) : relation->value;
-  return multiplier ? multiplier(time) * prescribed : prescribed;
+  return reference + (multiplier ? multiplier(time) * prescribed : prescribed);
 }
 
 std::string Elimination::Condition::origin() const {
@@ -73,8 +73,8 @@ Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const A
 SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
                                      const LinearRelation& relation) {
   const Point at = relation.terms.empty() ? Point{} : mesh.nodes[relation.terms.front().node];
-  const bool constant = !relation.function && !applied.multiplier;
-  conditions_.push_back({applied.load, &relation, applied.multiplier, at, describe(relation, mesh), constant});
+  const bool constant = !relation.function && !applied.multiplier && !applied.differential;
+  conditions_.push_back({applied.load, &relation, applied.multiplier, at, describe(relation, mesh), constant, {}, 0.0});
   std::map<int, double> coefficients;
   for (const auto& term : relation.terms) {
     const int dof = dofs.dof(term.node, term.component);
@@ -82,7 +82,16 @@ SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const
     coefficients[dof] += term.coefficient;
   }
   std::erase_if(coefficients, [](const auto& term) { return term.second == 0.0; });
-  return {coefficients.begin(), coefficients.end()};
+  SparseRow row{coefficients.begin(), coefficients.end()};
+  if (applied.differential) conditions_.back().differential = row;
+  return row;
+}
+
+void Elimination::measure_from(const Eigen::VectorXd& reference) {
+  for (Condition& condition : conditions_) {
+    condition.reference = 0.0;
+    for (const auto& [dof, coefficient] : condition.differential) condition.reference += coefficient * reference[dof];
+  }
 }
 
 void Elimination::set_transformation(const GaussJordan& reduction, int full_size) {

@@ -34,6 +34,8 @@ class Elimination {
   int reduced_size() const { return static_cast<int>(kept_.size()); }
   /// T, full_size x reduced_size.
   const Eigen::SparseMatrix<double>& transformation() const { return transformation_; }
+  /// The displacements (full_size) from which the conditions of differential loads count from now on; zero before.
+  void measure_from(const Eigen::VectorXd& reference);
   /// g at a time (full_size). Throws Error `contradictory-conditions` naming both origins when redundant relations
   /// disagree at that time by more than `contradiction_tolerance` relative to the largest value involved.
   Eigen::VectorXd offset(double time) const;
@@ -57,6 +59,8 @@ class Elimination {
     Point at;
     std::string text;  ///< "DX at N3", "DX at N1 - DX at N2"
     bool constant;
+    SparseRow differential;  ///< its coefficients, if it counts from the initial state
+    double reference = 0.0;  ///< what they give there
 
     double value(double time) const;
     std::string origin() const;

@@ -1,6 +1,7 @@
 #include "solver/elements/assembler.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -19,7 +20,7 @@ namespace comma::solver {
 namespace {
 
 /// Cells with stiffness, gathered by what they share; each group's cells keep the order of the mesh.
-using CellGroups = std::map<std::tuple<Formulation, CellType, Kinematics>, std::vector<int>>;
+using CellGroups = std::map<std::tuple<Formulation, CellType, CellBehaviour>, std::vector<int>>;
 
 std::vector<int> stiff_cells(const Model& model) {
   std::vector<int> cells;
@@ -32,30 +33,37 @@ std::vector<int> stiff_cells(const Model& model) {
 CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
   CellGroups groups;
   for (const int cell : cells)
-    groups[{input.model.formulations[cell], input.model.mesh->cell_types[cell], input.kinematics_of(cell)}].push_back(cell);
+    groups[{input.model.formulations[cell], input.model.mesh->cell_types[cell], input.behaviour_of(cell)}].push_back(cell);
   return groups;
 }
 
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
+  if (input.behaviour_of(cells.front()).relation != Relation::elastic)
+    throw Error("unsupported", fmt::format("cell {}: springs, bars, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
+                "give these cells RELATION='ELAS'");
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
-  if (input.kinematics_of(cells.front()) != Kinematics::small)
+  if (input.behaviour_of(cells.front()).kinematics != Kinematics::small)
     throw Error("unsupported", fmt::format("cell {}: bars, beams and plates know small strains only", input.model.mesh->cell_name(cells.front())),
                 "give these cells small strains (DEFORMATION='PETIT')");
   if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
 }
 
-/// The stresses of one block into a field whose components are those of all blocks.
-void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed,
-                    ElementField& field) {
-  const auto names = block.stress_names();
+/// The names V1, V2 ... of internal variables.
+std::vector<std::string> variable_names(int count) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= count; ++k) names.push_back(fmt::format("V{}", k));
+  return names;
+}
+
+std::vector<std::string> stress_names(const ElementBlock& block) { return {block.stress_names().begin(), block.stress_names().end()}; }
+
+/// Values of one block (cells x points x names) into a field whose components are those of all blocks.
+void write_block(const ElementBlock& block, const std::vector<std::string>& names, const std::vector<double>& values, ElementField& field) {
   std::vector<int> columns;
-  for (const auto name : names) columns.push_back(field.component(name));
-  std::vector<double> values(block.cells().size() * block.point_count() * names.size());
-  block.stresses(u, state, values);
-  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
+  for (const auto& name : names) columns.push_back(field.component(name));
   const double* value = values.data();
   for (const int cell : block.cells()) {
     for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
@@ -63,6 +71,38 @@ void write_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const V
       for (const int column : columns) target[column] = *value++;
     }
   }
+}
+
+/// The way back; empty without a field.
+std::vector<double> read_block(const ElementBlock& block, const std::vector<std::string>& names, const ElementField* field, const Mesh& mesh) {
+  if (field == nullptr) return {};
+  std::vector<double> values;
+  values.reserve(block.cells().size() * static_cast<std::size_t>(block.point_count()) * names.size());
+  for (const int cell : block.cells()) {
+    if (field->points(cell) != block.point_count()) {
+      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}", field->quantity, field->points(cell),
+                                                    mesh.cell_name(cell), block.point_count()));
+    }
+    for (int point = 0; point < block.point_count(); ++point) {
+      for (const auto& name : names) {
+        const int column = field->component(name);
+        const double value = column < 0 ? absent : field->at(cell, point, column);
+        if (std::isnan(value)) throw Error("incompatible-field", fmt::format("the field {} has no {} on cell {}", field->quantity, name, mesh.cell_name(cell)));
+        values.push_back(value);
+      }
+    }
+  }
+  return values;
+}
+
+/// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
+constexpr double initial_stress_tolerance = 1e-6;
+
+std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed) {
+  std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) * block.stress_names().size());
+  block.stresses(u, state, values);
+  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
+  return values;
 }
 
 Eigen::VectorXd rounded(const std::vector<long double>& sums) {
@@ -116,11 +156,11 @@ struct Assembler::Blocks {
 };
 
 Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
-                     const KinematicsOfCells* kinematics)
+                     const BehaviourOfCells* behaviours)
     : model_(model), materials_(materials), properties_(properties), dofs_(dofs) {
   const std::vector<int> cells = stiff_cells(model);
   blocks_.reset(new Blocks{SparsePattern(*model.mesh, cells, dofs), {}});
-  const BlockInput input{model_, materials_, properties_, dofs_, blocks_->pattern, kinematics};
+  const BlockInput input{model_, materials_, properties_, dofs_, blocks_->pattern, behaviours};
   for (auto& [kind, group] : group_cells(input, cells)) blocks_->list.push_back(make_block(input, std::move(group)));
 }
 
@@ -135,6 +175,12 @@ void Assembler::set_time(double time) {
 SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
   for (const auto& block : blocks_->list) block->add_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
+  return matrix;
+}
+
+SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
+  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
+  for (const auto& block : blocks_->list) block->add_elastic_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
   return matrix;
 }
 
@@ -154,6 +200,72 @@ Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) block->add_internal_forces(u, state_, sums);
   return rounded(sums);
+}
+
+Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  for (const auto& block : blocks_->list) {
+    std::vector<double> values;
+    if (block->has_memory()) values = read_block(*block, stress_names(*block), &stresses, *model_.mesh);
+    block->add_forces_of_stresses(u, state_, values, sums);
+  }
+  return rounded(sums);
+}
+
+bool Assembler::has_memory() const {
+  return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->has_memory(); });
+}
+
+void Assembler::accept(const Eigen::VectorXd& u) {
+  for (const auto& block : blocks_->list) block->accept(u, state_);
+}
+
+void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables) {
+  for (const auto& block : blocks_->list) {
+    if (!block->has_memory()) {
+      if (stresses != nullptr) check_initial_stresses(*block, u, *stresses);
+      continue;
+    }
+    block->resume(u, state_, read_block(*block, stress_names(*block), stresses, *model_.mesh),
+                  read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
+  }
+}
+
+void Assembler::check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
+  const std::vector<double> wanted = read_block(block, stress_names(block), &given, *model_.mesh);
+  const std::vector<double> known = stresses_of(block, u, state_, nullptr);
+  double largest = 0.0;
+  for (const double each : known) largest = std::max(largest, std::abs(each));
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    if (std::abs(wanted[k] - known[k]) <= initial_stress_tolerance * std::max(largest, std::abs(wanted[k]))) continue;
+    const std::size_t each = static_cast<std::size_t>(block.point_count()) * block.stress_names().size();
+    throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[k / each])),
+                "only isotropic continua in small or logarithmic strains take up stresses of another origin");
+  }
+}
+
+ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
+  int most = 1;
+  for (const auto& block : blocks_->list) most = std::max(most, block->variable_count());
+  ElementField field = field_at_points("VARI_R", variable_names(most));
+  for (const auto& block : blocks_->list) {
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count() * block->variable_count()));
+    block->variables(u, state_, values);
+    write_block(*block, variable_names(block->variable_count()), values, field);
+  }
+  return field;
+}
+
+ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const {
+  ElementField field = field_at_points("ENER_R", {"TOTALE"});
+  for (const auto& block : blocks_->list) {
+    if (!block->has_memory()) continue;
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count()));
+    block->energy_densities(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh),
+                            read_block(*block, variable_names(block->variable_count()), &variables, *model_.mesh), values);
+    write_block(*block, field.components, values, field);
+  }
+  return field;
 }
 
 Eigen::VectorXd Assembler::variable_forces() const { return -internal_forces(Eigen::VectorXd::Zero(dofs_.size())); }
@@ -179,6 +291,10 @@ bool Assembler::is_linear() const {
   return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_linear(); });
 }
 
+bool Assembler::is_elastically_linear() const {
+  return std::ranges::all_of(blocks_->list, [](const auto& block) { return block->is_elastically_linear(); });
+}
+
 ElementField Assembler::stresses(const Eigen::VectorXd& u) const { return stresses(u, nullptr); }
 
 ElementField Assembler::stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const {
@@ -187,19 +303,28 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, std::span<const Appli
 }
 
 ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const {
-  ElementField field;
-  field.quantity = "SIEF_R";
-  field.support = Support::gauss_point;
-  field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
+  std::vector<std::string> components;
   for (const auto& block : blocks_->list) {
     for (const auto name : block->stress_names()) {
-      if (field.component(name) < 0) field.components.emplace_back(name);
+      if (std::ranges::find(components, name) == components.end()) components.emplace_back(name);
     }
+  }
+  ElementField field = field_at_points("SIEF_R", std::move(components));
+  for (const auto& block : blocks_->list) write_block(*block, stress_names(*block), stresses_of(*block, u, state_, imposed), field);
+  return field;
+}
+
+ElementField Assembler::field_at_points(std::string quantity, std::vector<std::string> components) const {
+  ElementField field;
+  field.quantity = std::move(quantity);
+  field.support = Support::gauss_point;
+  field.components = std::move(components);
+  field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
+  for (const auto& block : blocks_->list) {
     for (const int cell : block->cells()) field.starts[cell + 1] = block->point_count();
   }
   for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
-  for (const auto& block : blocks_->list) write_stresses(*block, u, state_, imposed, field);
   return field;
 }
 

@@ -13,11 +13,12 @@
 #include "solver/loads/load.hpp"
 #include "solver/materials/command_variables.hpp"
 #include "solver/materials/material.hpp"
-#include "solver/model/kinematics.hpp"
+#include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {
 
+class ElementBlock;
 class ImposedStrains;
 
 /// Sums element contributions over all degrees of freedom of a DofMap (no condition applied yet). Blocks of like cells are
@@ -27,9 +28,10 @@ class Assembler {
   /// Throws Error `missing-material` / `missing-properties` naming a cell that lacks what its element needs, `wrong-size` for a
   /// spring's matrix, `invalid-material`, `invalid-properties`, `distorted-cell`, `unsupported` for a formulation on a cell type
   /// without such an element.
-  /// `kinematics`: null or empty for small strains everywhere. Throws Error `unsupported` where an element knows no other.
+  /// `behaviours`: null or empty for linear elasticity in small strains everywhere. Throws Error `unsupported` where an element knows no other.
+  /// Materials with a memory begin undisplaced and without stress.
   Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
-            const KinematicsOfCells* kinematics = nullptr);
+            const BehaviourOfCells* behaviours = nullptr);
   ~Assembler();
 
   /// Takes the command variables of the materials at a time: from now on stiffness, forces, stresses and energies are those of that
@@ -42,6 +44,9 @@ class Assembler {
   /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
 
+  /// The same as if materials could only answer elastically from where they are.
+  SymmetricMatrix elastic_stiffness(const Eigen::VectorXd& u) const;
+
   /// Whether stiffness() is the whole tangent, for every u.
   bool is_symmetric() const;
   /// The rest of the tangent at u where it is not: (K - K^T) / 2 (n x n), entries only where elements are unsymmetric.
@@ -50,6 +55,24 @@ class Assembler {
   /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so that
   /// the equilibrium of a stiff body held by weak springs is not drowned in rounding.
   Eigen::VectorXd internal_forces(const Eigen::VectorXd& u) const;
+
+  /// The internal forces (n) of a field of stresses as stresses() gives it. Where materials have no memory, those of u.
+  Eigen::VectorXd forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
+
+  /// Whether stresses depend on more than the displacements of the moment: then stiffness(), internal_forces() and the fields are those of
+  /// a trial u, from where the last accept() or resume() put the step's beginning.
+  bool has_memory() const;
+  /// The step has converged at u, at the assembler's instant.
+  void accept(const Eigen::VectorXd& u);
+  /// A step begins at u, at the assembler's instant. `stresses`, `variables`: as stresses() and internal_variables() give them; null: zero.
+  /// Throws Error `incompatible-field` where a field lacks a cell, a point or a component; `unsupported` for stresses that an element without
+  /// memory does not have at u.
+  void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
+  /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other components.
+  ElementField internal_variables(const Eigen::VectorXd& u) const;
+
+  /// Elastic energy for an initial volume at the Gauss points of cells with a memory (TOTALE), from stresses and internal variables.
+  ElementField energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const;
 
   /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.
   Eigen::VectorXd variable_forces() const;
@@ -64,6 +87,8 @@ class Assembler {
 
   /// Whether the tangent is the same for every u.
   bool is_linear() const;
+  /// Whether elastic_stiffness() is the same for every u.
+  bool is_elastically_linear() const;
   /// Changes whenever the stiffness at a given u may have changed: with each set_time if properties depend on command variables or
   /// time, else never.
   int stiffness_version() const { return version_; }
@@ -75,12 +100,14 @@ class Assembler {
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
-  /// Elastic energy of each element (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
+  /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
   /// per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;
 
  private:
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+  void check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
+  ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
 
   struct Blocks;
   const Model& model_;

@@ -6,8 +6,8 @@ namespace comma::solver {
 namespace {
 
 template <int Dim, int Nodes, bool Axisymmetric>
-std::unique_ptr<ElementBlock> of_kinematics(const BlockInput& input, std::vector<int> cells) {
-  if (input.kinematics_of(cells.front()) == Kinematics::green_lagrange)
+std::unique_ptr<ElementBlock> of_behaviour(const BlockInput& input, std::vector<int> cells) {
+  if (input.behaviour_of(cells.front()).kinematics == Kinematics::green_lagrange)
     return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
   return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
 }
@@ -15,9 +15,9 @@ std::unique_ptr<ElementBlock> of_kinematics(const BlockInput& input, std::vector
 template <int Nodes>
 std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
   if (is_axisymmetric(input.model.formulations[cells.front()])) {
-    return of_kinematics<2, Nodes, true>(input, std::move(cells));
+    return of_behaviour<2, Nodes, true>(input, std::move(cells));
   }
-  return of_kinematics<2, Nodes, false>(input, std::move(cells));
+  return of_behaviour<2, Nodes, false>(input, std::move(cells));
 }
 
 }  // namespace

@@ -6,15 +6,15 @@ namespace comma::solver {
 namespace {
 
 template <int Dim, int Nodes, bool Axisymmetric>
-std::unique_ptr<ElementBlock> of_kinematics(const BlockInput& input, std::vector<int> cells) {
-  if (input.kinematics_of(cells.front()) == Kinematics::green_lagrange)
+std::unique_ptr<ElementBlock> of_behaviour(const BlockInput& input, std::vector<int> cells) {
+  if (input.behaviour_of(cells.front()).kinematics == Kinematics::green_lagrange)
     return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
   return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
 }
 
 template <int Nodes>
 std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
-  return of_kinematics<3, Nodes, false>(input, std::move(cells));
+  return of_behaviour<3, Nodes, false>(input, std::move(cells));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A block of like elements: the one place where calls are virtual, once a block and never an element.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -11,7 +12,7 @@
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/materials/elasticity.hpp"
-#include "solver/model/kinematics.hpp"
+#include "solver/model/behaviour.hpp"
 
 namespace comma::solver {
 
@@ -22,10 +23,10 @@ struct BlockInput {
   const ElementProperties& properties;
   const DofMap& dofs;
   const SparsePattern& pattern;
-  const KinematicsOfCells* kinematics;  ///< null or empty: small strains
+  const BehaviourOfCells* behaviours;  ///< null or empty: linear elasticity in small strains
 
-  Kinematics kinematics_of(int cell) const {
-    return kinematics && !kinematics->empty() ? (*kinematics)[static_cast<std::size_t>(cell)] : Kinematics::small;
+  CellBehaviour behaviour_of(int cell) const {
+    return behaviours && !behaviours->empty() ? (*behaviours)[static_cast<std::size_t>(cell)] : CellBehaviour{};
   }
 };
 
@@ -41,6 +42,15 @@ class ElementBlock {
   virtual void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const = 0;
   virtual void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const = 0;
+  /// The tangent as if the material could only answer elastically from here on.
+  virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+    add_stiffness(u, state, column_starts, values);
+  }
+  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory. In plane stress
+  /// with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
+  virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {
+    add_internal_forces(u, state, forces);
+  }
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
   /// Appends the skew-symmetric part (K - K^T) / 2 of the tangent: its entries below the diagonal, by degree of freedom.
@@ -53,11 +63,27 @@ class ElementBlock {
   virtual std::span<const std::string_view> stress_names() const = 0;
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
   virtual void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
-  /// Writes the elastic energy of each element (one value a cell).
+  /// Writes the elastic energy of each element (one value a cell); absent where the material has a memory.
   virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;
+  /// Whether add_elastic_stiffness() is the same for every u.
+  virtual bool is_elastically_linear() const { return is_linear(); }
   /// Whether the stiffness is the same in all states.
   virtual bool is_constant() const = 0;
+
+  /// Internal variables at each point; elasticity has one, which stays zero (U4.51.11).
+  virtual int variable_count() const { return 1; }
+  /// Writes them (cells x points x variables).
+  virtual void variables(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const { std::ranges::fill(out, 0.0); }
+  /// Whether stresses depend on more than the displacements of the moment.
+  virtual bool has_memory() const { return false; }
+  /// Of materials with a memory: writes the elastic energy for an initial volume at each point (cells x points), of stresses and variables laid
+  /// out as above.
+  virtual void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double>) const {}
+  /// A step has converged at u: the next begins there.
+  virtual void accept(const Eigen::VectorXd&, const VariableState&) {}
+  /// A step begins at u with stresses and variables laid out as above; zero where empty.
+  virtual void resume(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>) {}
 
   /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
   virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
@@ -65,10 +91,16 @@ class ElementBlock {
   virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
 
+/// Whether like cells get an element with a memory: not anisotropic elasticity, which follows from displacements alone whatever it starts from; but
+/// Green and Lagrange's strains in plane stress do, though elastic, for the element knows plane stress in large strains.
+bool keeps_memory(const BlockInput& input, std::span<const int> cells);
+
 /// Blocks for cells that share type and formulation.
 std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_inelastic_plane_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_inelastic_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells);

@@ -25,11 +25,7 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   using Base::strains;
 
  public:
-  LargeStrainBlock(const BlockInput& input, std::vector<int> cells) : Base(input, std::move(cells)) {
-    if (this->formulation_ == Formulation::plane_stress || this->formulation_ == Formulation::plane_stress_reduced)
-      throw Error("unsupported", fmt::format("cell {}: Green-Lagrange strains in plane stress are not known", this->mesh_.cell_name(this->cells_.front())),
-                  "take plane strain or a solid, or small strains (DEFORMATION='PETIT')");
-  }
+  using Base::Base;
 
   bool is_linear() const override { return false; }
   bool is_constant() const override { return false; }

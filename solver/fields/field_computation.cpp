@@ -67,7 +67,7 @@ FieldComputation::FieldComputation(const StaticProblem& problem, const Result& r
     : problem_(problem),
       result_(result),
       dofs_(*problem.model),
-      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()) {}
+      assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()) {}
 
 const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputation::rules() {
   using F = FieldComputation;
@@ -82,6 +82,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPSI_ELGA", &F::total_strains},
       {"EPME_ELGA", &F::mechanical_strains},
       {"EPSG_ELGA", &F::green_strains},
+      {"EPSP_ELGA", &F::plastic_strains_at_points},
       {"SIEQ_ELGA", &F::stress_criteria_at_points},
       {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
       {"ENEL_ELGA", &F::elastic_energy},
@@ -166,12 +167,26 @@ FieldInput FieldComputation::input() const {
   return {*problem_.model, *problem_.materials, *problem_.properties, assembler_.state()};
 }
 
+/// What a material with a memory has left in the result: it does not follow from the displacements.
+const Field& FieldComputation::remembered(std::string_view name, std::size_t step) const {
+  const auto& held = result_.steps[step].fields;
+  if (const auto found = held.find(name); found != held.end()) return found->second;
+  throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}, which a material with a memory needs", result_.steps[step].instant, name),
+              "archive it (ARCHIVAGE without CHAM_EXCLU)");
+}
+
+const ElementField* FieldComputation::remembered_stresses(std::size_t step) const {
+  return assembler_.has_memory() ? &std::get<ElementField>(remembered("SIEF_ELGA", step)) : nullptr;
+}
+
 Field FieldComputation::stresses(std::size_t step) {
+  if (assembler_.has_memory()) return remembered("SIEF_ELGA", step);
   return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
 }
 
 // Elasticity has no memory: Code_Aster gives it one variable, which stays zero (U4.51.11).
 Field FieldComputation::internal_variables(std::size_t step) {
+  if (assembler_.has_memory()) return remembered("VARI_ELGA", step);
   ElementField field = element_field("SIEF_ELGA", step);
   const std::size_t stresses = field.components.size();
   for (std::size_t k = 0; k < field.values.size() / stresses; ++k) {
@@ -219,6 +234,11 @@ Field FieldComputation::mechanical_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::mechanical);
 }
 
+Field FieldComputation::plastic_strains_at_points(std::size_t step) {
+  require_small_strains("EPSP_ELGA");
+  return plastic_strains(input(), displacement(step), element_field("SIEF_ELGA", step));
+}
+
 Field FieldComputation::green_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::green);
 }
@@ -232,24 +252,34 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
 }
 
 void FieldComputation::require_small_strains(std::string_view name) const {
-  if (problem_.kinematics && std::ranges::any_of(*problem_.kinematics, [](Kinematics each) { return each != Kinematics::small; }))
+  if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) { return each.kinematics != Kinematics::small; }))
     throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
 }
 
 Field FieldComputation::elastic_energy(std::size_t step) {
-  require_small_strains("ENEL_ELGA");
-  return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
+  if (!assembler_.has_memory()) {
+    require_small_strains("ENEL_ELGA");
+    return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
+  }
+  const auto& stresses = std::get<ElementField>(remembered("SIEF_ELGA", step));
+  const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
+  Field energies = elastic_energy_density(input(), stresses);
+  put_piece(energies, {&of_memory, {}, {}, 1.0, false});
+  return energies;
 }
 
 // Of continua from their stresses; of springs, bars and beams from their displacements.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
-  Field energies = potential_energy_of_cells(step);
+  Field energies = assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
   const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
   return energies;
 }
 
 Field FieldComputation::potential_energy_of_cells(std::size_t step) {
+  if (assembler_.has_memory())
+    throw Error("unsupported", "the potential energy of a material with a memory does not follow from its displacements",
+                "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
   return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
 }
 
@@ -272,14 +302,14 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
 }
 
 Field FieldComputation::internal_forces(std::size_t step) {
-  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
 }
 
 Field FieldComputation::reactions(std::size_t step) {
   const double time = result_.steps[step].instant;
   FollowerForces followers(*problem_.model, dofs_, problem_.followers);
   followers.set_time(time);
-  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time);
+  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time, remembered_stresses(step));
 }
 
 }  // namespace comma::solver

@@ -15,7 +15,7 @@
 
 namespace comma::solver {
 
-/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, DEGE; criteria
+/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPSP, DEGE; criteria
 /// SIEQ, EPEQ, EPMQ, EPGQ; energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
 /// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
 /// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
@@ -55,6 +55,7 @@ class FieldComputation {
   Field section_strains(std::size_t step);
   Field total_strains(std::size_t step);
   Field mechanical_strains(std::size_t step);
+  Field plastic_strains_at_points(std::size_t step);
   Field green_strains(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
@@ -65,6 +66,8 @@ class FieldComputation {
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
   Field internal_variables(std::size_t step);
+  const Field& remembered(std::string_view name, std::size_t step) const;
+  const ElementField* remembered_stresses(std::size_t step) const;
   Field internal_forces(std::size_t step);
   Field reactions(std::size_t step);
 

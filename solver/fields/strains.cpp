@@ -1,5 +1,6 @@
 #include "solver/fields/strains.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,6 +11,8 @@
 namespace comma::solver {
 
 namespace {
+
+constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 /// dU_i / dX_j at a point; the hoop term of an axisymmetric body stands at (2, 2).
 class DisplacementGradients {
@@ -142,6 +145,34 @@ ElementField strains(const FieldInput& input, const NodalField& displacement, St
       double* target = field.values.data() + (static_cast<std::size_t>(field.starts[cell]) + g) * width;
       const int own = dimension(mesh.cell_types[cell]) == 3 ? 6 : 4;
       for (int i = 0; i < own; ++i) target[i] = i < 3 ? strain[i] : 0.5 * strain[i];
+    }
+  }
+  return field;
+}
+
+ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses) {
+  ElementField field = strains(input, displacement, StrainKind::mechanical);
+  ContinuumPoints points(input.model);
+  std::array<int, 6> columns;
+  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(stress_names[i]);
+  const std::size_t width = field.components.size();
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    if (!points.covers(cell)) {
+      std::fill(field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell]) * width),
+                field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell + 1]) * width), absent);
+      continue;
+    }
+    const auto& samples = points.samples(cell);
+    for (std::size_t g = 0; g < samples.size(); ++g) {
+      const int point = static_cast<int>(g);
+      const MaterialPoint at = points.material_point(cell, input.state, samples[g], points.locate(cell, samples[g]).at, point);
+      const int own = dimension(input.model.mesh->cell_types[cell]) == 3 ? 6 : 4;
+      Vector6d stress = Vector6d::Zero();
+      for (int i = 0; i < own; ++i) stress[i] = columns[i] < 0 ? absent : stresses.at(cell, point, columns[i]);
+      const Vector6d elastic = solid_compliance(material_of(input, cell), at) * stress;
+      double* target = field.values.data() + (static_cast<std::size_t>(field.starts[cell]) + g) * width;
+      for (int i = 0; i < own; ++i) target[i] -= i < 3 ? elastic[i] : 0.5 * elastic[i];
+      if (is_plane_stress(input.model.formulations[cell])) target[2] = -target[0] - target[1];
     }
   }
   return field;

@@ -17,4 +17,8 @@ enum class StrainKind : std::uint8_t {
 /// Throws Error `incompatible-field` where a node of a continuum or bar has no displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
+/// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is taken away, in small strains;
+/// components as above. In plane stress EPZZ keeps the volume. Bars have none.
+ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses);
+
 }  // namespace comma::solver

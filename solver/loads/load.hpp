@@ -111,6 +111,7 @@ struct Load {
 struct AppliedLoad {
   std::shared_ptr<const Load> load;
   TimeFunction multiplier;  ///< empty: 1
+  bool differential = false;  ///< its conditions on displacements count from the initial state (DIDI of U4.51.03)
 };
 
 }  // namespace comma::solver

@@ -228,7 +228,7 @@ double thermal_strain(const Property& expansion, double definition_temperature, 
   MaterialPoint at_reference = at;
   at_reference[Parameter::temperature] = reference;
   const double shift = expansion(at_reference) * (reference - definition_temperature);
-  return (expansion(at) * (temperature - definition_temperature) - shift) / (1 + shift);
+  return expansion(at) * (temperature - definition_temperature) - shift;
 }
 
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at) {

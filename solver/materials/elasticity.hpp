@@ -55,9 +55,9 @@ Matrix6d solid_compliance(const CellMaterial& material, const MaterialPoint& at)
 Matrix6d strain_rotation(const Eigen::Matrix3d& axes);
 
 /// Mean coefficients of expansion are given from the definition temperature T_d; from the reference temperature T_r on,
-/// the strain is
+/// the strain is, on the length at T_d (what the length at T_r adds is of second order, and Code_Aster leaves it out: hsnv125f),
 ///
-///     (alpha(T) (T - T_d) - alpha(T_r) (T_r - T_d)) / (1 + alpha(T_r) (T_r - T_d))       (R4.08.01)
+///     alpha(T) (T - T_d) - alpha(T_r) (T_r - T_d)       (U4.43.01, TEMP_DEF_ALPHA)
 ///
 /// and alpha(T) (T - T_r) without a definition temperature. 0 where no temperature is given. Throws Error
 /// `missing-reference` where a temperature is given without its reference.

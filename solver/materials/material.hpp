@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/materials/command_variables.hpp"
+#include "solver/materials/plasticity.hpp"
 #include "solver/materials/property.hpp"
 
 namespace comma::solver {
@@ -57,6 +58,7 @@ using Elasticity = std::variant<IsotropicElasticity, OrthotropicElasticity>;
 
 struct Material {
   std::optional<Elasticity> elasticity;
+  Plasticity plasticity{};
 };
 
 /// The material of each cell; null where none is given.

@@ -10,6 +10,7 @@
 
 #include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/line_search.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
 
 namespace comma::solver {
@@ -52,20 +53,24 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       tangent_(tangent),
       support_(std::move(support)),
       observer_(observer),
-      criterion_(options) {}
+      criterion_(options),
+      prediction_(options.tangent.prediction) {}
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
                         const ConditionSet& conditions, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(conditions, offset, state);
-  state.u = elimination_.transformation() * state.reduced + offset;
-  evaluate(state, external);
+  start(external, offset, state);
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
-    if (tangent_.refresh(state.u)) forget_compliance();
+    if (iteration > 1 && is_tangent_due(iteration) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
+    const Eigen::VectorXd before = state.reduced;
     const Correction correction = correct(state, offset);
-    evaluate(state, external);
+    if (searches(iteration))
+      search(before, external, offset, state);
+    else
+      evaluate(state, external);
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
     history.push_back(report(time, iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
@@ -76,6 +81,25 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     if (!std::isfinite(measure.absolute)) break;
   }
   fail(time, history);
+}
+
+bool NewtonSolver::is_tangent_due(int iteration) const {
+  if (!tangent_.is_ready() || tangent_.is_constant()) return true;
+  const TangentPolicy& policy = options_.tangent;
+  if (iteration == 1) return policy.steps > 0 && steps_ % policy.steps == 0;
+  return policy.iterations > 0 && (iteration - 1) % policy.iterations == 0;
+}
+
+/// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the conditions on
+/// displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the elements beside them.
+void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+  const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
+  const Eigen::VectorXd imposed = moved - state.u;
+  const bool is_linear = tangent_.is_constant();
+  if (is_linear) state.u = moved;
+  if (is_tangent_due(1) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  evaluate(state, external);
+  if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
 void NewtonSolver::forget_compliance() {
@@ -138,6 +162,28 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   correction.step = size > 0.0 ? largest(state.reduced - before) / size : 0.0;
   state.u = elimination_.transformation() * state.reduced + offset;
   return correction;
+}
+
+bool NewtonSolver::searches(int iteration) const {
+  return options_.line_search && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
+}
+
+/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there.
+void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+  const Eigen::VectorXd step = state.reduced - before;
+  const auto go = [&](double rho) {
+    state.reduced = before + rho * step;
+    state.u = elimination_.transformation() * state.reduced + offset;
+  };
+  const auto work = [&](double rho) {
+    go(rho);
+    evaluate(state, external);
+    return step.dot(residual_);
+  };
+  const double start = step.dot(residual_);
+  const double reached = search_line(*options_.line_search, start, work);
+  go(reached);
+  evaluate(state, external);
 }
 
 /// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of earlier rows or
@@ -288,7 +334,7 @@ std::string NewtonSolver::worst_place() const {
 }
 
 void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {
-  throw_no_convergence(time, history, options_, assembler_.is_linear());
+  throw_no_convergence(time, history, options_, tangent_.is_constant());
 }
 
 }  // namespace comma::solver

@@ -54,11 +54,17 @@ class NewtonSolver {
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
+  int accepted_steps() const { return steps_; }
+  /// Which stiffness the first iteration of the next steps takes.
+  void predict_with(TangentKind kind) { prediction_ = kind; }
   /// The forces act beside the external ones from now on; they must outlive the solver.
   void follow(const FollowerForces& forces) { followers_ = &forces; }
 
   /// The step is accepted: its loads count in the criterion of later ones.
-  void accept_step() { criterion_.accept(load_); }
+  void accept_step() {
+    criterion_.accept(load_);
+    ++steps_;
+  }
 
  private:
   struct Correction {
@@ -66,9 +72,14 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
+  TangentKind kind_of(int iteration) const { return iteration == 1 ? prediction_ : options_.tangent.correction; }
+  bool is_tangent_due(int iteration) const;
+  void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
+  bool searches(int iteration) const;
+  void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
@@ -109,6 +120,8 @@ class NewtonSolver {
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
   double load_ = 0.0;
+  int steps_ = 0;                    ///< accepted so far
+  TangentKind prediction_;
 };
 
 }  // namespace comma::solver

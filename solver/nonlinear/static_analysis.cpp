@@ -33,10 +33,11 @@ class StaticAnalysis {
       : problem_(problem),
         after_step_(after_step),
         mesh_(*problem.model->mesh),
+        options_(options),
         result_(result),
         counters_(counters),
         dofs_(*problem.model),
-        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()),
+        assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()),
         followers_(*problem.model, dofs_, problem.followers),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
@@ -60,11 +61,15 @@ class StaticAnalysis {
     start(plan.instants.front());
     StepSequence sequence(plan);
     while (!sequence.finished()) {
+      const double from = last_instant_;
       const double instant = sequence.target();
       const std::optional<int> iterations = try_step(instant, sequence);
       if (!iterations) continue;
       newton_.accept_step();
       archive(instant, *iterations);
+      assembler_.accept(now_.state.u);
+      speed_ = (now_.state.u - start_) / (instant - from);
+      last_instant_ = instant;
       sequence.accept(*iterations);
     }
   }
@@ -81,35 +86,59 @@ class StaticAnalysis {
 
   /// The number of iterations; nothing when the step has failed and is cut. Throws what a step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence) {
-    Progress before = now_;
+    const Progress before = now_;
     if (mixed_) mixed_->remember();
     try {
-      const int iterations = solve_step(instant);
-      if (problem_.contact) check_watched_zones(instant);
-      return iterations;
+      return solve_from_either_side(instant, before);
     } catch (const Error& error) {
       if (!is_failure_of_step(error.code()) || !sequence.cut()) throw;
-      now_ = std::move(before);
-      if (mixed_) {
-        mixed_->restore();
-        now_.paired = false;
-      }
-      if (observer_) observer_(cut_report(instant, sequence.target()));
+      take_back(before);
+      if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, sequence.target())));
       return std::nullopt;
     }
   }
 
-  /// What a shorter step may overcome.
-  static bool is_failure_of_step(std::string_view code) {
-    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix";
+  /// A prediction by the tangent leads astray where what flowed is unloaded: such a step is tried again from the elastic side.
+  int solve_from_either_side(double instant, const Progress& before) {
+    try {
+      return solve_and_check(instant);
+    } catch (const Error& error) {
+      const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
+      if (!may_unload || !is_failure_of_step(error.code())) throw;
+    }
+    take_back(before);
+    if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
+    newton_.predict_with(TangentKind::elastic);
+    const auto as_before = [&](void*) { newton_.predict_with(options_.tangent.prediction); };
+    const std::unique_ptr<void, decltype(as_before)> guard(this, as_before);
+    return solve_and_check(instant);
   }
 
-  static IterationReport cut_report(double instant, double next) {
+  int solve_and_check(double instant) {
+    const int iterations = solve_step(instant);
+    if (problem_.contact) check_watched_zones(instant);
+    return iterations;
+  }
+
+  void take_back(const Progress& before) {
+    now_ = before;
+    if (!mixed_) return;
+    mixed_->restore();
+    now_.paired = false;
+  }
+
+  /// What a shorter step may overcome.
+  static bool is_failure_of_step(std::string_view code) {
+    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
+  }
+
+  static IterationReport event(double instant, std::string text) {
     IterationReport report;
     report.instant = instant;
-    report.event = fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, next);
+    report.event = std::move(text);
     return report;
   }
+
   void require_symmetry() const {
     if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
     throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
@@ -153,19 +182,27 @@ class StaticAnalysis {
     return {unknowns.begin(), unknowns.end()};
   }
 
-  /// Unstressed and undisplaced, or where the result's last step left off.
+  /// From the initial state, unstressed and undisplaced, or where the result's last step left off.
   void start(double instant) {
+    last_instant_ = instant;
     now_.state.u = Eigen::VectorXd::Zero(dofs_.size());
-    if (!result_.steps.empty()) take_last_step();
+    if (problem_.initial) {
+      if (problem_.initial->displacement) take_displacements(*problem_.initial->displacement, now_.state.u);
+    } else if (!result_.steps.empty()) {
+      take_last_step();
+    }
+    elimination_.measure_from(now_.state.u);
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
+    assembler_.set_time(instant);
+    resume();
     if (!result_.steps.empty()) return;
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
-    assembler_.set_time(instant);
-    step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
+    step.fields.emplace("SIEF_ELGA", initial_stresses());
+    add_internal_variables(step);
     step.parameters["ITER_GLOB"] = 0.0;
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
@@ -182,11 +219,73 @@ class StaticAnalysis {
     const auto found = result_.steps.back().fields.find("DEPL");
     if (found == result_.steps.back().fields.end())
       throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
-    const auto& field = std::get<NodalField>(found->second);
+    take_displacements(std::get<NodalField>(found->second), now_.state.u);
+  }
+
+  void take_displacements(const NodalField& field, Eigen::VectorXd& u) const {
     for (int dof = 0; dof < dofs_.size(); ++dof) {
       const int column = field.component(name_of(dofs_.component_of(dof)));
-      if (column >= 0) now_.state.u[dof] = field.at(dofs_.node_of(dof), column);
+      if (column < 0) continue;
+      const double value = field.at(dofs_.node_of(dof), column);
+      if (!std::isnan(value)) u[dof] = value;
     }
+  }
+
+  /// Puts the unknowns where the step is guessed to end, if anything but where it begins.
+  void guess(double time, const Eigen::VectorXd& offset) {
+    Eigen::VectorXd u = now_.state.u;
+    if (options_.guessed)
+      u = displacements_of(*options_.guessed, time);
+    else if (options_.guess == StepGuess::extrapolate && speed_.size() == u.size())
+      u += (time - last_instant_) * speed_;
+    else
+      return;
+    for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = u[elimination_.kept()[i]];
+    now_.state.u = elimination_.transformation() * now_.state.reduced + offset;
+  }
+
+  /// Linear between the steps of a result, constant beyond.
+  Eigen::VectorXd displacements_of(const Result& result, double time) const {
+    std::vector<std::pair<double, const NodalField*>> known;
+    for (const ResultStep& step : result.steps)
+      if (const auto found = step.fields.find("DEPL"); found != step.fields.end()) known.emplace_back(step.instant, &std::get<NodalField>(found->second));
+    if (known.empty()) throw Error("missing-field", "the result that steps should start from has no displacement (DEPL)");
+    const auto next = std::ranges::find_if(known, [&](const auto& each) { return each.first >= time; });
+    const auto& to = next == known.end() ? known.back() : *next;
+    const auto& from = next == known.begin() || next == known.end() ? to : *(next - 1);
+    Eigen::VectorXd u = now_.state.u;
+    take_displacements(*to.second, u);
+    if (from.first == to.first) return u;
+    Eigen::VectorXd before = now_.state.u;
+    take_displacements(*from.second, before);
+    const double share = (time - from.first) / (to.first - from.first);
+    return (1.0 - share) * before + share * u;
+  }
+
+  void resume() {
+    const auto address = [](const auto& field) { return field ? &*field : nullptr; };
+    if (problem_.initial)
+      assembler_.resume(now_.state.u, address(problem_.initial->stresses), address(problem_.initial->variables));
+    else if (!result_.steps.empty())
+      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), field_of_last_step("VARI_ELGA"));
+    else
+      assembler_.resume(now_.state.u, nullptr, nullptr);
+  }
+
+  ElementField initial_stresses() const {
+    ElementField field = assembler_.stresses(now_.state.u);
+    return problem_.initial ? field : unstressed(std::move(field));
+  }
+
+  /// Null where the step has it not.
+  const ElementField* field_of_last_step(std::string_view name) const {
+    const auto& fields = result_.steps.back().fields;
+    const auto found = fields.find(name);
+    return found == fields.end() ? nullptr : &std::get<ElementField>(found->second);
+  }
+
+  void add_internal_variables(ResultStep& step) const {
+    if (assembler_.has_memory()) step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
   std::vector<Vector3d> positions() const {
@@ -217,6 +316,7 @@ class StaticAnalysis {
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
     if (mixed_) mixed_->start_step(now_.state.u);
     start_ = now_.state.u;
+    guess(time, offset);
     const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;
     int iterations = 0;
     GeometryHistory history;
@@ -318,6 +418,7 @@ class StaticAnalysis {
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
+    add_internal_variables(step);
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     add_patch_state(step);
     step.parameters["ITER_GLOB"] = iterations;
@@ -396,6 +497,7 @@ class StaticAnalysis {
   const StaticProblem& problem_;
   const StepObserver& after_step_;
   const Mesh& mesh_;
+  const NewtonOptions& options_;
   Result& result_;
   Counters& counters_;
   DofMap dofs_;
@@ -410,6 +512,8 @@ class StaticAnalysis {
 
   Progress now_;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
+  Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
+  double last_instant_ = 0.0;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
-#include "solver/model/kinematics.hpp"
+#include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nonlinear/step_sequence.hpp"
 
@@ -31,6 +31,13 @@ struct Counters {
   double solving = 0.0;      ///< s: right-hand sides, refinement
 };
 
+/// Where a computation starts instead of undisplaced and without stress. What is not given is zero.
+struct InitialState {
+  std::optional<NodalField> displacement;
+  std::optional<ElementField> stresses;   ///< as SIEF_ELGA
+  std::optional<ElementField> variables;  ///< as VARI_ELGA
+};
+
 struct StaticProblem {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const MaterialField> materials;
@@ -39,7 +46,38 @@ struct StaticProblem {
   std::vector<AppliedLoad> followers;  ///< on the deformed one: see follower_forces.hpp
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
-  std::shared_ptr<const KinematicsOfCells> kinematics;  ///< null: small strains everywhere
+  std::shared_ptr<const BehaviourOfCells> behaviours;  ///< null: linear elasticity in small strains everywhere
+  std::shared_ptr<const InitialState> initial;         ///< null: at rest, or where the result that goes on left off
+};
+
+enum class TangentKind : std::uint8_t {
+  tangent,  ///< of what the material does
+  elastic   ///< as if it could only answer elastically
+};
+
+/// When the stiffness of nonlinear bodies is made again, and which one (U4.51.03, NEWTON). It changes the way to the solution alone.
+struct TangentPolicy {
+  TangentKind prediction = TangentKind::tangent;  ///< of the first iteration of a step
+  TangentKind correction = TangentKind::tangent;  ///< of the others
+  int steps = 1;       ///< REAC_INCR: made again for the first iteration of so many steps; 0: never
+  int iterations = 1;  ///< REAC_ITER: and after so many iterations within a step; 0: never
+};
+
+/// How far to go along a correction d of Newton's method (R5.03.01, RECH_LINEAIRE): where the work of the residual on d, g(rho) = d . R(u + rho d),
+/// has fallen below a share of g(0). It takes no part in the first iteration of a step.
+struct LineSearch {
+  bool bracketed = false;   ///< MIXTE: secants between bounds of a change of sign; else CORDE: secants alone
+  double tolerance = 0.1;   ///< RESI_LINE_RELA
+  int max_iterations = 3;   ///< ITER_LINE_MAXI
+  double smallest = 1e-2;   ///< RHO_MIN
+  double largest = 10.0;    ///< RHO_MAX
+  double excluded = 9e-3;   ///< RHO_EXCL: no |rho| below
+};
+
+/// What the first iteration of a step starts from.
+enum class StepGuess : std::uint8_t {
+  stay,        ///< the step before, and a prediction by the tangent
+  extrapolate  ///< where the displacements go if they keep their speed (EXTRAPOLE)
 };
 
 struct NewtonOptions {
@@ -49,6 +87,10 @@ struct NewtonOptions {
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
+  TangentPolicy tangent;
+  std::optional<LineSearch> line_search;  ///< for problems without contact and unilateral conditions
+  StepGuess guess = StepGuess::stay;
+  std::shared_ptr<const Result> guessed;  ///< not null: instead, steps start from the displacements of this result at their instants, linear between its steps (DEPL_CALCULE)
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };
 
@@ -73,9 +115,9 @@ using IterationObserver = std::function<void(const IterationReport&)>;
 using StepObserver = std::function<void(Result& result)>;
 
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
-/// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
+/// `result`: DEPL, SIEF_ELGA, VARI_ELGA where a material has a memory, and CONT_NOEU with contact. Steps already appended stay when it throws.
 /// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
-/// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
+/// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
 void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                   Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});

@@ -40,12 +40,17 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
       counters_(counters),
       linear_(options.linear) {}
 
-bool TangentSystem::refresh(const Eigen::VectorXd& u) {
-  if (factorised_ && is_constant() && version_ == assembler_.stiffness_version()) return false;
-  if (elimination_.reduced_size() == 0) return false;
+bool TangentSystem::is_known(TangentKind kind) const {
+  if (!factorised_ || version_ != assembler_.stiffness_version()) return false;
+  return is_constant() || (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
+}
+
+bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
+  if (is_known(kind) || elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
+  kind_ = kind;
   tangent_at_ = u;
-  SymmetricMatrix reduced = assembled(u);
+  SymmetricMatrix reduced = assembled(u, kind);
   if (is_symmetric())
     factorise(std::move(reduced));
   else
@@ -53,11 +58,26 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   return true;
 }
 
-SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
-  const Stopwatch stopwatch(counters_.assembling);
-  SymmetricMatrix whole = assembler_.stiffness(u);
+SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
+  SymmetricMatrix whole = kind == TangentKind::elastic ? assembler_.elastic_stiffness(u) : assembler_.stiffness(u);
   if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);
-  SymmetricMatrix reduced = elimination_.reduce(whole);
+  return whole;
+}
+
+Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const {
+  const Stopwatch stopwatch(counters_.assembling);
+  const SymmetricMatrix matrix = stiffness(u, kind);
+  Eigen::VectorXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
+  if (!is_symmetric()) {
+    const SkewMatrix lower = skew(u);
+    forces += lower * d - lower.transpose() * d;
+  }
+  return elimination_.transformation().transpose() * forces;
+}
+
+SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind kind) const {
+  const Stopwatch stopwatch(counters_.assembling);
+  SymmetricMatrix reduced = elimination_.reduce(stiffness(u, kind));
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
 }
@@ -163,7 +183,7 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
 
 Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
   if (unsymmetric_ || elimination_.reduced_size() < large_solid) return {};
-  const SymmetricMatrix stiffness = assembled(tangent_at_);
+  const SymmetricMatrix stiffness = assembled(tangent_at_, kind_);
   const Stopwatch stopwatch(counters_.factorising);
   ++counters_.factorisations;
   return bordered_compliance(stiffness, rows);
@@ -199,7 +219,7 @@ void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {
     solver_.reset();
     linear_.solid.reset();
     multigrid_failed_ = true;
-    factorise(assembled(Eigen::VectorXd::Zero(elimination_.full_size())));
+    factorise(assembled(Eigen::VectorXd::Zero(elimination_.full_size()), kind_));
     const Stopwatch stopwatch(counters_.solving);
     solver_->solve(columns);
   }

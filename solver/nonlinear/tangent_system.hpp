@@ -29,10 +29,16 @@ class TangentSystem {
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                 const NewtonOptions& options, Counters& counters);
 
-  /// Factorises the tangent at u unless it is known already, for the assembler's instant too. Returns whether it was factorised. Throws Error
+  /// Factorises the tangent at u unless it is known already, for the assembler's instant too. `kind`: which one, of bodies that are not
+  /// linear. Returns whether it was factorised. Throws Error
   /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds; `unsupported` for conjugate gradients
   /// with an unsymmetric tangent.
-  bool refresh(const Eigen::VectorXd& u);
+  bool refresh(const Eigen::VectorXd& u, TangentKind kind = TangentKind::tangent);
+  /// Whether there is a factorisation, of whatever displacement.
+  bool is_ready() const { return factorised_; }
+
+  /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom would cause.
+  Eigen::VectorXd reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const;
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
   void allow_springs() { may_add_springs_ = true; }
@@ -65,7 +71,9 @@ class TangentSystem {
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
 
  private:
-  SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
+  SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
+  SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
+  bool is_known(TangentKind kind) const;
   bool is_symmetric() const { return assembler_.is_symmetric() && !(followers_ && whole_); }
   SkewMatrix skew(const Eigen::VectorXd& u) const;
   void factorise(SymmetricMatrix reduced);
@@ -90,6 +98,7 @@ class TangentSystem {
   Eigen::VectorXd tangent_at_;  ///< u of the last factorisation
   int lost_digits_ = 0;
   bool factorised_ = false;
+  TangentKind kind_ = TangentKind::tangent;  ///< which was factorised
   bool multigrid_failed_ = false;
   bool may_add_springs_ = false;
   std::vector<std::pair<int, double>> springs_;

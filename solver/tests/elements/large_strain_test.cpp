@@ -2,7 +2,6 @@
 
 #include "sample_meshes.hpp"
 #include "solver/elements/assembler.hpp"
-#include "solver/error.hpp"
 
 using namespace comma::solver;
 
@@ -16,7 +15,7 @@ struct Body {
   Model model;
   MaterialField materials;
   ElementProperties properties;
-  KinematicsOfCells kinematics;
+  BehaviourOfCells behaviours;
 
   Body(Formulation formulation, bool solid) {
     model.mesh = std::make_shared<Mesh>();
@@ -35,7 +34,7 @@ struct Body {
     Material material;
     material.elasticity = IsotropicElasticity{young, poisson};
     materials.by_cell.assign(count, std::make_shared<const Material>(material));
-    kinematics.assign(count, Kinematics::green_lagrange);
+    behaviours.assign(count, {Kinematics::green_lagrange});
   }
 };
 
@@ -49,10 +48,11 @@ Eigen::VectorXd rough(int size, double amplitude) {
 
 TEST_CASE("the tangent of large strains is the derivative of the internal forces") {
   const auto [formulation, solid] = GENERATE(std::pair{Formulation::solid, true}, std::pair{Formulation::plane_strain, false},
+                                             std::pair{Formulation::plane_stress, false},
                                              std::pair{Formulation::axisymmetric, false});
   const Body body(formulation, solid);
   const DofMap dofs(body.model);
-  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.kinematics);
+  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.behaviours);
   const Eigen::VectorXd u = rough(dofs.size(), 0.15);
   const Eigen::MatrixXd lower = assembler.stiffness(u);
   const Eigen::MatrixXd tangent = lower.selfadjointView<Eigen::Lower>();
@@ -71,7 +71,7 @@ TEST_CASE("the tangent of large strains is the derivative of the internal forces
 TEST_CASE("a finite rotation strains nothing, and stretching a turned block gives Cauchy's stress in its axes") {
   const Body body(Formulation::solid, true);
   const DofMap dofs(body.model);
-  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.kinematics);
+  const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.behaviours);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto displaced = [&](const Eigen::Matrix3d& gradient) {
     Eigen::VectorXd u(dofs.size());
@@ -94,10 +94,4 @@ TEST_CASE("a finite rotation strains nothing, and stretching a turned block give
   const Eigen::Matrix3d cauchy = gradient * second.asDiagonal() * gradient.transpose() / stretch;
   CHECK(field.at(0, 0, field.component("SIXX")) == Approx(cauchy(0, 0)));
   CHECK(field.at(0, 0, field.component("SIYZ")) == Approx(cauchy(1, 2)));
-}
-
-TEST_CASE("what has no large strains says so") {
-  Body body(Formulation::plane_stress, false);
-  const DofMap dofs(body.model);
-  CHECK_THROWS_WITH(Assembler(body.model, body.materials, body.properties, dofs, &body.kinematics), Catch::Contains("plane stress"));
 }

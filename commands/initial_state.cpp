@@ -1,0 +1,69 @@
+#include "commands/initial_state.hpp"
+
+#include "commands/result_reading.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/fields/discretisation.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::DiagnosticError;
+using interpreter::Keywords;
+
+template <class Field>
+void take_field(const Keywords& keywords, const char* keyword, const char* kind, std::optional<Field>& target) {
+  if (!keywords.has(keyword)) return;
+  const auto* field = std::get_if<Field>(&keywords.data<FieldConcept>(keyword).field);
+  if (field == nullptr) {
+    throw DiagnosticError("wrong-type", std::string("ETAT_INIT/") + keyword + " must be a field " + kind, keywords.span_of(keyword));
+  }
+  target = *field;
+}
+
+template <class Field>
+void take_held(const solver::ResultStep& step, const char* name, std::optional<Field>& target) {
+  const auto found = step.fields.find(name);
+  if (found == step.fields.end()) return;
+  if (const auto* field = std::get_if<Field>(&found->second)) target = *field;
+}
+
+const solver::ResultStep& step_of(const Keywords& keywords) {
+  const solver::Result& result = keywords.data<ResultConcept>("EVOL_NOLI").result;
+  if (keywords.has("NUME_ORDRE") || keywords.has("INST")) return only_step(keywords, result, "a computation starts from one");
+  if (result.steps.empty()) throw DiagnosticError("unknown-step", "ETAT_INIT: the result holds no step to start from", keywords.span_of("EVOL_NOLI"));
+  return result.steps.back();
+}
+
+// Stresses and variables live at Gauss points.
+void bring_to_points(const interpreter::Call& call, std::optional<solver::ElementField>& field) {
+  if (!field || field->support == solver::Support::gauss_point) return;
+  field = solver::brought_to(*call.data<ModelConcept>("MODELE").model, *field, solver::Support::gauss_point, false);
+}
+
+}  // namespace
+
+InitialStateChoice initial_state(const interpreter::Call& call) {
+  InitialStateChoice choice;
+  if (!call.has("ETAT_INIT")) return choice;
+  const Keywords& keywords = call.factor("ETAT_INIT");
+  auto state = std::make_shared<solver::InitialState>();
+  if (keywords.has("EVOL_NOLI")) {
+    const solver::ResultStep& step = step_of(keywords);
+    take_held(step, "DEPL", state->displacement);
+    take_held(step, "SIEF_ELGA", state->stresses);
+    take_held(step, "VARI_ELGA", state->variables);
+    choice.instant = step.instant;
+    choice.order = step.order;
+  }
+  take_field(keywords, "DEPL", "at nodes", state->displacement);
+  take_field(keywords, "SIGM", "on cells", state->stresses);
+  take_field(keywords, "VARI", "on cells", state->variables);
+  bring_to_points(call, state->stresses);
+  bring_to_points(call, state->variables);
+  if (keywords.has("INST_ETAT_INIT")) choice.instant = keywords.real("INST_ETAT_INIT");
+  choice.state = std::move(state);
+  return choice;
+}
+
+}  // namespace comma::commands

@@ -1,0 +1,22 @@
+// Where a nonlinear computation starts from (STAT_NON_LINE, ETAT_INIT; U4.51.03).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "commands/concepts.hpp"
+#include "interpreter/call.hpp"
+
+namespace comma::commands {
+
+struct InitialStateChoice {
+  std::shared_ptr<const solver::InitialState> state;  ///< null without ETAT_INIT
+  std::optional<double> instant;                      ///< of the step of EVOL_NOLI, or INST_ETAT_INIT
+  std::optional<int> order;                           ///< NUME_ORDRE of that step
+};
+
+/// The step of EVOL_NOLI that NUME_ORDRE or INST names, the last one without; DEPL, SIGM and VARI in the place of its fields. Throws
+/// DiagnosticError `unknown-step`, `wrong-type` for a field of another kind.
+InitialStateChoice initial_state(const interpreter::Call& call);
+
+}  // namespace comma::commands

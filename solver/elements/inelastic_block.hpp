@@ -1,0 +1,330 @@
+// Continua whose material has a memory, in small strains or large ones, with the template of elastic ones beneath.
+#pragma once
+
+#include <vector>
+
+#include "solver/elements/continuum_block.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
+#include "solver/materials/behaviour/point_law.hpp"
+
+namespace comma::solver {
+
+/// Keeps what each integration point was when the step began; all that it computes is of a trial from there, until accept() makes one the next
+/// step's beginning. Large strains are on the initial geometry: internal forces F S grad N over the initial volume.
+template <int Dim, int Nodes, bool Axisymmetric>
+class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
+  using Base = ContinuumBlock<Dim, Nodes, Axisymmetric>;
+  using typename Base::Coordinates;
+  using typename Base::Displacements;
+  using typename Base::Point;
+  using typename Base::Stiffness;
+  using typename Base::Strain;
+  using typename Base::StrainRow;
+  using Base::size;
+  using Base::strains;
+
+ public:
+  InelasticBlock(const BlockInput& input, std::vector<int> cells)
+      : Base(input, std::move(cells)),
+        law_(input.behaviour_of(this->cells_.front()),
+             this->formulation_ == Formulation::plane_stress || this->formulation_ == Formulation::plane_stress_reduced) {
+    collect_constants(input);
+    past_.resize(this->cells_.size() * this->samples_.size());
+  }
+
+  bool is_linear() const override { return law_.is_linear(); }
+  bool is_elastically_linear() const override { return !law_.is_large(); }
+  bool has_memory() const override { return true; }
+
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    assemble(u, state, column_starts, values, &PointLaw::respond);
+  }
+  void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    add_forces(u, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      return respond(element, g, x, gradient, state, &PointLaw::respond).stress;
+    });
+  }
+
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
+    add_forces(u, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
+      const Vector6d stress = padded(reported.data() + (element * this->point_count() + g) * strains);
+      return law_.is_large() ? second_stress_of(gradient, stress) : stress;
+    });
+  }
+
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
+    for (const int cell : this->cells_)
+      if (imposed.acts_on(cell))
+        throw Error("unsupported", fmt::format("cell {}: initial strains are known for linear elasticity only", this->mesh_.cell_name(cell)));
+  }
+
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    double* target = out.data();
+    visit(u, state, [&](std::size_t, const Eigen::Matrix3d&, const PointResponse& response) {
+      Eigen::Map<Strain> written(target);
+      written = response.reported.template head<strains>();
+      target += strains;
+    });
+  }
+
+  int variable_count() const override { return law_.variable_count(); }
+  void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    double* target = out.data();
+    visit(u, state, [&](std::size_t, const Eigen::Matrix3d&, const PointResponse& response) {
+      target = std::copy_n(response.variables.begin(), law_.variable_count(), target);
+    });
+  }
+
+  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const override { std::ranges::fill(out, absent); }
+
+  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables,
+                        std::span<double> out) const override {
+    const auto count = static_cast<std::size_t>(law_.variable_count());
+    each_point(u, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      const std::size_t index = point_index(element, g);
+      const Constants constants(*this, element, g, x, state);
+      PointPast at;
+      at.gradient = gradient;
+      at.inelastic = constants.inelastic;
+      at.moduli = *constants.plastic;
+      std::copy_n(variables.data() + index * count, count, at.variables.begin());
+      at.stress = law_.own_stress(at, padded(reported.data() + index * strains), true);
+      out[index] = law_.elastic_energy(at, *constants.plastic);
+    });
+  }
+
+  void accept(const Eigen::VectorXd& u, const VariableState& state) override {
+    visit(u, state, [&](std::size_t point, const Eigen::Matrix3d& gradient, const PointResponse& response) {
+      past_[point].gradient = gradient;
+      past_[point].stress = response.own;
+      past_[point].variables = response.variables;
+    });
+    remember_materials(state);
+  }
+
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
+    const auto count = static_cast<std::size_t>(law_.variable_count());
+    remember_materials(state);
+    each_point(u, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
+      const std::size_t index = point_index(element, g);
+      PointPast& past = past_[index];
+      past.gradient = gradient;
+      past.stress.setZero();
+      past.variables.fill(0.0);
+      if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
+      if (reported.empty() && variables.empty()) return;
+      const Vector6d shown = reported.empty() ? Vector6d::Zero().eval() : padded(reported.data() + index * strains);
+      past.stress = law_.own_stress(past, shown, !variables.empty());
+    });
+  }
+
+ private:
+  using Respond = PointResponse (PointLaw::*)(const PointInput&) const;
+
+  std::size_t point_index(int element, int g) const { return static_cast<std::size_t>(element) * this->samples_.size() + static_cast<std::size_t>(g); }
+
+  static Vector6d padded(const double* stress) {
+    Vector6d result = Vector6d::Zero();
+    result.head<strains>() = Eigen::Map<const Strain>(stress);
+    return result;
+  }
+
+  /// The constants once for each material that does not vary.
+  void collect_constants(const BlockInput& input) {
+    std::map<const Material*, int> known;
+    for (const int cell : this->cells_) {
+      const Material* material = input.materials.by_cell[static_cast<std::size_t>(cell)].get();
+      const auto [entry, is_new] = known.try_emplace(material, static_cast<int>(plastic_materials_.size()));
+      if (is_new) plastic_materials_.push_back(plastic_material(input, cell, *material));
+      plastic_material_of_element_.push_back(entry->second);
+    }
+  }
+
+  struct PlasticMaterial {
+    const IsotropicElasticity* elasticity;
+    const Plasticity* plasticity;
+    bool constant;
+    PlasticPoint point;
+  };
+
+  PlasticMaterial plastic_material(const BlockInput& input, int cell, const Material& material) const {
+    const IsotropicElasticity& elasticity = isotropic_material(input, cell);
+    PlasticMaterial result{&elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
+    if (result.constant) result.point = located(cell, [&] { return plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint()); });
+    return result;
+  }
+
+  /// An error says in which cell.
+  template <class Compute>
+  auto located(int cell, Compute&& compute) const {
+    try {
+      return compute();
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), this->mesh_.cell_name(cell)), error.hint());
+    }
+  }
+
+  /// What the material is at a point.
+  struct Constants {
+    const PlasticPoint* plastic;
+    Vector6d inelastic = Vector6d::Zero();
+    PlasticPoint own;  ///< written when it varies alone
+
+    Constants(const InelasticBlock& block, int element, int g, const Coordinates& x, const VariableState& state) {
+      const PlasticMaterial& material = block.plastic_materials_[static_cast<std::size_t>(block.plastic_material_of_element_[static_cast<std::size_t>(element)])];
+      const auto& elastic = block.materials_[block.material_of_element_[element]];
+      plastic = &material.point;
+      if (material.constant && (!elastic.expands || state.empty())) return;
+      const MaterialPoint at = block.material_point(element, g, x, state);
+      if (elastic.expands) inelastic = inelastic_strain(elastic.material, at);
+      if (material.constant) return;
+      own = plastic_point(*material.elasticity, *material.plasticity, block.law_.relation(), at);
+      plastic = &own;
+    }
+    Constants(const Constants&) = delete;
+    Constants& operator=(const Constants&) = delete;
+  };
+
+  PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const VariableState& state, Respond how) const {
+    return located(this->cells_[static_cast<std::size_t>(element)], [&] {
+      const Constants constants(*this, element, g, x, state);
+      return (law_.*how)({gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
+    });
+  }
+
+  void remember_materials(const VariableState& state) {
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      const Coordinates x = this->coordinates(element);
+      for (int g = 0; g < this->point_count(); ++g) {
+        located(this->cells_[static_cast<std::size_t>(element)], [&] {
+          const Constants constants(*this, element, g, x, state);
+          past_[point_index(element, g)].inelastic = constants.inelastic;
+          past_[point_index(element, g)].moduli = *constants.plastic;
+        });
+      }
+    }
+  }
+
+  Eigen::Matrix3d gradient_of_displacement(const Displacements& u, int g, const Point& point) const {
+    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+    h.template topLeftCorner<Dim, Dim>() = u.relative.transpose() * point.gradients;
+    if constexpr (Axisymmetric) h(2, 2) = this->samples_[g].values.dot(u.radial) / point.radius;
+    return h;
+  }
+
+  /// Calls visitor(element, g, coordinates, H) for each point.
+  template <class Visitor>
+  void each_point(const Eigen::VectorXd& u, Visitor&& visitor) const {
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      const Displacements displacements = Base::relative_displacements(u, dofs);
+      const Coordinates x = this->coordinates(element);
+      for (int g = 0; g < this->point_count(); ++g)
+        visitor(element, g, x, gradient_of_displacement(displacements, g, Base::locate(x, this->samples_[g])));
+    }
+  }
+
+  /// Calls visitor(index of the point, H, response).
+  template <class Visitor>
+  void visit(const Eigen::VectorXd& u, const VariableState& state, Visitor&& visitor) const {
+    each_point(u, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      visitor(point_index(element, g), gradient, respond(element, g, x, gradient, state, &PointLaw::respond));
+    });
+  }
+
+  /// The variation of the strain that a displacement of node a causes: of Green and Lagrange's at F = I + H in large strains.
+  StrainRow row(const Eigen::Matrix3d& gradient, int g, const Point& point, int a) const {
+    if (!law_.is_large()) return Base::strain_row(this->samples_[g], point, a);
+    const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradient;
+    StrainRow result = StrainRow::Zero();
+    const auto n = point.gradients.row(a);
+    for (int i = 0; i < Dim; ++i) {
+      result(0, i) = f(i, 0) * n(0);
+      result(1, i) = f(i, 1) * n(1);
+      result(3, i) = f(i, 0) * n(1) + f(i, 1) * n(0);
+      if constexpr (Dim == 3) {
+        result(2, i) = f(i, 2) * n(2);
+        result(4, i) = f(i, 0) * n(2) + f(i, 2) * n(0);
+        result(5, i) = f(i, 1) * n(2) + f(i, 2) * n(1);
+      }
+    }
+    if constexpr (Axisymmetric) result(2, 0) = f(2, 2) * this->samples_[g].values(a) / point.radius;
+    return result;
+  }
+
+  /// `stress_at`(element, g, coordinates, H): the stress whose work on the strain is that of the forces.
+  template <class StressAt>
+  void add_forces(const Eigen::VectorXd& u, ForceSum forces, StressAt&& stress_at) const {
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      const Displacements displacements = Base::relative_displacements(u, dofs);
+      const Coordinates x = this->coordinates(element);
+      Coordinates force = Coordinates::Zero();
+      for (int g = 0; g < this->point_count(); ++g) {
+        const Point point = Base::locate(x, this->samples_[g]);
+        const Eigen::Matrix3d gradient = gradient_of_displacement(displacements, g, point);
+        const Strain stress = point.weight * stress_at(element, g, x, gradient).template head<strains>();
+        for (int a = 0; a < Nodes; ++a) force.row(a) += (row(gradient, g, point, a).transpose() * stress).transpose();
+      }
+      Base::scatter_forces(force, dofs, forces);
+    }
+  }
+
+  void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values, Respond how) const {
+    Stiffness k;
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      tangent(element, Base::relative_displacements(u, dofs), state, how, k);
+      this->map_.add(element, k.data(), column_starts, values);
+    }
+  }
+
+  void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {
+    const Coordinates x = this->coordinates(element);
+    k.setZero();
+    std::array<StrainRow, Nodes> rows;
+    for (int g = 0; g < this->point_count(); ++g) {
+      const Point point = Base::locate(x, this->samples_[g]);
+      const Eigen::Matrix3d gradient = gradient_of_displacement(u, g, point);
+      const PointResponse response = respond(element, g, x, gradient, state, how);
+      const typename Base::Law law = response.tangent.template topLeftCorner<strains, strains>();
+      for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
+      for (int b = 0; b < Nodes; ++b) {
+        const StrainRow image = point.weight * (law * rows[b]);
+        for (int a = b; a < Nodes; ++a) k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
+      }
+      if (law_.is_large()) add_geometric(g, point, response.stress, k);
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
+  }
+
+  /// What the stress adds when the strain's own variation turns (lower triangle).
+  void add_geometric(int g, const Point& point, const Vector6d& second, Stiffness& k) const {
+    const Eigen::Matrix<double, Dim, Dim> stress = tensor_of_stress(second).template topLeftCorner<Dim, Dim>();
+    for (int b = 0; b < Nodes; ++b) {
+      const Eigen::Matrix<double, Dim, 1> pull = point.weight * (stress * point.gradients.row(b).transpose());
+      for (int a = b; a < Nodes; ++a) {
+        auto block = k.template block<Dim, Dim>(a * Dim, b * Dim);
+        block.diagonal().array() += point.gradients.row(a).dot(pull);
+        if constexpr (Axisymmetric)
+          block(0, 0) += point.weight * second[2] * this->samples_[g].values(a) * this->samples_[g].values(b) / (point.radius * point.radius);
+      }
+    }
+  }
+
+  PointLaw law_;
+  std::vector<PointPast> past_;  ///< cells x points
+  std::vector<PlasticMaterial> plastic_materials_;
+  std::vector<int> plastic_material_of_element_;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,236 @@
+#include "solver/materials/behaviour/point_law.hpp"
+
+#include <cmath>
+
+#include "solver/error.hpp"
+#include "solver/materials/behaviour/hyperelastic.hpp"
+#include "solver/materials/behaviour/large_strain.hpp"
+#include "solver/materials/behaviour/logarithmic_strain.hpp"
+#include "solver/materials/behaviour/multiplicative.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr int tensor_size = 6;
+
+Vector6d small_strain(const Eigen::Matrix3d& h) {
+  Vector6d strain;
+  strain << h(0, 0), h(1, 1), h(2, 2), h(0, 1) + h(1, 0), h(0, 2) + h(2, 0), h(1, 2) + h(2, 1);
+  return strain;
+}
+
+bool keeps_tensor(Kinematics kinematics) { return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative; }
+
+/// The energy behind the pressure of the multiplicative split, e being the thermal expansion.
+double volume_energy(double bulk, double expansion, double j) {
+  return 0.5 * bulk * (0.5 * (j * j - 1.0) - std::log(j)) - 1.5 * bulk * expansion * (j - 1.0 / j);
+}
+
+/// Where that pressure vanishes: J (J^2 - 1) = 3 e (J^2 + 1).
+double free_volume(double expansion) {
+  double j = 1.0;
+  constexpr int rounds = 20;  // from 1 on, expansions being small: more than enough
+  for (int round = 0; round < rounds; ++round)
+    j -= (j * (j * j - 1.0) - 3.0 * expansion * (j * j + 1.0)) / (3.0 * j * j - 1.0 - 6.0 * expansion * j);
+  return j;
+}
+
+/// The strain across the plane in plane stress: all volume is elastic or thermal.
+double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic, const PlasticModuli& now) {
+  return stress.head<3>().sum() / (3.0 * now.bulk) + inelastic.head<3>().sum() - strain[0] - strain[1];
+}
+
+/// Green and Lagrange's, with shear angles.
+Vector6d green_strain(const Eigen::Matrix3d& h) {
+  Vector6d strain = components_of_stress(green_lagrange_strain(h));
+  strain.tail<3>() *= 2.0;
+  return strain;
+}
+
+}  // namespace
+
+PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(behaviour), in_plane_(in_plane) {
+  if (behaviour.relation == Relation::hyperelastic) {
+    if (in_plane) throw Error("unsupported", "rubber is not known in plane stress", "take plane strain or a solid");
+    if (behaviour.kinematics != Kinematics::green_lagrange)
+      throw Error("unsupported", "rubber has large strains on the initial geometry", "take DEFORMATION='GREEN_LAGRANGE'");
+  }
+  if (behaviour.kinematics != Kinematics::multiplicative) return;
+  if (in_plane) throw Error("unsupported", "the multiplicative split of strains is not known in plane stress", "take DEFORMATION='GDEF_LOG'");
+  if (own_count() > 2) throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only", "take DEFORMATION='GDEF_LOG'");
+}
+
+int PointLaw::own_count() const {
+  switch (behaviour_.relation) {
+    case Relation::elastic:
+    case Relation::hyperelastic: return 1;
+    case Relation::kinematic_linear: return tensor_size + 1;
+    case Relation::mixed_linear:
+    case Relation::mixed_traction: return 2 + tensor_size;
+    default: return 2;
+  }
+}
+
+int PointLaw::variable_count() const {
+  return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0);
+}
+
+PlasticState PointLaw::state_of(const PointPast& past) const {
+  PlasticState state;
+  state.stress = past.stress;
+  const auto& v = past.variables;
+  switch (behaviour_.relation) {
+    case Relation::elastic:
+    case Relation::hyperelastic: break;
+    case Relation::kinematic_linear:
+      state.back_stress = Eigen::Map<const Vector6d>(v.data());
+      state.flowing = v[tensor_size] > 0.5;
+      break;
+    case Relation::mixed_linear:
+    case Relation::mixed_traction:
+      state.back_stress = Eigen::Map<const Vector6d>(v.data() + 2);
+      [[fallthrough]];
+    default:
+      state.p = v[0];
+      state.flowing = v[1] > 0.5;
+  }
+  return state;
+}
+
+void PointLaw::write(const PlasticState& state, PointResponse& response) const {
+  auto& v = response.variables;
+  switch (behaviour_.relation) {
+    case Relation::elastic:
+    case Relation::hyperelastic: break;
+    case Relation::kinematic_linear:
+      Eigen::Map<Vector6d>(v.data()) = state.back_stress;
+      v[tensor_size] = state.flowing ? 1.0 : 0.0;
+      break;
+    case Relation::mixed_linear:
+    case Relation::mixed_traction:
+      Eigen::Map<Vector6d>(v.data() + 2) = state.back_stress;
+      [[fallthrough]];
+    default:
+      v[0] = state.p;
+      v[1] = state.flowing ? 1.0 : 0.0;
+  }
+}
+
+PlasticResponse PointLaw::integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const {
+  const PlasticState state = state_of(past);
+  return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment) : integrate_von_mises(past.moduli, now, state, increment);
+}
+
+PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) const {
+  const Vector6d increment = small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  const PlasticResponse result = integrate(input.past, now, increment);
+  const Vector6d& stress = result.state.stress;
+  PointResponse response{stress, result.tangent, stress, stress, {}};
+  write(result.state, response);
+  return response;
+}
+
+PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint& now) const {
+  const LogarithmicStrain strain(input.gradient);
+  const Vector6d increment = strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
+  const PlasticResponse result = integrate(input.past, now, increment);
+  const Vector6d& t = result.state.stress;
+  PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), t, {}};
+  response.reported = cauchy_stress(input.gradient, response.stress);
+  if (in_plane_) response.reported /= std::exp(strain_across(strain.strain(), t, input.inelastic, now));
+  write(result.state, response);
+  Eigen::Map<Vector6d>(response.variables.data() + own_count()) = t;
+  return response;
+}
+
+PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoint& now) const {
+  const PlasticState past = state_of(input.past);
+  const Eigen::Map<const Vector6d> compression(input.past.variables.data() + own_count());
+  const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p, past.flowing};
+  const MultiplicativeResponse result = integrate_multiplicative(now, state, input.past.gradient, input.gradient, input.inelastic[0]);
+  PointResponse response{result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
+  PlasticState reached;
+  reached.p = result.state.p;
+  reached.flowing = result.state.flowing;
+  write(reached, response);
+  Eigen::Map<Vector6d>(response.variables.data() + own_count()) =
+      components_of_stress(0.5 * (Eigen::Matrix3d::Identity() - result.state.elastic));
+  return response;
+}
+
+PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint& now) const {
+  if (behaviour_.relation == Relation::hyperelastic) return rubber(input, now);
+  switch (behaviour_.kinematics) {
+    case Kinematics::green_lagrange: return green(input, now);
+    case Kinematics::logarithmic: return logarithmic(input, now);
+    case Kinematics::multiplicative: return multiplicative(input, now);
+    default: return small(input, now);
+  }
+}
+
+/// In plane stress the thickness takes part, which the second stress decides itself: a few rounds settle it.
+Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const {
+  const Vector6d on_initial_thickness = second_stress_of(gradient, reported);
+  if (!in_plane_) return on_initial_thickness;
+  constexpr int rounds = 30;
+  Vector6d stress = on_initial_thickness;
+  for (int round = 0; round < rounds; ++round)
+    stress = std::sqrt(1.0 + 2.0 * strain_across(green_strain(gradient), stress, past.inelastic, past.moduli)) * on_initial_thickness;
+  return stress;
+}
+
+Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const {
+  switch (behaviour_.kinematics) {
+    case Kinematics::small: return reported;
+    case Kinematics::green_lagrange: return second_stress(past.gradient, reported, past);
+    case Kinematics::logarithmic:
+      if (has_variables) return Eigen::Map<const Vector6d>(past.variables.data() + own_count());
+      return LogarithmicStrain(past.gradient).stress_of(second_stress_of(past.gradient, reported));
+    case Kinematics::multiplicative: return Vector6d::Zero();
+  }
+  return reported;
+}
+
+double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constants) const {
+  if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, at.gradient);
+  if (behaviour_.kinematics == Kinematics::multiplicative) {
+    const double j = deformation_gradient(at.gradient).determinant();
+    const double rest = free_volume(at.inelastic[0]);
+    const double compression = at.variables[static_cast<std::size_t>(own_count())] + at.variables[static_cast<std::size_t>(own_count() + 1)] +
+                               at.variables[static_cast<std::size_t>(own_count() + 2)];
+    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) - constants.shear * compression;
+  }
+  const double pressure = at.stress.head<3>().sum() / 3.0;
+  Vector6d deviator = at.stress;
+  deviator.head<3>().array() -= pressure;
+  const double square = deviator.head<3>().squaredNorm() + 2.0 * deviator.tail<3>().squaredNorm();
+  return 0.25 * square / constants.shear + 0.5 * pressure * pressure / constants.bulk;
+}
+
+PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) const {
+  const Vector6d strain = green_strain(input.gradient);
+  const Vector6d increment = strain - green_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  deformation_gradient(input.gradient);  // which must not be turned inside out
+  const PlasticResponse result = integrate(input.past, now, increment);
+  const Vector6d& stress = result.state.stress;
+  PointResponse response{stress, result.tangent, cauchy_stress(input.gradient, stress), stress, {}};
+  if (in_plane_) response.reported /= std::sqrt(1.0 + 2.0 * strain_across(strain, stress, input.inelastic, now));
+  write(result.state, response);
+  return response;
+}
+
+PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now) const {
+  const HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, input.gradient);
+  return {result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
+}
+
+PointResponse PointLaw::respond(const PointInput& input) const { return respond_with(input, input.constants); }
+
+PointResponse PointLaw::respond_elastically(const PointInput& input) const {
+  PlasticPoint elastic{input.constants, NoYield{}};
+  elastic.hyperelasticity = input.constants.hyperelasticity;
+  return respond_with(input, elastic);
+}
+
+}  // namespace comma::solver

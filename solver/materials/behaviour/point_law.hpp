@@ -1,0 +1,87 @@
+// The law of one integration point that has a memory: kinematics, constitutive relation and plane stress put together.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <Eigen/Dense>
+
+#include "solver/materials/behaviour/von_mises.hpp"
+#include "solver/model/behaviour.hpp"
+
+namespace comma::solver {
+
+/// No relation has more internal variables.
+inline constexpr int most_variables = 16;
+
+/// A point where the step began.
+struct PointPast {
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< H = du / dX
+  Vector6d stress = Vector6d::Zero();                  ///< of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff
+  Vector6d inelastic = Vector6d::Zero();               ///< strain of the command variables
+  PlasticModuli moduli;
+  std::array<double, most_variables> variables{};
+};
+
+/// What there is now. `inelastic`, `constants`: of the command variables of the moment.
+struct PointInput {
+  const Eigen::Matrix3d& gradient;
+  const Vector6d& inelastic;
+  const PlasticPoint& constants;
+  const PointPast& past;
+};
+
+struct PointResponse {
+  Vector6d stress;    ///< whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress
+  Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
+  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in plane stress
+  Vector6d own = Vector6d::Zero();  ///< the stress of the law's own strain, which the next step begins with
+  std::array<double, most_variables> variables{};
+};
+
+class PointLaw {
+ public:
+  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the multiplicative split and rubber with
+  /// plane stress, the split with kinematic hardening, rubber with other strains than Green and Lagrange's.
+  PointLaw(const CellBehaviour& behaviour, bool in_plane);
+
+  /// Large strains have their forces on the deformed, small ones on the initial geometry.
+  bool is_large() const { return behaviour_.kinematics != Kinematics::small; }
+  /// Whether the tangent never changes.
+  bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
+  Relation relation() const { return behaviour_.relation; }
+
+  /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic hardening; the six of the back
+  /// stress and the indicator of kinematic hardening; cumulated strain, indicator and back stress of both together; one zero of elasticity
+  /// (U4.51.11). Logarithmic strains add the six components of their stress T, the multiplicative split those of (I - b) / 2.
+  int variable_count() const;
+
+  /// Throws Error `integration-failure`, `out-of-function`.
+  PointResponse respond(const PointInput& input) const;
+  /// The same as if nothing could flow from here on.
+  PointResponse respond_elastically(const PointInput& input) const;
+
+  /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress that results show.
+  Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
+
+  /// The elastic energy for an initial volume of a point with its gradient, own stress and variables.
+  double elastic_energy(const PointPast& at, const PlasticPoint& constants) const;
+
+ private:
+  PointResponse respond_with(const PointInput& input, const PlasticPoint& now) const;
+  int own_count() const;
+  PlasticState state_of(const PointPast& past) const;
+  void write(const PlasticState& state, PointResponse& response) const;
+  PlasticResponse integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const;
+  Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
+  PointResponse green(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse rubber(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse small(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse logarithmic(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse multiplicative(const PointInput& input, const PlasticPoint& now) const;
+
+  CellBehaviour behaviour_;
+  bool in_plane_;
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,140 @@
+#include "solver/materials/behaviour/von_mises.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+/// Of the stresses, what rounding leaves of an equation between them.
+constexpr double rounding_share = 1e-14;
+constexpr int most_iterations = 200;
+
+double trace(const Vector6d& t) { return t[0] + t[1] + t[2]; }
+
+/// Strains have shear angles, which count half.
+Vector6d as_tensor(const Vector6d& strain) {
+  Vector6d tensor = strain;
+  tensor.tail<3>() *= 0.5;
+  return tensor;
+}
+
+Vector6d deviator(Vector6d t) {
+  t.head<3>().array() -= trace(t) / 3.0;
+  return t;
+}
+
+double inner(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
+
+/// K 1 x 1 + 2 share mu (I - 1 x 1 / 3), for strains with shear angles.
+Matrix6d elastic_matrix(const PlasticModuli& now, double share) {
+  const double shear = share * now.shear;
+  Matrix6d d = Matrix6d::Zero();
+  d.topLeftCorner<3, 3>().setConstant(now.bulk - 2.0 / 3.0 * shear);
+  d.diagonal().head<3>().array() += 2.0 * shear;
+  d.diagonal().tail<3>().setConstant(shear);
+  return d;
+}
+
+double stiffness_ratio(double now, double before) { return before != 0.0 ? now / before : 1.0; }
+
+/// Adds the part of the flow to an elastic matrix. `normal`: 3/2 (s - X) / (its size), with single shears.
+void subtract_flow(Matrix6d& d, const PlasticModuli& now, const Vector6d& normal, double factor) {
+  d -= (4.0 * now.shear * now.shear * factor) * normal * normal.transpose();
+}
+
+}  // namespace
+
+/// Falling, from > 0 at 0 to < 0 at trial / hardness: Newton's method between bounds.
+double plastic_increment(const HardeningCurve& curve, double trial, double hardness, double p) {
+  double low = 0.0, high = trial / hardness;
+  double dp = 0.0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const auto [radius, slope] = hardening(curve, p + dp);
+    const double excess = trial - hardness * dp - radius;
+    if (std::abs(excess) <= rounding_share * trial) return dp;
+    (excess > 0.0 ? low : high) = dp;
+    const double full = hardness + slope;
+    double next = full > 0.0 && std::isfinite(full) ? dp + excess / full : high;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == dp || !(high > low)) return dp;
+    dp = next;
+  }
+  throw Error("integration-failure", fmt::format("the plastic strain of a point cannot be found beyond {:.6g}: the hardening falls too steeply", p),
+              "take smaller steps, or check the hardening curve");
+}
+
+PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment) {
+  const Vector6d strain = as_tensor(increment);
+  const Vector6d deviatoric = stiffness_ratio(now.shear, before.shear) * deviator(state.stress) + 2.0 * now.shear * deviator(strain);
+  const double pressure = stiffness_ratio(now.bulk, before.bulk) * trace(state.stress) / 3.0 + now.bulk * trace(strain);
+  const Vector6d back = stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
+  const Vector6d relative = deviatoric - back;
+  const double size = std::sqrt(1.5 * inner(relative, relative));
+  const double hardness = 3.0 * now.shear + 1.5 * now.kinematic;
+
+  PlasticResponse response;
+  response.state.p = state.p;
+  response.state.back_stress = back;
+  response.state.stress = deviatoric;
+  const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
+  if (!may_flow || !(size > hardening(now.curve, state.p).first * (1.0 + rounding_share))) {
+    response.tangent = elastic_matrix(now, 1.0);
+    if (may_flow && state.flowing && size > 0.0 && increment.isZero(0.0)) {
+      // Nothing moves yet: what flowed in the last step is taken to flow on.
+      const Vector6d normal = 1.5 / size * relative;
+      response.state.flowing = true;
+      subtract_flow(response.tangent, now, normal, 1.0 / (hardness + hardening(now.curve, state.p).second));
+    }
+  } else {
+    const double dp = plastic_increment(now.curve, size, hardness, state.p);
+    const Vector6d normal = 1.5 / size * relative;
+    response.state.p = state.p + dp;
+    response.state.flowing = true;
+    response.state.stress -= 2.0 * now.shear * dp * normal;
+    response.state.back_stress += now.kinematic * dp * normal;
+    const double slope = hardening(now.curve, state.p + dp).second;
+    response.tangent = elastic_matrix(now, 1.0 - 3.0 * now.shear * dp / size);
+    subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
+  }
+  response.state.stress.head<3>().array() += pressure;
+  return response;
+}
+
+PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
+                                             const Vector6d& increment) {
+  constexpr int across = 2;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  Vector6d strain = increment;
+  strain[across] = 0.0;
+  PlasticResponse response = integrate_von_mises(before, now, state, strain);
+  for (int iteration = 0;; ++iteration) {
+    const double stress = response.state.stress[across];
+    const double scale = response.state.stress.cwiseAbs().maxCoeff() + std::abs(response.tangent(across, across) * strain[across]);
+    if (std::abs(stress) <= rounding_share * scale) break;
+    if (iteration == most_iterations) {
+      throw Error("integration-failure", "the strain across the plane of a point in plane stress cannot be found", "take smaller steps");
+    }
+    // The stress rises with the strain: Newton's method between bounds.
+    (stress > 0.0 ? high : low) = strain[across];
+    const double last = strain[across];
+    strain[across] -= stress / response.tangent(across, across);
+    if (!(strain[across] > low && strain[across] < high)) strain[across] = 0.5 * (low + high);
+    if (strain[across] == last) break;
+    response = integrate_von_mises(before, now, state, strain);
+  }
+  const Vector6d column = response.tangent.col(across);
+  response.tangent -= column * column.transpose() / column[across];
+  response.tangent.row(across).setZero();
+  response.tangent.col(across).setZero();
+  response.state.stress[across] = 0.0;
+  return response;
+}
+
+}  // namespace comma::solver

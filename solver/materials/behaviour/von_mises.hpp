@@ -1,0 +1,40 @@
+// Von Mises plasticity with isotropic and linear kinematic hardening, integrated implicitly by radial return (R5.03.02, R5.03.16; Simo
+// and Hughes, Computational Inelasticity, chapter 3).
+//
+// Stresses are (xx, yy, zz, xy, xz, yz), strains alike with shear angles.
+#pragma once
+
+#include "solver/materials/behaviour/hardening.hpp"
+
+namespace comma::solver {
+
+/// What a point remembers. The back stress X = C (plastic strain) is the centre of the yield surface.
+struct PlasticState {
+  Vector6d stress = Vector6d::Zero();
+  Vector6d back_stress = Vector6d::Zero();
+  double p = 0.0;        ///< cumulated plastic strain
+  bool flowing = false;  ///< whether the last step was plastic
+};
+
+struct PlasticResponse {
+  PlasticState state;
+  Matrix6d tangent;  ///< d stress / d strain: consistent with the integration, of the flow itself where the strain does not change
+};
+
+/// dp >= 0 with trial - hardness dp - R(p + dp) = 0, for trial > R(p). Throws Error `integration-failure` for softening steeper than the elasticity
+/// bears.
+double plastic_increment(const HardeningCurve& curve, double trial, double hardness, double p);
+
+/// The stress after a strain increment (less that of the command variables), from the state before and its constants `before`, by those
+/// of now: yield where sqrt(3/2) |s - X| > R(p), then
+///
+///     sqrt(3/2) |s_trial - X| - (3 mu + 3/2 C) dp - R(p + dp) = 0.
+///
+/// Elastic strains and plastic strains are kept when the constants change. Throws what plastic_increment() does.
+PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment);
+
+/// The same without stress across the plane: the strain zz is an unknown (the row and column of zz of the tangent are zero).
+PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
+                                             const Vector6d& increment);
+
+}  // namespace comma::solver

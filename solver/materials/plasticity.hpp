@@ -1,0 +1,65 @@
+// What lies beyond linear elasticity: hardening curves and the motion of the yield surface of metals, the energy of rubber.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/functions/function.hpp"
+#include "solver/materials/property.hpp"
+
+namespace comma::solver {
+
+/// The traction curve is bilinear: beyond `yield` (stress) it has the slope `slope` (stress over total strain), less than Young's modulus.
+struct LinearHardening {
+  Property slope{};
+  Property yield{};
+};
+
+/// Stress over total strain in simple traction, the yield point first (R5.03.02); one curve, or one for each of some rising
+/// temperatures, between which and beyond which (`left`, `right`) R(p) follows.
+struct TractionHardening {
+  std::vector<double> temperatures;
+  std::vector<TabulatedFunction> curves;
+  Extension left = Extension::excluded;
+  Extension right = Extension::excluded;
+};
+
+/// R(p) = s + s (E p / (a s))^(1 / n) with the yield stress s (R5.03.02).
+struct PowerHardening {
+  double yield = 0.0;
+  double factor = 1.0;    ///< a
+  double exponent = 1.0;  ///< n
+};
+
+/// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m.
+struct NonlinearHardening {
+  double initial = 0.0;   ///< R0
+  double slope = 0.0;     ///< H
+  double first = 0.0;     ///< R1
+  double first_rate = 0.0;
+  double second = 0.0;    ///< R2
+  double second_rate = 0.0;
+  double power_factor = 0.0;  ///< K
+  double power_offset = 0.0;  ///< p0
+  double power = 1.0;         ///< m
+};
+
+/// The energy of Signorini (see hyperelastic.hpp).
+struct Hyperelasticity {
+  double c10 = 0.0;
+  double c01 = 0.0;
+  double c20 = 0.0;
+  double bulk = 0.0;
+};
+
+/// What is given of a material; a relation takes what it needs.
+struct Plasticity {
+  std::optional<LinearHardening> linear;
+  std::optional<TractionHardening> traction;
+  std::optional<PowerHardening> power;
+  std::optional<NonlinearHardening> nonlinear;
+  std::optional<Hyperelasticity> hyperelasticity;
+  std::optional<Property> prager;  ///< C: the centre of the yield surface moves by C times the plastic strain
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,47 @@
+// How the material of each cell behaves: how strains follow from displacements, and stresses from strains.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace comma::solver {
+
+enum class Kinematics : std::uint8_t {
+  small,           ///< the symmetric part of the gradient
+  green_lagrange,  ///< large displacements and rotations, on the initial geometry
+  logarithmic,     ///< ln(F^T F) / 2, with laws of small strains (R5.03.24)
+  multiplicative   ///< F = F^e F^p, for isotropic hardening (R5.03.21)
+};
+
+enum class Relation : std::uint8_t {
+  elastic,
+  hyperelastic,           ///< rubber, in Green and Lagrange's strains (R5.03.19)
+  isotropic_linear,       ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
+  isotropic_traction,     ///< ... by a traction curve
+  isotropic_power,        ///< ... by a power law
+  isotropic_nonlinear,    ///< ... by saturating exponentials and a power
+  kinematic_linear,       ///< von Mises, the centre of the yield surface moving with the plastic strain
+  mixed_linear,           ///< both, the isotropic part linear (R5.03.16)
+  mixed_traction,         ///< both, the isotropic part from a traction curve
+};
+
+struct CellBehaviour {
+  Kinematics kinematics = Kinematics::small;
+  Relation relation = Relation::elastic;
+  /// Elasticity adds up from step to step from the stresses of the initial state, as laws with a memory do.
+  bool from_initial_state = false;
+
+  auto operator<=>(const CellBehaviour&) const = default;
+};
+
+/// Whether stresses depend on more than the displacements of the moment.
+constexpr bool has_memory(const CellBehaviour& behaviour) {
+  return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && behaviour.kinematics == Kinematics::small) ||
+         behaviour.kinematics == Kinematics::logarithmic ||
+         behaviour.kinematics == Kinematics::multiplicative;
+}
+
+/// One a cell; empty: linear elasticity in small strains everywhere.
+using BehaviourOfCells = std::vector<CellBehaviour>;
+
+}  // namespace comma::solver

@@ -1,0 +1,58 @@
+#include "solver/nonlinear/line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+struct Trial {
+  double rho;
+  double work;
+};
+
+/// Where the secant through two trials vanishes; nothing if they are level.
+std::optional<double> secant(const Trial& a, const Trial& b) {
+  if (a.work == b.work) return std::nullopt;
+  return b.rho - b.work * (b.rho - a.rho) / (b.work - a.work);
+}
+
+double admissible(const LineSearch& options, double rho) {
+  rho = std::clamp(rho, options.smallest, options.largest);
+  return std::abs(rho) < options.excluded ? options.excluded : rho;
+}
+
+}  // namespace
+
+double search_line(const LineSearch& options, double start, const std::function<double(double)>& work) {
+  Trial before{0.0, start};
+  Trial best{1.0, std::numeric_limits<double>::infinity()};
+  std::optional<Error> failure;
+  double rho = 1.0;
+  for (int iteration = 0; iteration <= std::max(1, options.max_iterations); ++iteration) {
+    try {
+      const Trial trial{rho, work(rho)};
+      failure.reset();
+      if (std::abs(trial.work) < std::abs(best.work)) best = trial;
+      if (std::abs(trial.work) <= options.tolerance * std::abs(start)) return trial.rho;
+      const std::optional<double> next = secant(before, trial);
+      // Between a change of sign the end on the far side stays.
+      if (!options.bracketed || trial.work * before.work > 0.0) before = trial;
+      if (!next) break;
+      rho = admissible(options, *next);
+    } catch (const Error& error) {
+      if (error.code() != "integration-failure") throw;
+      failure = error;
+      rho = admissible(options, 0.5 * rho);
+    }
+  }
+  if (!std::isfinite(best.work) && failure) throw *failure;
+  return best.rho;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,168 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "solver/error.hpp"
+#include "solver/materials/behaviour/von_mises.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+constexpr double young = 200e3;
+constexpr double poisson = 0.3;
+constexpr double yield = 250.0;
+constexpr double slope = 20e3;
+
+Plasticity metal() {
+  Plasticity plasticity;
+  plasticity.linear = LinearHardening{slope, yield};
+  plasticity.prager = Property(9e3);
+  TabulatedFunction curve;
+  curve.parameter = "EPSI";
+  curve.x = {yield / young, 0.01, 0.05};
+  curve.y = {yield, 400.0, 500.0};
+  curve.right = Extension::linear;
+  plasticity.traction = TractionHardening{{}, {curve}, {}, {}};
+  plasticity.power = PowerHardening{yield, 0.3, 4.0};
+  plasticity.nonlinear = NonlinearHardening{.initial = yield, .slope = 500.0, .first = 120.0, .first_rate = 30.0, .power_factor = 40.0, .power_offset = 1e-3, .power = 0.4};
+  return plasticity;
+}
+
+PlasticPoint point_of(Relation relation) {
+  return plastic_point(IsotropicElasticity{young, poisson}, metal(), relation, MaterialPoint());
+}
+
+PlasticResponse step(Relation relation, const PlasticState& state, const Vector6d& increment, bool in_plane = false) {
+  const PlasticPoint point = point_of(relation);
+  return in_plane ? integrate_von_mises_in_plane(point, point, state, increment) : integrate_von_mises(point, point, state, increment);
+}
+
+constexpr Relation relations[] = {Relation::elastic, Relation::isotropic_linear, Relation::isotropic_traction, Relation::isotropic_power,
+                                  Relation::isotropic_nonlinear, Relation::kinematic_linear, Relation::mixed_linear, Relation::mixed_traction};
+
+/// The strain increment along x under which only the stress xx is not zero.
+PlasticResponse pull(Relation relation, const PlasticState& state, double along) {
+  Vector6d increment = Vector6d::Zero();
+  increment[0] = along;
+  PlasticResponse response;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    response = step(relation, state, increment);
+    const Eigen::Vector2d across = response.state.stress.segment<2>(1);
+    if (across.norm() < 1e-11 * young) break;
+    increment.segment<2>(1) -= response.tangent.block<2, 2>(1, 1).inverse() * across;
+  }
+  return response;
+}
+
+Vector6d size_of_flow() {
+  Vector6d increment;
+  increment << 0.004, -0.001, -0.0005, 0.003, -0.002, 0.001;
+  return increment;
+}
+
+}  // namespace
+
+TEST_CASE("plastic tangents are the derivatives of the stress, in space and in plane stress") {
+  for (const Relation relation : relations) {
+    for (const bool in_plane : {false, true}) {
+      PlasticState state = step(relation, {}, size_of_flow(), in_plane).state;
+      Vector6d increment = -0.5 * size_of_flow();
+      increment[1] += 0.006;  // flows on in another direction
+      const PlasticResponse response = step(relation, state, increment, in_plane);
+      constexpr double h = 1e-7;
+      for (int k = 0; k < 6; ++k) {
+        if (in_plane && k == 2) continue;
+        Vector6d ahead = increment, behind = increment;
+        ahead[k] += h;
+        behind[k] -= h;
+        const Vector6d column = (step(relation, state, ahead, in_plane).state.stress - step(relation, state, behind, in_plane).state.stress) / (2 * h);
+        // Rounding of the stresses (some 1e-13) over h, and the third derivative (young / strain^2) times h^2.
+        CHECK((column - response.tangent.col(k)).cwiseAbs().maxCoeff() < 1e-6 * young);
+      }
+      CHECK((response.tangent - response.tangent.transpose()).cwiseAbs().maxCoeff() < 1e-12 * young);
+    }
+  }
+}
+
+TEST_CASE("a bar follows its traction curve, and comes back elastically") {
+  for (const Relation relation : {Relation::isotropic_linear, Relation::kinematic_linear, Relation::mixed_linear}) {
+    constexpr double strain = 0.01;
+    const PlasticResponse pulled = pull(relation, {}, strain);
+    const double expected = yield + slope * (strain - yield / young);
+    CHECK(pulled.state.stress[0] == Approx(expected));
+    // Isotropic hardening yields again at minus that stress; kinematic hardening twice the first yield stress lower; both when the
+    // surface, which has grown by what it has not moved, is crossed.
+    const double p = strain - expected / young;
+    const double moved = relation == Relation::isotropic_linear ? 0.0 : relation == Relation::kinematic_linear ? expected - yield : 1.5 * 9e3 * p;
+    const double radius = expected - moved;
+    const double back = -2.0 * radius / young;
+    CHECK_FALSE(pull(relation, pulled.state, 0.999 * back).state.flowing);
+    CHECK(pull(relation, pulled.state, 1.001 * back).state.flowing);
+  }
+  const PlasticResponse on_curve = pull(Relation::isotropic_traction, {}, 0.03);
+  CHECK(on_curve.state.stress[0] == Approx(450.0));
+  const double p = on_curve.state.p;
+  CHECK(p == Approx(0.03 - 450.0 / young));
+  const PlasticResponse power = pull(Relation::isotropic_power, {}, 0.02);
+  const double plastic = 0.02 - power.state.stress[0] / young;
+  CHECK(power.state.stress[0] == Approx(yield + yield * std::pow(young * plastic / (0.3 * yield), 0.25)));
+}
+
+TEST_CASE("under simple shear the shear stress follows the curve by the factor sqrt 3, whatever the number of steps") {
+  const double shear = young / (2 * (1 + poisson));
+  PlasticState state;
+  constexpr int steps = 7;
+  constexpr double angle = 0.02;
+  for (int k = 0; k < steps; ++k) {
+    Vector6d increment = Vector6d::Zero();
+    increment[3] = angle / steps;
+    state = step(Relation::isotropic_linear, state, increment).state;
+  }
+  const double modulus = young * slope / (young - slope);
+  // tau sqrt 3 = yield + H p and angle = tau / G + sqrt 3 p.
+  const double p = (angle - yield / std::sqrt(3.0) / shear) / (std::sqrt(3.0) + modulus / (std::sqrt(3.0) * shear));
+  CHECK(state.p == Approx(p));
+  CHECK(state.stress[3] == Approx((yield + modulus * p) / std::sqrt(3.0)));
+}
+
+TEST_CASE("plane stress has no stress across, and pulls like a bar") {
+  Vector6d increment = Vector6d::Zero();
+  increment[0] = 0.01;
+  const PlasticPoint point = point_of(Relation::isotropic_linear);
+  PlasticResponse response;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    response = integrate_von_mises_in_plane(point, point, {}, increment);
+    increment[1] -= response.state.stress[1] / response.tangent(1, 1);
+  }
+  CHECK(response.state.stress[2] == 0.0);
+  CHECK(response.state.stress[0] == Approx(yield + slope * (0.01 - yield / young)));
+}
+
+TEST_CASE("when the modulus changes, the elastic strain stays") {
+  const PlasticPoint before = point_of(Relation::isotropic_linear);
+  PlasticPoint now = before;
+  now.shear *= 0.5;
+  now.bulk *= 0.25;
+  PlasticState state;
+  state.stress << 100.0, 10.0, 10.0, 0.0, 0.0, 30.0;
+  const PlasticResponse response = integrate_von_mises(before, now, state, Vector6d::Zero());
+  CHECK(response.state.stress[5] == Approx(15.0));
+  CHECK(response.state.stress.head<3>().sum() == Approx(0.25 * 120.0));
+}
+
+TEST_CASE("a material that lacks what the law needs, or whose curve is off the elastic line, says so") {
+  const IsotropicElasticity elasticity{young, poisson};
+  CHECK_THROWS_WITH(plastic_point(elasticity, {}, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("ECRO_LINE"));
+  Plasticity plasticity = metal();
+  plasticity.linear->slope = 2.0 * young;
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("slope"));
+  plasticity.traction->curves.front().x.front() *= 1.5;
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint()), Catch::Contains("elastic line"));
+  plasticity = metal();
+  plasticity.traction->curves.front().right = Extension::excluded;
+  const PlasticPoint ended = plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint());
+  Vector6d far = Vector6d::Zero();
+  far[3] = 0.5;
+  CHECK_THROWS_WITH(integrate_von_mises(ended, ended, {}, far), Catch::Contains("beyond the last point"));
+}

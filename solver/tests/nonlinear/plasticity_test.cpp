@@ -1,0 +1,147 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "scene.hpp"
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+namespace {
+
+constexpr double young = 1000.0;
+constexpr double yield = 5.0;
+constexpr double slope = 100.0;
+
+/// A square of metal in plane strain (nu = 0, so that it is pulled as a bar) of four cells, whose top moves by `lift` times t.
+struct Square {
+  Scene scene;
+  Scene::Block block;
+
+  explicit Square(double lift, CellBehaviour behaviour = {Kinematics::small, Relation::isotropic_linear})
+      : block(scene.block("b", {0, 0}, {1, 1}, 2, 2, young, 0.0)) {
+    auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
+    for (auto& material : materials->by_cell) {
+      if (!material) continue;
+      Material metal = *material;
+      metal.plasticity.linear = LinearHardening{slope, yield};
+      material = std::make_shared<const Material>(metal);
+    }
+    scene.problem.materials = materials;
+    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), behaviour);
+    scene.impose(block.nodes.front(), Component::dy, 0.0);
+    for (const auto& row : block.nodes) scene.impose({row.front()}, Component::dx, 0.0);
+    scene.impose(block.nodes.back(), Component::dy, lift, true);
+  }
+
+  double at_first_point(const char* field, const char* component, std::size_t step) const {
+    const auto& values = std::get<ElementField>(scene.result.steps[step].fields.at(field));
+    return values.at(0, 0, values.component(component));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the variables of one step are where the next begins") {
+  Square square(0.01);
+  NewtonOptions options;
+  options.relative_residual = 1e-10;
+  square.scene.solve(2, options);
+  const double p = square.at_first_point("VARI_ELGA", "V1", 1);
+  CHECK(p > 0.0);
+  CHECK(square.at_first_point("VARI_ELGA", "V1", 2) > p);
+  // The same at once: with linear hardening and one direction the steps do not matter.
+  Square at_once(0.02);
+  at_once.scene.solve(1, options);
+  CHECK(at_once.at_first_point("SIEF_ELGA", "SIYY", 1) == Approx(square.at_first_point("SIEF_ELGA", "SIYY", 2)));
+}
+
+TEST_CASE("which stiffness the iterations take changes the way, not the solution") {
+  NewtonOptions options;
+  options.relative_residual = 1e-10;
+  Square newton(0.02);
+  newton.scene.solve(1, options);
+  const double expected = newton.at_first_point("SIEF_ELGA", "SIYY", 1);
+
+  options.max_iterations = 400;
+  options.tangent.prediction = options.tangent.correction = TangentKind::elastic;
+  Square elastic(0.02);
+  elastic.scene.solve(3, options);
+  Square reference(0.02);
+  NewtonOptions usual;
+  usual.relative_residual = 1e-10;
+  reference.scene.solve(3, usual);
+  CHECK(elastic.at_first_point("SIEF_ELGA", "SIYY", 3) == Approx(reference.at_first_point("SIEF_ELGA", "SIYY", 3)));
+  CHECK(elastic.scene.counters.factorisations == 1);
+  CHECK(reference.scene.counters.factorisations > 3);
+
+  options = usual;
+  options.line_search = LineSearch{};
+  options.guess = StepGuess::extrapolate;
+  Square guessed(0.02);
+  guessed.scene.solve(3, options);
+  CHECK(guessed.at_first_point("SIEF_ELGA", "SIYY", 3) == Approx(reference.at_first_point("SIEF_ELGA", "SIYY", 3)));
+  CHECK(newton.scene.counters.newton_iterations <= 6);
+  CHECK(expected > yield);
+}
+
+TEST_CASE("a step that is cut leaves nothing of its trial behind") {
+  StepPlan plan({0.0, 1.0});
+  plan.cutting = StepCutting{};
+  Square cut(0.05);
+  NewtonOptions options;
+  options.relative_residual = 1e-10;
+  options.max_iterations = 4;
+  options.tangent.iterations = 0;  // too few and too stiff to arrive at once
+  int cuts = 0;
+  const auto count = [&](const IterationReport& report) { cuts += !report.event.empty(); };
+  try {
+    solve_static(cut.scene.problem, plan, options, cut.scene.result, cut.scene.counters, count);
+  } catch (const Error& error) {
+    CHECK(error.code() == "no-convergence");
+  }
+  CHECK(cuts > 0);
+  const std::size_t last = cut.scene.result.steps.size() - 1;
+  REQUIRE(last > 0);
+  Square small(0.05);
+  solve_static(small.scene.problem, StepPlan({0.0, cut.scene.result.steps[last].instant}), {}, small.scene.result, small.scene.counters);
+  CHECK(cut.at_first_point("SIEF_ELGA", "SIYY", last) == Approx(small.at_first_point("SIEF_ELGA", "SIYY", 1)).epsilon(1e-5));
+}
+
+TEST_CASE("a computation that goes on from an initial state arrives where one in a piece does") {
+  NewtonOptions options;
+  options.relative_residual = 1e-10;
+  for (const CellBehaviour behaviour : {CellBehaviour{Kinematics::small, Relation::kinematic_linear}, CellBehaviour{Kinematics::logarithmic, Relation::isotropic_linear},
+                                        CellBehaviour{Kinematics::multiplicative, Relation::isotropic_linear}}) {
+    Square whole(0.02, behaviour);
+    whole.scene.solve(2, options);
+    Square rest(0.02, behaviour);
+    auto initial = std::make_shared<InitialState>();
+    const auto& fields = whole.scene.result.steps[1].fields;
+    initial->displacement = std::get<NodalField>(fields.at("DEPL"));
+    initial->stresses = std::get<ElementField>(fields.at("SIEF_ELGA"));
+    initial->variables = std::get<ElementField>(fields.at("VARI_ELGA"));
+    rest.scene.problem.initial = initial;
+    solve_static(rest.scene.problem, StepPlan({1.0, 2.0}), options, rest.scene.result, rest.scene.counters);
+    CHECK(rest.scene.result.steps.size() == 2);
+    CHECK(rest.at_first_point("SIEF_ELGA", "SIYY", 1) == Approx(whole.at_first_point("SIEF_ELGA", "SIYY", 2)));
+    CHECK(rest.at_first_point("VARI_ELGA", "V1", 1) == Approx(whole.at_first_point("VARI_ELGA", "V1", 2)).margin(1e-12));
+  }
+}
+
+TEST_CASE("an elastic body starts from the stresses that it is given, and differential loads count from there") {
+  Square body(0.0, {Kinematics::small, Relation::elastic, true});
+  auto initial = std::make_shared<InitialState>();
+  Square loaded(0.004, {Kinematics::small, Relation::elastic, true});
+  loaded.scene.solve(1);
+  const auto& fields = loaded.scene.result.steps[1].fields;
+  initial->displacement = std::get<NodalField>(fields.at("DEPL"));
+  initial->stresses = std::get<ElementField>(fields.at("SIEF_ELGA"));
+  body.scene.problem.initial = initial;
+  for (AppliedLoad& load : body.scene.problem.loads) load.differential = true;
+  solve_static(body.scene.problem, StepPlan({0.0, 1.0}), {}, body.scene.result, body.scene.counters);
+  CHECK(body.scene.displacement(body.block.nodes.back().front(), Component::dy) == Approx(0.004));
+  CHECK(body.at_first_point("SIEF_ELGA", "SIYY", 1) == Approx(4.0));
+  CHECK(body.scene.counters.factorisations == 1);
+}
