@@ -168,3 +168,31 @@ def _gnuplot(path: Path, width: int, height: int, title: str, data: str, panels:
     done = subprocess.run([gnuplot], input=script, cwd=path.parent, capture_output=True, text=True)
     if done.returncode != 0 or "error" in done.stderr.lower():
         print(f"comma bench: gnuplot could not draw {path.name}: {done.stderr[-300:]}", file=sys.stderr)
+
+
+def draw_contact(name: str, title: str, series: dict[str, list], quantities: list[str], folder: Path) -> None:
+    """A panel for each quantity: error against time, a line for each formulation. `series`: runs by label."""
+    blocks, styles = [], []
+    times: list[float] = []
+    for number, (label, runs) in enumerate(series.items()):
+        good = [run.measured for run in runs if run.measured.errors]
+        if not good:
+            continue
+        times += [run.seconds for run in good]
+        rows = [f"{run.seconds!r} " + " ".join(repr(max(run.errors.get(q, 0.0), LEAST)) for q in quantities) for run in good]
+        blocks.append(f"$D{number} << END\n" + "\n".join(rows) + "\nEND\n")
+        colour = OTHERS[number % len(OTHERS)]
+        styles.append((number, label.replace("_", "\\_"), f"with linespoints lc rgb '{colour}' lw 1.4 dt {1 + number // len(OTHERS)} pt {4 + number} ps 0.8"))
+    if not times:
+        return
+    panels = []
+    width = 0.80 / len(quantities)
+    for column, quantity in enumerate(quantities):
+        left = 0.06 + width * column
+        panels.append(_axis("time (s)", times, False))
+        panels.append(f"set lmargin at screen {left}; set rmargin at screen {left + width - 0.055}\n"
+                      "set bmargin at screen 0.13; set tmargin at screen 0.90\n"
+                      f"set ylabel 'relative error: {quantity}'; set yrange [1e-17:*]\n")
+        panels.append("set key at screen 0.995, screen 0.90 right top vertical Left reverse samplen 2 spacing 1.2\n" if column == 0 else "unset key\n")
+        panels.append("plot " + ", ".join(f"$D{number} using 1:{column + 2} {style} title '{label}'" for number, label, style in styles) + "\n")
+    _gnuplot(folder / name, 1500, 480, title, "".join(blocks), "".join(panels))

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import block
+import contact
 import statics
 
 
@@ -21,6 +22,7 @@ class Suite:
 
 SUITES = (
     Suite("statics", tuple(statics.names()), statics.run, by_default=True),
+    Suite("contact", tuple(contact.names()), contact.run, by_default=False),
     Suite("block", ("block",), block.run, by_default=False),
 )
 
