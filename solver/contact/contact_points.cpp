@@ -59,18 +59,15 @@ class ZonePoints {
     return point;
   }
 
-  /// The integral of a node's shape function: what a point on the axis stands for, where the radius vanishes.
+  /// The integral of a node's shape function, in size: what a point on the axis stands for, where the radius vanishes. On quadratic
+  /// faces the integral itself vanishes too, yet the node may not overlap either.
   double share_of(int cell, CellType type, int node) const {
     const auto nodes = mesh_.cell(cell);
     const auto local = static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
     double share = 0.0;
-    double whole = 0.0;
-    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0)) {
-      const double area = at.weight * measure(cell, type, at.xi);
-      share += area * facet_shape(type, at.xi).values[local];
-      whole += area;
-    }
-    return share > at_node_tolerance * whole ? share : 0.0;
+    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0))
+      share += at.weight * measure(cell, type, at.xi) * std::abs(facet_shape(type, at.xi).values[local]);
+    return share;
   }
 
   Vector3d position(const ContactPoint& point) const {
