@@ -45,6 +45,7 @@ class Measurement:
     memory: int  # bytes, the largest resident size
     errors: dict[str, float] = field(default_factory=dict)
     phases: dict[str, float] = field(default_factory=dict)
+    counters: dict[str, int] = field(default_factory=dict)
     said: str = ""  # the first error, or all alarms
 
 
@@ -84,6 +85,7 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
         case, unknowns, process.returncode, wall, wall - _measuring_seconds(report), report["peak_memory_bytes"]
     )
     measurement.phases = report.get("phases", {})
+    measurement.counters = report["counters"]
     measurement.said = _said(report)
     table = folder / "case.resu"
     if process.returncode == 0 and table.exists():

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import block
 import contact
+import contact_times
 import statics
 
 
@@ -23,6 +24,7 @@ class Suite:
 SUITES = (
     Suite("statics", tuple(statics.names()), statics.run, by_default=True),
     Suite("contact", tuple(contact.names()), contact.run, by_default=False),
+    Suite("contact_times", tuple(contact_times.names()), contact_times.run, by_default=False),
     Suite("block", ("block",), block.run, by_default=False),
 )
 
