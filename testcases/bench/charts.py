@@ -192,7 +192,7 @@ def draw_contact(name: str, title: str, series: dict[str, list], quantities: lis
         panels.append(_axis("time (s)", times, False))
         panels.append(f"set lmargin at screen {left}; set rmargin at screen {left + width - 0.055}\n"
                       "set bmargin at screen 0.13; set tmargin at screen 0.90\n"
-                      f"set ylabel 'relative error: {quantity}'; set yrange [1e-17:*]\n")
+                      f"set ylabel 'relative error: {quantity}'; set yrange [*:*]\n")
         panels.append("set key at screen 0.995, screen 0.90 right top vertical Left reverse samplen 2 spacing 1.2\n" if column == 0 else "unset key\n")
         panels.append("plot " + ", ".join(f"$D{number} using 1:{column + 2} {style} title '{label}'" for number, label, style in styles) + "\n")
     _gnuplot(folder / name, 1500, 480, title, "".join(blocks), "".join(panels))

@@ -233,14 +233,14 @@ def scenes() -> dict[str, ContactScene]:
     listed = (
         ContactScene(
             "hertz_plane", "Hertz: cylinder on a half-space, plane strain", "hertz", "D_PLAN", hertz_section, PLANE.cell, (20, 40, 80, 160),
-            (("QUAD4", f.ALL), ("QUAD8", QUADRATIC)), 2.0e11, "force", parameters={"far": PLANE.far}),
+            (("QUAD4", f.ALL), ("QUAD8", QUADRATIC)), 2.0e11, "force", parameters={"far": PLANE.far, "steps": 1}),
         ContactScene(
             "hertz_axis", "Hertz: sphere on a half-space, axisymmetric", "hertz", "AXIS", hertz_section, PLANE.cell, (20, 40, 80, 160),
-            (("QUAD4", f.ALL),), 2.0e11, "force", parameters={"far": PLANE.far},
+            (("QUAD4", f.ALL),), 2.0e11, "force", parameters={"far": PLANE.far, "steps": 1},
             note="The force on the node at the axis stands for so little surface that the pressure there converges with order 1 only."),
         ContactScene(
             "hertz_3d", "Hertz: sphere on a half-space, 3D", "hertz", "3D", hertz_quarter, SOLID.cell, (5, 10, 15, 20), (("HEXA8", f.ALL),), 2.0e11,
-            "force", parameters={"far": SOLID.far}),
+            "force", parameters={"far": SOLID.far, "steps": 1}),
         ContactScene(
             "punch", "Flat punch on a half-plane", "punch", "D_PLAN", punched_section, UNDER_PUNCH.cell, (20, 40, 80, 160), (("QUAD4", f.ALL),), 2.0e11,
             "force", parameters={"far": UNDER_PUNCH.far},
@@ -256,12 +256,12 @@ def scenes() -> dict[str, ContactScene]:
             (2, 4, 6, 8), (("HEXA8", f.ALL),), 1.0e7, "force"),
         ContactScene(
             "sliding", "Coulomb: a block that is pulled along", "sliding", "D_PLAN", lambda family, n: standing_block(family, n, False), of_cube,
-            (4, 8, 16, 32), (("QUAD4", f.RUBBING),), 1.0e9, "", friction=0.3),
+            (4, 8, 16, 32), (("QUAD4", f.RUBBING),), 1.0e9, "", friction=0.3, parameters={"steps": 10}),
         ContactScene(
             "mindlin", "Cattaneo and Mindlin: partial slip", "mindlin", "D_PLAN", two_cylinders, PLANE.cell, (10, 20, 40, 80),
-            (("QUAD4", f.RUBBING),), 2.0e11, "force", penetration=False, friction=0.3, parameters={"far": PLANE.far}),
+            (("QUAD4", f.RUBBING),), 2.0e11, "force", penetration=False, friction=0.3, parameters={"far": PLANE.far, "steps": 1}),
         ContactScene(
             "gap_bar", "A bar that closes a gap", "gap_bar", "C_PLAN", bars, lambda _, n: 0.2 / n, (1, 2, 4, 8), (("QUAD4", f.BETWEEN_BODIES),), 2.0e11,
-            "stress"),
+            "stress", parameters={"first": 2.0e11, "second": 1.0e11, "gap": 1.0e-3, "push": 2.0e-3}),
     )
     return {scene.name: scene for scene in listed}

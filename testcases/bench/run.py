@@ -20,7 +20,7 @@ class Case:
     """One run: the files it is made of, the values in front of them, and where it stands in its bench."""
 
     scene: str
-    folder: str
+    folder: str  # of the command file of the same name, from here
     family: str
     modelisation: str
     solver: str  # METHODE, or METHODE/PRE_COND
@@ -58,7 +58,7 @@ def command_file(case: Case) -> str:
     values = {"modelisation": f'"{case.modelisation}"', "solver": f"_F({solver})"}
     values |= {name: repr(value) for name, value in case.parameters.items()}
     text = "".join(f"{name} = {value}\n" for name, value in values.items())
-    text += (HERE / case.folder / f"{case.folder}.comm").read_text(encoding="utf-8")
+    text += (HERE / case.folder / f"{Path(case.folder).name}.comm").read_text(encoding="utf-8")
     if case.measured_by:
         text += (HERE / "shared" / case.measured_by).read_text(encoding="utf-8")
     return text
