@@ -47,6 +47,8 @@ class Measurement:
     phases: dict[str, float] = field(default_factory=dict)
     counters: dict[str, int] = field(default_factory=dict)
     said: str = ""  # the first error, or all alarms
+    advice: str = ""  # what to write or try instead
+    codes: list[str] = field(default_factory=list)  # of all errors and alarms
 
 
 def command_file(case: Case) -> str:
@@ -87,6 +89,8 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     measurement.phases = report.get("phases", {})
     measurement.counters = report["counters"]
     measurement.said = _said(report)
+    measurement.codes = [diagnostic["code"] for diagnostic in report["diagnostics"]]
+    measurement.advice = next((diagnostic.get("hint") or "" for diagnostic in report["diagnostics"]), "")
     table = folder / "case.resu"
     if process.returncode == 0 and table.exists():
         measurement.errors = _errors(table.read_text(encoding="utf-8"))
