@@ -60,6 +60,7 @@ void add_material_axes(const Keywords& frame, const solver::Model& model, solver
 Product affe_cara_elem(const Call& call, Context&) {
   const solver::Model& model = *call.data<ModelConcept>("MODELE").model;
   auto properties = std::make_shared<solver::ElementProperties>();
+  auto product = std::make_shared<PropertiesConcept>();
   Orientations orientations;
   for (const Keywords& assignment : call.factors("ORIENTATION")) add_orientations(assignment, model, orientations);
   for (const Keywords& assignment : call.factors("POUTRE")) add_beam_sections(assignment, model, *properties);
@@ -67,13 +68,13 @@ Product affe_cara_elem(const Call& call, Context&) {
     if (const auto turned = orientations.find(cell); turned != orientations.end()) section.roll = turned->second.roll;
   }
   for (const Keywords& assignment : call.factors("BARRE")) add_bar_sections(assignment, model, *properties);
-  for (const Keywords& assignment : call.factors("COQUE")) add_plate_sections(assignment, model, *properties);
+  for (const Keywords& assignment : call.factors("COQUE")) add_plate_sections(assignment, model, *properties, product->named_plates);
   for (const char* name : {"DISCRET", "DISCRET_2D"}) {
     for (const Keywords& assignment : call.factors(name)) add_discrete_matrices(assignment, name, model, orientations, *properties);
   }
   for (const Keywords& frame : call.factors("MASSIF")) add_material_axes(frame, model, *properties);
-  auto product = std::make_shared<PropertiesConcept>();
   product->properties = std::move(properties);
+  product->model = call.data<ModelConcept>("MODELE").model;
   return product;
 }
 

@@ -5,9 +5,10 @@ namespace comma::commands {
 
 namespace {
 
-Product load_concept(std::shared_ptr<const solver::Load> load) {
+Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load) {
   auto product = std::make_shared<LoadConcept>();
   product->load = std::move(load);
+  product->model = call.data<ModelConcept>("MODELE").model;
   return product;
 }
 
@@ -22,7 +23,7 @@ Product affe_char_meca(const Call& call, Context&) {
   for (const Keywords& imposed : call.factors("LIAISON_OBLIQUE")) add_oblique_displacements(imposed, target, *load);
   add_relations(call, target, *load);
   add_forces(call, target, *load);
-  return load_concept(std::move(load));
+  return load_concept(call, std::move(load));
 }
 
 Product affe_char_cine(const Call& call, Context& context) {
@@ -31,7 +32,7 @@ Product affe_char_cine(const Call& call, Context& context) {
   for (const Keywords& imposed : call.factors("MECA_IMPO")) {
     add_imposed_displacements(imposed, "MECA_IMPO", target, *load, &context.diagnostics);
   }
-  return load_concept(std::move(load));
+  return load_concept(call, std::move(load));
 }
 
 // The same with functions in place of numbers.

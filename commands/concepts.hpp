@@ -13,6 +13,7 @@
 #include "solver/contact/definition.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/fields/field.hpp"
+#include "solver/fields/input_fields.hpp"
 #include "solver/functions/function.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
@@ -43,11 +44,14 @@ struct MaterialFieldConcept : ConceptData {
 
 struct PropertiesConcept : ConceptData {
   std::shared_ptr<const solver::ElementProperties> properties;
+  std::shared_ptr<const solver::Model> model;
+  solver::PlateSections named_plates;  ///< of all cells that COQUE names, whether they are plates or not
 };
 
 /// AFFE_CHAR_MECA and AFFE_CHAR_CINE alike: conditions are eliminated whichever command wrote them.
 struct LoadConcept : ConceptData {
   std::shared_ptr<const solver::Load> load;
+  std::shared_ptr<const solver::Model> model;
 };
 
 struct ListConcept : ConceptData {

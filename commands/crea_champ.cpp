@@ -4,10 +4,13 @@
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
+#include "commands/input_field_reading.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/normals.hpp"
+#include "solver/error.hpp"
+#include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
@@ -29,17 +32,23 @@ FieldPtr on_support(const Call& call) {
   return product;
 }
 
+// Of a field on elements.
+solver::Support support_of(FieldPlace place) {
+  if (place == FieldPlace::element_node) return solver::Support::element_node;
+  return place == FieldPlace::gauss_point ? solver::Support::gauss_point : solver::Support::cell;
+}
+
+const solver::Model& needed_model(const Call& call, const FieldConcept& support, const FieldType& type) {
+  if (support.model) return *support.model;
+  throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type.place)), call.span,
+                        call.has("MAILLAGE") ? "give MODELE in place of MAILLAGE" : "give MODELE");
+}
+
 solver::Field empty_field(const Call& call, const FieldConcept& support, const FieldType& type, std::vector<std::string> components) {
   if (type.place == FieldPlace::node) return solver::empty_nodal_field(*support.mesh, type.quantity_name(), std::move(components));
   if (type.place == FieldPlace::zone) return solver::empty_cell_field(*support.mesh, type.quantity_name(), std::move(components));
-  if (!support.model) {
-    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type.place)), call.span,
-                          "give MODELE in place of MAILLAGE");
-  }
-  const auto where = type.place == FieldPlace::cell           ? solver::Support::cell
-                     : type.place == FieldPlace::element_node ? solver::Support::element_node
-                                                              : solver::Support::gauss_point;
-  return solver::empty_element_field(*support.model, type.quantity_name(), where, std::move(components), lives_on_skin(type));
+  return solver::empty_element_field(needed_model(call, support, type), type.quantity_name(), support_of(type.place), std::move(components),
+                                     lives_on_skin(type));
 }
 
 void add_name(std::vector<std::string>& names, const std::string& name) {
@@ -211,6 +220,30 @@ FieldPtr of_result(const Call& call) {
   return product;
 }
 
+// CHAM_GD at other places.
+FieldPtr brought(const Call& call, const FieldType& type) {
+  const FieldConcept& from = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
+  auto product = std::make_shared<FieldConcept>();
+  take_support(*product, from);
+  if (call.has("MODELE")) product->model = call.data<ModelConcept>("MODELE").model;
+  try {
+    if (type.place == FieldPlace::node) {
+      product->field = solver::brought_to_nodes(*product->mesh, product->model.get(), from.field);
+    } else {
+      product->field = solver::brought_to(needed_model(call, *product, type), from.field, support_of(type.place), lives_on_skin(type));
+    }
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("CHAM_GD"), error.hint());
+  }
+  return product;
+}
+
+FieldPtr extracted(const Call& call) {
+  if (call.has("RESULTAT")) return of_result(call);
+  if (call.has("CARA_ELEM")) return field_of_characteristics(call);
+  return call.has("CHARGE") ? field_of_load(call) : of_mesh(call);
+}
+
 FieldPtr made_by(const Call& call, const FieldType& type) {
   const std::string& operation = call.text("OPERATION");
   if (operation == "AFFE") return from_values(call, type);
@@ -218,7 +251,7 @@ FieldPtr made_by(const Call& call, const FieldType& type) {
   if (operation == "COMB") return from_terms(call);
   if (operation == "EVAL") return from_functions(call, type);
   if (operation == "NORMALE") return of_normals(call);
-  return call.has("RESULTAT") ? of_result(call) : of_mesh(call);
+  return operation == "DISC" ? brought(call, type) : extracted(call);
 }
 
 }  // namespace

@@ -67,6 +67,11 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
     const auto vector = keywords.reals("MAIT_FIXE");
     std::copy(vector.begin(), vector.end(), zone.master_vector.begin());
   }
+  if (keywords.has("VECT_MAIT") && keywords.text("VECT_MAIT") == "VECT_Y") {
+    zone.master_normal = solver::NormalRule::along_y;
+    const auto vector = keywords.reals("MAIT_VECT_Y");
+    std::copy(vector.begin(), vector.end(), zone.master_vector.begin());
+  }
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";

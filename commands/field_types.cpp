@@ -25,7 +25,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"HYDR", {"HYDR"}},
       {"CORR", {"CORR"}},
       {"IRRA", {"IRRA"}},
-      {"PRES", {"PRES", "CISA"}},
+      {"PRES", {"PRES", "CISA", "VX", "VY", "VZ"}},
       {"GEOM", {"X", "Y", "Z"}},
       {"DEPL", {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "LAGS_C", "LAGS_F1", "LAGS_F2", "PRES", "GONF"}},
       {"FORC", {"FX", "FY", "FZ", "MX", "MY", "MZ"}},
@@ -34,6 +34,8 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"EPSI", {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ", "INVA_2", "PRIN_1", "PRIN_2", "PRIN_3", "INVA_2SG", "GAXY", "GAXZ",
                 "GAT", "KY", "KZ"}},
       {"ENER", {"TOTALE"}},
+      {"CACOQU", {"EP", "ALPHA", "BETA", "CTOR", "EXCENT", "KAPPA"}},
+      {"NBSP", {"COQ_NCOU"}},
       {"INFC", {"CONT", "JEU", "RN", "RNX", "RNY", "RNZ", "GLIX", "GLIY", "GLI", "RTAX", "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ", "RX",
                 "RY", "RZ", "R", "HN", "I", "IX", "IY", "IZ", "PT_X", "PT_Y", "PT_Z", "PROJ_X", "PROJ_Y", "PROJ_Z"}},
   };

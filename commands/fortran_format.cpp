@@ -30,18 +30,27 @@ std::optional<Descriptor> parse(std::string_view format) {
 
 bool is_real_format(std::string_view format) { return parse(format).has_value(); }
 
-std::string format_real(double value, std::string_view format) {
-  // The common case of every printed table; a regular expression a cell would cost more than the solution.
-  if (format == "E12.5") return fmt::format("{:12.5E}", value);
+RealFormat::RealFormat(std::string_view format) {
   const auto descriptor = parse(format);
   if (!descriptor) {
     throw interpreter::DiagnosticError("bad-format", "\"" + std::string(format) + "\" is no format of a real number", {},
                                        "write E12.5, 1PE13.6 or F10.3");
   }
-  const auto [kind, width, digits] = *descriptor;
-  if (kind == 'F') return fmt::format("{:{}.{}f}", value, width, digits);
-  if (kind == 'G') return fmt::format("{:{}.{}G}", value, width, digits);
-  return fmt::format("{:{}.{}E}", value, width, digits);
+  kind_ = descriptor->kind;
+  width_ = descriptor->width;
+  digits_ = descriptor->digits;
+}
+
+std::string RealFormat::operator()(double value) const {
+  if (kind_ == 'F') return fmt::format("{:{}.{}f}", value, width_, digits_);
+  if (kind_ == 'G') return fmt::format("{:{}.{}G}", value, width_, digits_);
+  return fmt::format("{:{}.{}E}", value, width_, digits_);
+}
+
+std::string format_real(double value, std::string_view format) {
+  // The common case of every printed table; a regular expression a cell would cost more than the solution.
+  if (format == "E12.5") return fmt::format("{:12.5E}", value);
+  return RealFormat(format)(value);
 }
 
 }  // namespace comma::commands

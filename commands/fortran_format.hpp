@@ -6,6 +6,21 @@
 
 namespace comma::commands {
 
+/// A descriptor of a real number, taken apart once for many numbers.
+class RealFormat {
+ public:
+  /// Throws DiagnosticError `bad-format` on one that is not known.
+  explicit RealFormat(std::string_view format);
+
+  std::string operator()(double value) const;
+  int width() const { return width_; }
+
+ private:
+  char kind_;
+  int width_;
+  int digits_;
+};
+
 /// Whether the text is a descriptor that format_real knows: E, D, F or G, with a scale factor 1P or not.
 bool is_real_format(std::string_view format);
 

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
+#include "commands/text_listing.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/statistics.hpp"
 #include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/gmsh_writer.hpp"
 #include "solver/io/med_file.hpp"
@@ -127,6 +126,31 @@ void check_same_mesh(const std::vector<Part>& parts, std::size_t i, const Call& 
 
 // --- MED --------------------------------------------------------------------------------------------------------------------
 
+// The names that the file gives to the fields: those of NOM_CHAM_MED, or the one of the result with that of the field.
+void add_med_results(const Keywords& print, Part& part, std::vector<solver::NamedResult>& results) {
+  if (!print.given("NOM_CHAM_MED")) {
+    results.push_back({std::move(part.result), print.given("NOM_RESU_MED") ? print.text("NOM_RESU_MED") : part.name});
+    return;
+  }
+  const auto names = print.texts("NOM_CHAM_MED");
+  const auto fields = print.given("NOM_CHAM") ? print.texts("NOM_CHAM") : std::vector<std::string>{""};
+  if (names.size() != fields.size()) {
+    throw DiagnosticError("wrong-count", fmt::format("IMPR_RESU: {} names stand against {} fields", names.size(), fields.size()), print.span_of("NOM_CHAM_MED"),
+                          "give one name a field of NOM_CHAM");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    solver::NamedResult& named = results.emplace_back(solver::NamedResult{{part.result.model, {}, part.result.bare_mesh}, names[i]});
+    for (const solver::ResultStep& step : part.result.steps) {
+      const auto field = step.fields.find(fields[i]);
+      if (field == step.fields.end()) continue;
+      solver::ResultStep& copy = named.result.steps.emplace_back();
+      copy.order = step.order;
+      copy.instant = step.instant;
+      copy.fields.emplace("", field->second);
+    }
+  }
+}
+
 void write_med(const Call& call, const std::string& path) {
   std::vector<Part> parts;
   for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, true));
@@ -137,7 +161,7 @@ void write_med(const Call& call, const std::string& path) {
     if (parts[i].mesh_alone) {
       mesh_name = parts[i].name;
     } else {
-      results.push_back({std::move(parts[i].result), parts[i].name});
+      add_med_results(call.factors("RESU")[i], parts[i], results);
     }
   }
   solver::write_med_results(path, parts.front().mesh, mesh_name, results);
@@ -145,80 +169,33 @@ void write_med(const Call& call, const std::string& path) {
 
 // --- text -------------------------------------------------------------------------------------------------------------------
 
-std::string row(const std::string& place, const std::vector<double>& values) {
-  std::string text = fmt::format(" {:<10}", place);
-  for (const double value : values) text += std::isnan(value) ? fmt::format(" {:>14}", "-") : fmt::format(" {:14.6E}", value);
-  return text + "\n";
+ListingStyle style_of(const Keywords& print) {
+  ListingStyle style{RealFormat(print.text("FORMAT_R"))};
+  style.coordinates = print.text("IMPR_COOR") == "OUI";
+  if (print.given("BORNE_INF")) style.least = print.real("BORNE_INF");
+  if (print.given("BORNE_SUP")) style.greatest = print.real("BORNE_SUP");
+  return style;
 }
 
-std::string header(const std::string& place, const std::vector<std::string>& components) {
-  std::string text = fmt::format(" {:<10}", place);
-  for (const std::string& name : components) text += fmt::format(" {:>14}", name);
-  return text + "\n";
-}
-
-bool all_absent(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-}
-
-std::string place_name(const solver::Field& field, const solver::Mesh& mesh, int place, int point) {
-  if (std::holds_alternative<solver::NodalField>(field)) return mesh.node_name(place);
-  return fmt::format("{} {}", mesh.cell_name(place), point + 1);
-}
-
-std::string listing(const solver::Field& field, const solver::Mesh& mesh) {
-  const auto* nodal = std::get_if<solver::NodalField>(&field);
-  const auto& components = nodal ? nodal->components : std::get<solver::ElementField>(field).components;
-  const int places = nodal ? mesh.node_count() : mesh.cell_count();
-  std::string text = header(nodal ? "NOEUD" : "MAILLE", components);
-  for (int place = 0; place < places; ++place) {
-    const int points = nodal ? 1 : std::get<solver::ElementField>(field).points(place);
-    for (int point = 0; point < points; ++point) {
-      std::vector<double> values;
-      for (int c = 0; c < static_cast<int>(components.size()); ++c) {
-        values.push_back(nodal ? nodal->at(place, c) : std::get<solver::ElementField>(field).at(place, point, c));
-      }
-      if (!all_absent(values)) text += row(place_name(field, mesh, place, point), values);
-    }
-  }
-  return text;
-}
-
-// VALE_MAX, VALE_MIN: for each component the extreme value and where it is, in place of all values.
-std::string extreme_listing(const Keywords& print, const solver::Field& field, const solver::Mesh& mesh) {
-  const auto& components = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-  std::string text;
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const auto found = solver::extremes(field, static_cast<int>(c));
-    if (!found) continue;
-    const auto line = [&](const char* what, const solver::Extreme& extreme) {
-      return fmt::format(" {:<10} {} {:14.6E} at {}\n", components[c], what, extreme.value, place_name(field, mesh, extreme.place, extreme.point));
-    };
-    if (print.has("VALE_MAX")) text += line("largest ", found->greatest);
-    if (print.has("VALE_MIN")) text += line("smallest", found->least);
-  }
-  return text;
-}
-
-std::string listing(const solver::Mesh& mesh) {
-  std::string text = fmt::format(" {} nodes, {} cells\n", mesh.node_count(), mesh.cell_count()) + header("NOEUD", {"X", "Y", "Z"});
-  for (int node = 0; node < mesh.node_count(); ++node) {
-    const solver::Point& at = mesh.nodes[node];
-    text += row(mesh.node_name(node), {at[0], at[1], at[2]});
-  }
-  return text;
+std::vector<Extremum> wanted_extremes(const Keywords& print) {
+  std::vector<Extremum> wanted;
+  if (print.has("VALE_MAX")) wanted.push_back(Extremum::greatest);
+  if (print.has("VALE_MIN")) wanted.push_back(Extremum::least);
+  return wanted;
 }
 
 std::string text_of(const Keywords& print) {
   const Part part = part_of(print, false);
-  if (part.mesh_alone) return listing(part.mesh);
-  const bool extremes_alone = print.has("VALE_MAX") || print.has("VALE_MIN");
+  const ListingStyle style = style_of(print);
+  if (part.mesh_alone) return listing(part.mesh, style);
+  const auto extremes = wanted_extremes(print);
   std::string text;
+  for (const std::string& line : print.texts("SOUS_TITRE")) text += "\n " + line + "\n";
   for (const solver::ResultStep& step : part.result.steps) {
     for (const auto& [name, field] : step.fields) {
       text += name.empty() ? fmt::format("\n {}\n", part.name)
                            : fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", part.name, name, step.order, step.instant);
-      text += extremes_alone ? extreme_listing(print, field, part.mesh) : listing(field, part.mesh);
+      text += extremes.empty() ? listing(field, part.mesh, style) : extreme_listing(field, part.mesh, style, extremes);
     }
   }
   return text;

@@ -29,7 +29,8 @@ Eigen::Vector3d direction_of(const Keywords& assignment) {
 
 }  // namespace
 
-void add_plate_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
+void add_plate_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties,
+                        solver::PlateSections& named) {
   solver::PlateSection section;
   section.thickness = assignment.real("EPAIS");
   if (assignment.given("EXCENTREMENT")) section.offset = assignment.real("EXCENTREMENT");
@@ -38,6 +39,7 @@ void add_plate_sections(const Keywords& assignment, const solver::Model& model, 
   section.drilling = assignment.real("COEF_RIGI_DRZ");
   int assigned = 0;
   for (const int cell : selected_cells(assignment, *model.mesh)) {
+    named[cell] = section;
     if (!solver::is_plate(model.formulations[cell]) || model.is_skin(cell)) continue;
     properties.plates[cell] = section;
     ++assigned;

@@ -8,6 +8,8 @@
 #include "commands/field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
+#include "solver/fields/equivalent.hpp"
 #include "solver/fields/rotation.hpp"
 #include "solver/fields/statistics.hpp"
 #include "solver/mesh/axes.hpp"
@@ -62,7 +64,29 @@ solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, co
     const Eigen::Matrix3d axes = axes_by_angles(action);
     return solver::in_axes(field, nodes, [&](int) { return axes; });
   }
+  if (frame == "POLAIRE") return solver::in_axes(field, nodes, solver::polar_axes(mesh));
+  if (frame == "LOCAL") {
+    const auto second = action.has("VECT_Y") ? std::optional(vector_of(action, "VECT_Y")) : std::nullopt;
+    return solver::in_axes(field, nodes, solver::line_axes(mesh, nodes, second));
+  }
   return solver::in_axes(field, nodes, solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z")));
+}
+
+// The values themselves, or what is made of the tensors.
+solver::NodalField wanted_quantities(const Keywords& action, solver::NodalField field) {
+  if (action.has("INVARIANT")) return solver::tensor_invariants(field);
+  if (action.has("ELEM_PRINCIPAUX")) return solver::principal_values(field);
+  return field;
+}
+
+solver::NodalField values_in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
+  try {
+    return wanted_quantities(action, in_frame(action, mesh, nodes, field));
+  } catch (const solver::Error& error) {
+    const char* keyword = error.code() == "incompatible-field" ? (action.has("RESULTAT") ? "NOM_CHAM" : "CHAM_GD") : "REPERE";
+    throw DiagnosticError(error.code(), std::string("POST_RELEVE_T: ") + error.what(), action.span_of(keyword),
+                          error.code() == "missing-direction" ? "give VECT_Y" : error.hint());
+  }
 }
 
 // Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give their nodes.
@@ -77,7 +101,7 @@ Reading read(const Keywords& action, const FieldSource& source) {
   Row head = {{"INTITULE", action.has("INTITULE") ? action.text("INTITULE") : ""}};
   head.insert(head.end(), source.columns.begin(), source.columns.end());
   // A resultant is turned as a whole.
-  if (!action.has("RESULTANTE")) field = in_frame(action, source.mesh, nodes, field);
+  if (!action.has("RESULTANTE")) field = values_in_frame(action, source.mesh, nodes, field);
   return {std::move(head), source.mesh, std::move(nodes), std::move(field)};
 }
 
@@ -107,7 +131,7 @@ void extract(Table& table, const Keywords& action, const Reading& reading) {
 
 // The sum over the nodes; with MOMENT under the names of a torsor's parts.
 void sum(Table& table, const Keywords& action, const Reading& reading) {
-  if (action.text("REPERE") == "CYLINDRIQUE") {
+  if (const std::string& frame = action.text("REPERE"); frame != "GLOBAL" && frame != "UTILISATEUR") {
     throw DiagnosticError("unsupported", "POST_RELEVE_T: a resultant has no axes that change from node to node", action.span_of("REPERE"),
                           "take it in REPERE='GLOBAL' or 'UTILISATEUR'");
   }

@@ -84,6 +84,8 @@ SolverChoice solver_choice(const Call& call) {
   if (solver.given("METHODE")) choice.method = linear_method(solver.text("METHODE"));
   if (solver.text("METHODE") == "GCPC") take_iterations(solver, choice);
   if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
+  constexpr int never_tested = -1;
+  if (solver.has("STOP_SINGULIER") && solver.text("STOP_SINGULIER") == "NON") choice.options.singular_digits = never_tested;
   return choice;
 }
 

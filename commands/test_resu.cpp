@@ -91,6 +91,12 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
   return value;
 }
 
+// comma's elements have one value a point: SOUS_POINT can only be the first.
+void check_subpoint(const Keywords& test) {
+  if (!test.given("SOUS_POINT") || test.integer("SOUS_POINT") == 1) return;
+  throw DiagnosticError("out-of-bounds", "SOUS_POINT: the field has one value a point", test.span_of("SOUS_POINT"), "give 1, or leave it out");
+}
+
 int local_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
   if (test.given("POINT")) {
     const auto point = test.integer("POINT");
@@ -110,6 +116,7 @@ int local_point(const Keywords& test, const ElementField& field, int cell, const
 }
 
 double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
+  check_subpoint(test);
   const auto components = components_tested(test, field.components);
   auto cells = selected_cells(test, mesh, cell_places);
   if (test.given("TYPE_TEST")) {
@@ -140,6 +147,12 @@ double field_value(const Keywords& test, const solver::Field& field, const solve
   return element_value(test, std::get<ElementField>(field), mesh);
 }
 
+// Fields and parameters hold reals; one that is tested as an integer is one.
+TestedValue as_reference(const Keywords& test, double value) {
+  if (test.given("VALE_CALC_I") || test.given("VALE_REFE_I")) return static_cast<std::int64_t>(std::llround(value));
+  return value;
+}
+
 TestedValue parameter_value(const Keywords& test, const solver::ResultStep& step) {
   const std::string& name = test.text("PARA");
   if (name == "INST") return step.instant;
@@ -148,8 +161,7 @@ TestedValue parameter_value(const Keywords& test, const solver::ResultStep& step
   if (found == step.parameters.end()) {
     throw DiagnosticError("unknown-parameter", "the result has no parameter " + name, test.span_of("PARA"));
   }
-  if (test.given("VALE_CALC_I") || test.given("VALE_REFE_I")) return static_cast<std::int64_t>(std::llround(found->second));
-  return found->second;
+  return as_reference(test, found->second);
 }
 
 // "DEPL DY at A": what a reader of the verdict needs to find the value again.
@@ -176,14 +188,14 @@ void test_result(const Keywords& test, Context& context) {
   const auto& data = interpreter::data_of<ResultConcept>(test.concept_of("RESULTAT"), "RESULTAT");
   const solver::ResultStep& step = only_step(test, data.result, "a value is tested at one");
   const TestedValue value = test.given("PARA") ? parameter_value(test, step)
-                                               : field_value(test, field_of(test, step), data.result.mesh());
+                                               : as_reference(test, field_value(test, field_of(test, step), data.result.mesh()));
   const std::string& what = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
   report(test, label_of(test, what) + fmt::format(", INST={:g}", step.instant), value, context);
 }
 
 void test_field(const Keywords& test, Context& context) {
   const FieldConcept& data = number_field(test.concept_of("CHAM_GD"), test, "CHAM_GD");
-  report(test, label_of(test, test.concept_of("CHAM_GD")->name), field_value(test, data.field, *data.mesh), context);
+  report(test, label_of(test, test.concept_of("CHAM_GD")->name), as_reference(test, field_value(test, data.field, *data.mesh)), context);
 }
 
 }  // namespace

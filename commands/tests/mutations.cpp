@@ -121,6 +121,8 @@ class Planter {
     const std::string written_call = written(*call);
     component_is_judged_ = written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
                            (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
+    // Near it among those of the field is a displacement's; of another field all are listed.
+    component_hint_ = written_call.find("NOM_CHAM=") == std::string::npos || written_call.find("\"DEPL\"") != std::string::npos ? "DX" : "";
     const CommandPage& page = catalogue_.page(callee_of(*call));
     visit_level(*call, {&page.inside}, line_of(call->begin));
   }
@@ -305,7 +307,7 @@ class Planter {
       case Kind::field: return add("unknown field", node.begin, node.end, wrong, "unknown-field", line, hint);
       case Kind::component:
         if (!component_is_judged_) return;
-        return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, "DX");
+        return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, component_hint_);
       default: return;
     }
   }
@@ -339,6 +341,7 @@ class Planter {
   int statement_ = 0;
   bool after_block_ = false;
   bool component_is_judged_ = false;
+  std::string component_hint_;
 };
 
 /// The sound text with two of its parts replaced.

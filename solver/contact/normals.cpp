@@ -35,10 +35,31 @@ FacetPoints gather(const Mesh& mesh, int cell, Positions positions) {
   return result;
 }
 
+bool is_line_in_space(const Mesh& mesh, int cell) { return mesh.dimension == 3 && dimension(mesh.cell_types[cell]) != 2; }
+
 void require_plane_or_surface(const Mesh& mesh, int cell) {
-  if (mesh.dimension != 3 || dimension(mesh.cell_types[cell]) == 2) return;
+  if (!is_line_in_space(mesh, cell)) return;
   throw Error("unsupported", fmt::format("contact facet {} is a line in space: its normal is not defined", mesh.cell_name(cell)),
-              "give the master's normal (VECT_MAIT='FIXE')");
+              "give the master's normal (VECT_MAIT='FIXE'), or its second direction (VECT_MAIT='VECT_Y')");
+}
+
+/// Across a given direction: of a line in space the cross product of its tangent and the direction, else the facet's own normal less its
+/// part along the direction.
+Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions, const Vector3d& direction) {
+  const FacetPoints points = gather(mesh, facet, positions);
+  Vector3d normal = Vector3d::Zero();
+  if (is_line_in_space(mesh, facet)) {
+    const FacetShape shape = facet_shape(mesh.cell_types[facet], xi);
+    Vector3d tangent = Vector3d::Zero();
+    for (std::size_t i = 0; i < points.count; ++i) tangent += shape.gradients[i][0] * points.points[i];
+    normal = tangent.normalized().cross(direction.normalized());
+  } else {
+    const Vector3d own = facet_normal(mesh.cell_types[facet], points.span(), xi);
+    normal = own - own.dot(direction.normalized()) * direction.normalized();
+  }
+  if (!(normal.norm() > clean_normal_tolerance))
+    throw Error("degenerate-facet", fmt::format("the second direction that is given leaves contact facet {} no normal", mesh.cell_name(facet)));
+  return cleaned(normal.normalized());
 }
 
 }  // namespace
@@ -89,8 +110,7 @@ Vector3d master_normal(const ContactZone& zone, const Mesh& mesh, int facet, con
       return cleaned(given.normalized());
     }
     case NormalRule::along_y:
-      throw Error("unsupported", "a master normal built from a given y axis (VECT_Y) is not supported",
-                  "give the normal itself (VECT_MAIT='FIXE')");
+      return normal_across(mesh, facet, xi, positions, {zone.master_vector[0], zone.master_vector[1], zone.master_vector[2]});
     case NormalRule::automatic: break;
   }
   return outward_normal(mesh, facet, xi, positions);

@@ -42,7 +42,9 @@ struct PlateRows {
   Eigen::Matrix<double, 3, 6 * Nodes> membrane;      ///< e_xx, e_yy, 2 e_xy of the surface that the nodes lie on
   Eigen::Matrix<double, 3, 6 * Nodes> curvature;     ///< beta_x,x  beta_y,y  beta_x,y + beta_y,x
   Eigen::Matrix<double, 2, 6 * Nodes> shear_force;   ///< T, force / length
-  Row spin;                                          ///< theta_z - (v,x - u,y) / 2
+  /// theta_z - (v,x - u,y) / 2, the second part in the middle of the cell: what varies of it in a quadrangle comes with the parasitic
+  /// shear of bilinear functions, not with a rotation of the surface.
+  Row spin;
 };
 
 /// The plate whose corners lie at (x, y) = the columns of `corners`, counter-clockwise.
@@ -66,6 +68,7 @@ class PlateKinematics {
       directions_.col(k) = side / lengths_[k];
     }
     amplitudes_ = side_conditions();
+    derivatives(centre(), at_centre_);
   }
 
   PlateRows<Nodes> at(const ReferencePoint& place) const {
@@ -84,8 +87,8 @@ class PlateKinematics {
     for (int i = 0; i < Nodes; ++i) {
       rows.membrane(0, 6 * i) = rows.membrane(2, 6 * i + 1) = d(i, x);
       rows.membrane(1, 6 * i + 1) = rows.membrane(2, 6 * i) = d(i, y);
-      rows.spin[6 * i] = 0.5 * d(i, y);
-      rows.spin[6 * i + 1] = -0.5 * d(i, x);
+      rows.spin[6 * i] = 0.5 * at_centre_(i, y);
+      rows.spin[6 * i + 1] = -0.5 * at_centre_(i, x);
       rows.spin[6 * i + 5] = values[i];
     }
     return rows;
@@ -96,6 +99,11 @@ class PlateKinematics {
 
   /// Coordinates of the corners of the reference cell, those of a quadrangle being -1 and 1.
   static constexpr std::array<std::array<double, 2>, 4> quadrangle = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+
+  static constexpr ReferencePoint centre() {
+    if constexpr (Nodes == 3) return {1.0 / 3, 1.0 / 3, 0.0};
+    return {0.0, 0.0, 0.0};
+  }
 
   static ReferencePoint middle(int k) {
     if constexpr (Nodes == 3) {
@@ -215,6 +223,7 @@ class PlateKinematics {
   PlateRigidity rigidity_;
   std::array<double, Nodes> lengths_{};
   Corners directions_;
+  Derivatives at_centre_;
   Amplitudes amplitudes_;  ///< alpha for the degrees of freedom
 };
 

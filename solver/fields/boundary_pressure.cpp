@@ -1,10 +1,12 @@
 #include "solver/fields/boundary_pressure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "solver/contact/normals.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
 
 namespace comma::solver {
 
@@ -29,9 +31,15 @@ NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = stresses.component(stress_names[i]);
   if (columns[0] < 0 || columns[1] < 0) throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
-  NodalField pressure{"PRES_R", {"PRES"}, std::vector<double>(mesh.nodes.size(), absent)};
+  NodalField pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY", "VZ"});
+  if (mesh.dimension == 2) pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"});
+  const std::size_t width = pressure.components.size();
   for (const auto& [node, normal] : nodal_normals(mesh, cells, positions)) {
-    pressure.values[static_cast<std::size_t>(node)] = normal.dot(stress_at(stresses, columns, node) * normal);
+    const Eigen::Vector3d traction = stress_at(stresses, columns, node) * normal;
+    const double across = normal.dot(traction);
+    const Eigen::Vector3d along = traction - across * normal;
+    const std::array<double, 5> values = {across, along.norm(), along[0], along[1], along[2]};
+    std::copy_n(values.begin(), width, pressure.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
   }
   return pressure;
 }

@@ -123,4 +123,35 @@ NodalField equivalent_strains(const NodalField& strains) {
   return map_tensors(strains, strain_names, strain_results(), write_strain);
 }
 
+namespace {
+
+const std::array<std::string_view, 6>& tensor_names(const NodalField& field) {
+  return field.component(strain_names.front()) < 0 ? stress_names : strain_names;
+}
+
+void write_invariants(const Eigen::Matrix3d& tensor, double* target) {
+  *target++ = von_mises(tensor);
+  *target++ = tresca(tensor);
+  *target++ = tensor.trace();
+  *target = tensor.determinant();
+}
+
+void write_principal(const Eigen::Matrix3d& tensor, double* target) {
+  const Principal axes = principal(tensor);
+  for (const double value : axes.values) *target++ = value;
+  write_directions(axes, target);
+}
+
+}  // namespace
+
+NodalField tensor_invariants(const NodalField& tensors) {
+  return map_tensors(tensors, tensor_names(tensors), {"VMIS", "TRESCA", "TRACE", "DETER"}, write_invariants);
+}
+
+NodalField principal_values(const NodalField& tensors) {
+  std::vector<std::string> names = {"PRIN_1", "PRIN_2", "PRIN_3"};
+  names.insert(names.end(), direction_names.begin(), direction_names.end());
+  return map_tensors(tensors, tensor_names(tensors), std::move(names), write_principal);
+}
+
 }  // namespace comma::solver

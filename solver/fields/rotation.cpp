@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -118,6 +119,65 @@ NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const 
     axes.row(2) = along.cross(radial.normalized());
     return axes;
   };
+}
+
+NodeAxes polar_axes(const Mesh& mesh) {
+  return [&mesh](int node) {
+    const Eigen::Vector3d radial(mesh.nodes[node][0], mesh.nodes[node][1], 0.0);
+    if (!(radial.norm() > 0.0)) {
+      throw Error("zero-vector", fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
+    }
+    Eigen::Matrix3d axes;
+    axes.row(0) = radial.normalized();
+    axes.row(2) = Eigen::Vector3d::UnitZ();
+    axes.row(1) = axes.row(2).cross(axes.row(0));
+    return axes;
+  };
+}
+
+namespace {
+
+/// The direction from each node of a line to the next.
+std::vector<Eigen::Vector3d> segment_directions(const Mesh& mesh, std::span<const int> nodes) {
+  if (nodes.size() < 2) throw Error("zero-vector", "a line of one node has no direction", "name several nodes, in their order along the line");
+  std::vector<Eigen::Vector3d> directions;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const Eigen::Vector3d a(mesh.nodes[nodes[i]].data()), b(mesh.nodes[nodes[i + 1]].data());
+    if (a == b) {
+      throw Error("zero-vector", fmt::format("nodes {} and {}, neighbours on the line, lie at one place", mesh.node_name(nodes[i]), mesh.node_name(nodes[i + 1])));
+    }
+    directions.push_back((b - a).normalized());
+  }
+  return directions;
+}
+
+Eigen::Vector3d across(const Mesh& mesh, const Eigen::Vector3d& tangent, const std::optional<Eigen::Vector3d>& y) {
+  if (!y && mesh.dimension == 2) return Eigen::Vector3d::UnitZ().cross(tangent);
+  if (!y) throw Error("missing-direction", "in space a line alone does not say where its second axis is", "give that direction");
+  const Eigen::Vector3d part = *y - y->dot(tangent) * tangent;
+  // Nearer than this the direction is made up by rounding.
+  constexpr double nearest = 1e-12;
+  if (!(part.norm() > nearest * y->norm())) throw Error("zero-vector", "the second direction lies along the line");
+  return part.normalized();
+}
+
+}  // namespace
+
+NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y) {
+  const auto directions = segment_directions(mesh, nodes);
+  std::map<int, Eigen::Matrix3d> axes_of;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Eigen::Vector3d& before = directions[i == 0 ? 0 : i - 1];
+    const Eigen::Vector3d& after = directions[std::min(i, directions.size() - 1)];
+    const Eigen::Vector3d sum = before + after;
+    const Eigen::Vector3d tangent = sum.isZero(0.0) ? before : Eigen::Vector3d(sum.normalized());
+    Eigen::Matrix3d axes;
+    axes.row(0) = tangent;
+    axes.row(1) = across(mesh, tangent, y);
+    axes.row(2) = axes.row(0).cross(axes.row(1));
+    axes_of.emplace(nodes[i], axes);
+  }
+  return [axes_of = std::move(axes_of)](int node) { return axes_of.at(node); };
 }
 
 Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point) {

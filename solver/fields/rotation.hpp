@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include <Eigen/Dense>
@@ -23,6 +24,16 @@ NodalField in_axes(const NodalField& field, std::span<const int> nodes, const No
 /// the three left-handed). Throws Error `zero-vector`
 /// for an axis without length, and when asked for a node on the line.
 NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis);
+
+/// The axes of polar coordinates in the plane of X and Y about the origin: r, then the angle, then Z. Throws Error `zero-vector` when
+/// asked for a node on the Z axis.
+NodeAxes polar_axes(const Mesh& mesh);
+
+/// The axes along the broken line through `nodes`: first its tangent, at inner nodes the mean direction of the two segments there;
+/// second the part of `y` across it, without `y` (in a plane mesh) the tangent turned by 90 degrees; third their cross product. Throws
+/// Error `zero-vector` for a line of one node, for two neighbours at one place, and where `y` lies along the line; `missing-direction` for
+/// a mesh in space without `y`.
+NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y);
 
 /// The sums of forces and moments over nodes.
 struct Resultant {

@@ -60,3 +60,19 @@ TEST_CASE("A line in space needs a given normal") {
   mesh.dimension = 3;
   CHECK_THROWS_AS(master_normal(ContactZone{}, mesh, 0, {0, 0}, places(mesh)), Error);
 }
+
+TEST_CASE("A normal across a given direction is square to it, on lines in space and on faces") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 1, 1}, {0, 1, 1}};
+  mesh.add_cell(CellType::seg2, std::vector<int>{0, 1});
+  mesh.add_cell(CellType::quad4, std::vector<int>{0, 1, 2, 3});
+  ContactZone zone;
+  zone.master_normal = NormalRule::along_y;
+  zone.master_vector = {0, 2, 0};
+  CHECK((master_normal(zone, mesh, 0, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
+  // The face's own normal is (0, -1, 1) / sqrt(2).
+  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
+  zone.master_vector = {1, 0, 0};
+  CHECK_THROWS_AS(master_normal(zone, mesh, 0, {0, 0}, places(mesh)), Error);
+  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, -std::sqrt(0.5), std::sqrt(0.5))).norm() < 1e-15);
+}

@@ -57,3 +57,15 @@ TEST_CASE("a field without stresses has no pressure", "[fields]") {
   const NodalField displacement{"DEPL_R", {"DX", "DY"}, std::vector<double>(8, 0.0)};
   CHECK_THROWS_AS(boundary_pressure(mesh, displacement, std::array{0}, places(mesh)), Error);
 }
+
+TEST_CASE("the traction along a boundary is what the stress has beside the pressure", "[fields]") {
+  const Mesh mesh = two_edges();
+  const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0, 1}, places(mesh));
+  REQUIRE(pressure.components == std::vector<std::string>{"PRES", "CISA", "VX", "VY"});
+  // On the right edge S n = (-3, 2), on the upper one (2, -5).
+  CHECK(pressure.at(1, 1) == Approx(2.0));
+  CHECK(pressure.at(1, 2) == Approx(0.0).margin(1e-15));
+  CHECK(pressure.at(1, 3) == Approx(2.0));
+  CHECK(pressure.at(3, 2) == Approx(2.0));
+  CHECK(pressure.at(3, 3) == Approx(0.0).margin(1e-15));
+}

@@ -71,3 +71,34 @@ TEST_CASE("a resultant's moment moves with its point as the force says", "[field
   const Resultant moved = resultant(mesh, forces, nodes, point);
   CHECK((moved.moment - (about_origin.moment - point.cross(about_origin.force))).norm() == Approx(0.0).margin(1e-14));
 }
+
+TEST_CASE("along a line the first axis is its tangent, at a corner between both segments", "[fields]") {
+  Mesh mesh = nodes_at({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});
+  mesh.dimension = 2;
+  const std::vector<int> line = {0, 1, 2};
+  const auto axes = line_axes(mesh, line, std::nullopt);
+  CHECK((axes(0) - Eigen::Matrix3d::Identity()).norm() < 1e-15);
+  const double half = std::sqrt(0.5);
+  CHECK((axes(1).row(0).transpose() - Eigen::Vector3d(half, half, 0)).norm() < 1e-15);
+  CHECK((axes(1).row(1).transpose() - Eigen::Vector3d(-half, half, 0)).norm() < 1e-15);
+  CHECK((axes(2).row(0).transpose() - Eigen::Vector3d(0, 1, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("in space a line needs a second direction, which it makes square", "[fields]") {
+  const Mesh mesh = nodes_at({{0, 0, 0}, {0, 0, 2}});
+  const std::vector<int> line = {0, 1};
+  CHECK_THROWS_WITH(line_axes(mesh, line, std::nullopt), Catch::Contains("second axis"));
+  CHECK_THROWS_WITH(line_axes(mesh, line, Eigen::Vector3d(0, 0, 5)), Catch::Contains("along the line"));
+  CHECK_THROWS_WITH(line_axes(mesh, std::vector<int>{0}, std::nullopt), Catch::Contains("one node"));
+  const Eigen::Matrix3d axes = line_axes(mesh, line, Eigen::Vector3d(0, 3, 4))(0);
+  CHECK((axes.row(1).transpose() - Eigen::Vector3d::UnitY()).norm() < 1e-15);
+  CHECK(axes.determinant() == Approx(1.0));
+}
+
+TEST_CASE("polar axes lie in the plane of X and Y", "[fields]") {
+  const Mesh mesh = nodes_at({{0, 2, 5}, {0, 0, 1}});
+  const auto axes = polar_axes(mesh);
+  CHECK((axes(0).row(0).transpose() - Eigen::Vector3d::UnitY()).norm() < 1e-15);
+  CHECK((axes(0).row(1).transpose() + Eigen::Vector3d::UnitX()).norm() < 1e-15);
+  CHECK_THROWS_WITH(axes(1), Catch::Contains("N2"));
+}

@@ -1,0 +1,77 @@
+#include "solver/fields/discretisation.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+#include "solver/fields/continuum_points.hpp"
+#include "solver/fields/field_algebra.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+/// Two quadrangles side by side, one of them skew, with an edge on the left.
+Model two_quadrangles() {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1.2, 1, 0}, {2, 1, 0}};
+  mesh->add_cell(CellType::quad4, std::array{0, 1, 4, 3});
+  mesh->add_cell(CellType::quad4, std::array{1, 2, 5, 4});
+  mesh->add_cell(CellType::seg2, std::array{3, 0});
+  return {std::move(mesh), std::vector<Formulation>(3, Formulation::plane_strain)};
+}
+
+double linear(double x, double y) { return 3.0 + 2.0 * x - 5.0 * y; }
+
+NodalField linear_field(const Mesh& mesh) {
+  NodalField field = empty_nodal_field(mesh, "NEUT_R", {"X1"});
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) field.values[i] = linear(mesh.nodes[i][0], mesh.nodes[i][1]);
+  return field;
+}
+
+}  // namespace
+
+TEST_CASE("a linear field at nodes is the same at Gauss points, those of the skin included, and back", "[fields]") {
+  const Model model = two_quadrangles();
+  const ElementField at_points = brought_to(model, linear_field(*model.mesh), Support::gauss_point, true);
+  ContinuumPoints points(model);
+  for (const int cell : {0, 1}) {
+    const auto& samples = points.samples(cell);
+    REQUIRE(at_points.points(cell) == static_cast<int>(samples.size()));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Eigen::Vector3d at = points.locate(cell, samples[i]).at;
+      CHECK(at_points.at(cell, static_cast<int>(i), 0) == Approx(linear(at[0], at[1])));
+    }
+  }
+  // Points of the edge lie evenly about its middle.
+  double sum = 0.0;
+  for (int i = 0; i < at_points.points(2); ++i) sum += at_points.at(2, i, 0);
+  CHECK(sum / at_points.points(2) == Approx(linear(0.0, 0.5)));
+  // The smoothing of the rectangle-like cells is exact on bilinear fields.
+  const NodalField back = brought_to_nodes(*model.mesh, &model, brought_to(model, linear_field(*model.mesh), Support::gauss_point, false));
+  CHECK(back.at(3, 0) == Approx(linear(0.0, 1.0)));
+}
+
+TEST_CASE("one value a cell holds all over it, and nodes between cells have the mean", "[fields]") {
+  const Model model = two_quadrangles();
+  ElementField zones = empty_cell_field(*model.mesh, "TEMP_R", {"TEMP"});
+  zones.values = {10.0, 30.0, absent};
+  const ElementField at_points = brought_to(model, zones, Support::gauss_point, false);
+  CHECK(at_points.at(1, 2, 0) == 30.0);
+  const ElementField at_corners = brought_to(model, zones, Support::element_node, false);
+  CHECK(at_corners.at(0, 3, 0) == 10.0);
+  const NodalField nodal = brought_to_nodes(*model.mesh, nullptr, zones);
+  CHECK(nodal.at(0, 0) == 10.0);
+  CHECK(nodal.at(1, 0) == 20.0);
+  CHECK(nodal.at(2, 0) == 30.0);
+}
+
+TEST_CASE("what cannot be brought elsewhere says so", "[fields]") {
+  const Model model = two_quadrangles();
+  CHECK_THROWS_AS(brought_to(model, linear_field(*model.mesh), Support::cell, false), Error);
+  const ElementField at_points = brought_to(model, linear_field(*model.mesh), Support::gauss_point, false);
+  CHECK_THROWS_WITH(brought_to_nodes(*model.mesh, nullptr, at_points), Catch::Contains("model"));
+}
