@@ -13,6 +13,7 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/condensed_contact.hpp"
 #include "solver/contact/contact_points.hpp"
+#include "solver/contact/doubts.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
@@ -51,6 +52,10 @@ class MixedContact {
   int correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected);
 
   int closed_count() const;
+  const std::vector<ContactPoint>& points() const { return points_; }
+
+  /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
+  void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
 
   /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
   /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
@@ -76,6 +81,10 @@ class MixedContact {
   void settle_blocked_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   void update_schur();
+  Eigen::VectorXd jumps_without_contact(const Eigen::VectorXd& u);
+  void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
+  void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
+  void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   Eigen::VectorXd held_forces() const;
   Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }
 

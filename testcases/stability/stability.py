@@ -17,7 +17,7 @@ from run import Measurement, run_comma
 TIMEOUT = 60.0  # s, for one run
 
 # Alarms that say that the very answer of a cell may be wrong.
-TELLING = ("soft-penalty", "soft-friction-penalty", "coarse-slave")
+TELLING = ("soft-penalty", "soft-friction-penalty", "held-overlap", "coarse-slave")
 UNSETTLED = ("no-convergence", "contact-cycling")
 
 
