@@ -79,15 +79,20 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
   const double least = negligible_slip * (u.size() ? u.cwiseAbs().maxCoeff() : 0.0);
   double creep = 0.0;
   double reach = 0.0;
+  double limit = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking) continue;
-    creep = std::max(creep, slip_of(problem_.points[p], now));
-    reach = std::max(reach, slip_of(problem_.points[p], without));
+    const CondensedPoint& point = problem_.points[p];
+    creep = std::max(creep, slip_of(point, now));
+    limit = std::max(limit, point.law.friction * forces_[point.first_row]);
+    reach = std::max(reach, slip_of(point, without));
   }
   if (creep <= least || creep <= doubtful_share * reach) return;
-  const double penalty = definition_.zones[static_cast<std::size_t>(zone)].mixed.friction_penalty;
-  const double share = std::min(1.0, creep / reach);
-  doubts.note({.kind = DoubtKind::soft_friction, .zone = zone, .share = share, .length = creep, .penalty = penalty, .wanted = wanted_penalty(penalty, share)});
+  ContactDoubt doubt{.kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
+  doubt.penalty = definition_.zones[static_cast<std::size_t>(zone)].mixed.friction_penalty;
+  // With it, friction is at its limit after a small share of the present creep.
+  doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
+  doubts.note(doubt);
 }
 
 void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {

@@ -77,7 +77,7 @@ def _sayings(results: Results) -> str:
         for cell in cells:
             if cell.measured.said and (cell.measured.status != 0 or cell.outcome.value != "right"):
                 kind = re.sub(r"[A-Z]*[0-9].*", "", cell.measured.said)
-                kinds.setdefault((cell.outcome.value, kind), (of.name, f"{cell.measured.said} {cell.measured.advice}".strip()))
+                kinds.setdefault((cell.outcome.value, kind), (of.name, f"{cell.measured.said}: {cell.measured.advice}"))
     if not kinds:
         return ""
     text = "## What one reads\n\n| outcome | first seen in | message, and what to try |\n|---|---|---|\n"
