@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "solver/contact/frictionless.hpp"
 #include "solver/contact/relaxation.hpp"
 
 namespace comma::solver {
@@ -22,6 +23,9 @@ constexpr double residual_tolerance = 1e-12;
 constexpr double stagnation_tolerance = 1e-9;
 /// Or this share of what the forces could do to the jumps.
 constexpr double rounding_share = 1e-13;
+/// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
+/// rounding of displacements.
+constexpr double rounding_scale = 1e-6;
 /// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
 constexpr double singular_pivot = 1e-14;
 
@@ -272,7 +276,7 @@ class CondensedSolver {
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
-    scale_ = std::max({problem_.smallest_scale, largest(problem_.free), largest(balanced - problem_.free)});
+    scale_ = std::max({rounding_scale * problem_.displacement, largest(problem_.free), largest(balanced - problem_.free)});
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)
@@ -362,6 +366,7 @@ class CondensedSolver {
 }  // namespace
 
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+  if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
   return CondensedSolver(schur, problem, state).run();
 }
 

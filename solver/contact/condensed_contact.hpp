@@ -8,6 +8,7 @@
 
 #include "solver/contact/contact_law.hpp"
 #include "solver/contact/facet.hpp"
+#include "solver/unilateral/active_set.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
@@ -39,11 +40,12 @@ struct CondensedProblem {
   std::vector<CondensedSpring> springs;
   Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
   Eigen::VectorXd held;         ///< forces on the rows
-  double smallest_scale = 0.0;  ///< jumps below it are rounding of the displacements (a length)
+  double displacement = 0.0;    ///< the largest (a length): what its rounding makes of jumps is nothing
   int node_count = 0;
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
+  ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };
 
 struct CondensedState {

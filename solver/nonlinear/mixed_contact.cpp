@@ -27,10 +27,11 @@ constexpr double touching = 1e-6;
 constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
-/// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
-/// rounding of displacements.
-constexpr double rounding_scale = 1e-6;
 constexpr int most_condensed_iterations = 60;
+/// The law holds when a round changes forces by less than this share of the largest.
+constexpr double negligible_change = 1e-10;
+/// Rounds with one compliance: each costs a solution.
+constexpr int most_rounds = 20;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;
@@ -95,6 +96,7 @@ void MixedContact::number_multipliers() {
   problem_.node_count = static_cast<int>(multiplier_numbers_.size());
   problem_.components = has_friction(definition_) ? dimension_ : 1;
   problem_.max_iterations = most_condensed_iterations;
+  problem_.memory = &memory_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
 }
 
@@ -293,6 +295,17 @@ Vector3d MixedContact::multiplier(int number) const {
 
 Eigen::VectorXd MixedContact::forces() const { return reduced_rows_.transpose() * forces_; }
 
+/// Points come in the same order at every pairing.
+std::vector<int> MixedContact::row_keys() const {
+  std::vector<int> keys(static_cast<std::size_t>(rows_.rows()));
+  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    for (int c = 0; c < point.components && point.first_row >= 0; ++c)
+      keys[static_cast<std::size_t>(point.first_row + c)] = 3 * static_cast<int>(p) + c;
+  }
+  return keys;
+}
+
 /// The rows of the points and those of the springs.
 void MixedContact::update_schur() {
   const auto& springs = tangent_.springs();
@@ -300,8 +313,10 @@ void MixedContact::update_schur() {
   for (int row = 0; row < reduced_rows_.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(reduced_rows_, row); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
   int next = static_cast<int>(reduced_rows_.rows());
+  std::vector<int> keys = row_keys();
   problem_.springs.clear();
   for (const auto& [unknown, stiffness] : springs) {
+    keys.push_back(-1 - unknown);
     entries.emplace_back(next, unknown, 1.0);
     problem_.springs.push_back({next++, stiffness});
   }
@@ -312,10 +327,11 @@ void MixedContact::update_schur() {
     for (const auto& spring : springs) support.insert(spring.first);
     schur_ = std::make_unique<SchurComplement>(
         std::move(rows), [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); },
-        std::vector<int>(support.begin(), support.end()));
+        std::vector<int>(support.begin(), support.end()), std::move(keys));
+    schur_->use_whole([this](const RowMatrix& all) { return tangent_.compliance(all); });
     spring_count_ = springs.size();
   } else {
-    schur_->replace_rows(std::move(rows));
+    schur_->replace_rows(std::move(rows), std::move(keys));
   }
 }
 
@@ -326,32 +342,60 @@ void MixedContact::forget() {
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   update_schur();
   add_natural_augmentation();
+  const std::vector<ContactStatus> statuses = state_.statuses;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
+  forces.head(forces_.size()) = forces_;
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 1;; ++round) {
+    const bool is_exact = schur_->is_exact();
+    const std::optional<double> change = settle(before, offset, forces, corrected);
+    if (is_exact || (change && *change <= negligible_change)) break;
+    if (!change || *change > 0.5 * last || round == most_rounds) schur_->start_anew();
+    last = change.value_or(last);
+  }
+  forces_ = forces.head(forces_.size());
+  int changes = 0;
+  for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != state_.statuses[p];
+  return changes;
+}
+
+/// Solves the law of contact with the compliance at hand and moves the bodies. By how much forces on the rows change, as a share of the
+/// largest; nothing where a compliance that is not exact finds no solution.
+std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
+                                           Eigen::VectorXd& corrected) {
   const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
   const Eigen::VectorXd free = jumps(u);
-  problem_.smallest_scale = rounding_scale * (u.size() ? u.cwiseAbs().maxCoeff() : 0.0);
+  problem_.displacement = u.size() ? u.cwiseAbs().maxCoeff() : 0.0;
   check_blocked_points(free);
   const Index point_rows = rows_.rows();
+  problem_.held = forces;
   problem_.free.resize(schur_->size());
-  problem_.held = Eigen::VectorXd::Zero(schur_->size());
   problem_.free.head(point_rows) = free;
-  problem_.held.head(point_rows) = forces_;
   for (std::size_t k = 0; k < tangent_.springs().size(); ++k) {
     const int unknown = tangent_.springs()[k].first;
     problem_.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
   }
   if (!problem_.springs.empty()) close_nearest(free);
 
+  const CondensedState earlier = state_;
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   counters_.contact_iterations += solution.iterations;
-  if (solution.verdict == CondensedVerdict::too_many_iterations) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
-  const Eigen::VectorXd change = solution.forces - problem_.held;
-  if (change.size() && change.cwiseAbs().maxCoeff() > 0.0) {
+  if (solution.verdict == CondensedVerdict::too_many_iterations) {
+    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
+    state_ = earlier;
+    return std::nullopt;
+  }
+  const Eigen::VectorXd change = solution.forces - forces;
+  const double most = change.size() ? change.cwiseAbs().maxCoeff() : 0.0;
+  if (most > 0.0) {
     Eigen::MatrixXd push = schur_->rows().transpose() * change;
-    tangent_.solve(push);
+    if (schur_->is_exact()) tangent_.solve(push);
+    else tangent_.solve_once(push);
     corrected += push;
   }
-  forces_ = solution.forces.head(point_rows);
-  return solution.changes;
+  forces = solution.forces;
+  const double size = forces.size() ? forces.cwiseAbs().maxCoeff() : 0.0;
+  return size > 0.0 ? most / size : most;
 }
 
 int MixedContact::closed_count() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -80,11 +81,14 @@ class MixedContact {
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void settle_blocked_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
+  std::vector<int> row_keys() const;
   void update_schur();
   Eigen::VectorXd jumps_without_contact(const Eigen::VectorXd& u);
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
+  std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
+                               Eigen::VectorXd& corrected);
   Eigen::VectorXd held_forces() const;
   Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }
 
@@ -101,6 +105,7 @@ class MixedContact {
   int dimension_ = 3;
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
+  ActiveSetMemory memory_;
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;

@@ -21,9 +21,14 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr double negligible_step = 4e-16;
 /// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
 constexpr double rounding_share = 1e-14;
-/// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: two are enough unless
-/// it has less than a third of them.
+/// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
+/// all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
+/// Conditions hold when a round changes multipliers by less than this share of the largest: another round would gain three digits or
+/// more.
+constexpr double negligible_change = 1e-10;
+/// Rounds with one compliance: each costs a solution.
+constexpr int most_rounds = 20;
 
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -81,11 +86,14 @@ void NewtonSolver::forget_compliance() {
 void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state) {
   conditions_ = &conditions;
   reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
+  std::vector<int> slots;
+  for (const int row : reduced_.origin) slots.push_back(conditions.row_slots[row]);
   if (!schur_) {
     schur_ = std::make_unique<SchurComplement>(
-        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_);
+        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_, slots);
+    schur_->use_whole([this](const RowMatrix& rows) { return tangent_.compliance(rows); });
   } else {
-    schur_->replace_rows(reduced_.inequalities.rows);
+    schur_->replace_rows(reduced_.inequalities.rows, slots);
   }
   row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
   active_.clear();
@@ -120,10 +128,9 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   if (mixed_) {
     state.reduced = before + step;
     correction.changes = mixed_->correct(before, offset, state.reduced);
-  } else if (row_multipliers_.size()) {
-    correction = correct_with_conditions(state, before + step);
   } else {
     state.reduced = before + step;
+    if (row_multipliers_.size()) correction = correct_with_conditions(state);
   }
   const double size = largest(state.reduced);
   correction.step = size > 0.0 ? largest(state.reduced - before) / size : 0.0;
@@ -131,22 +138,59 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   return correction;
 }
 
-NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free) {
+/// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of earlier rows or
+/// of an earlier stiffness leaves something to the next round; where that does not shrink, the compliance is made anew.
+NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state) {
+  const std::vector<int> before = active_;
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 1;; ++round) {
+    const bool is_last = by_gradients() || schur_->is_exact();
+    const std::optional<double> change = settle_conditions(state);
+    if (is_last || (change && *change <= negligible_change)) break;
+    if (!change || *change > 0.5 * last || round == most_rounds) schur_->start_anew();
+    last = change.value_or(last);
+  }
+  Correction correction;
+  correction.changes = count_changes(before, active_);
+  state.multipliers.setZero();
+  for (const int row : active_) state.multipliers[conditions_->row_slots[reduced_.origin[row]]] = row_multipliers_[row];
+  return correction;
+}
+
+/// By how much multipliers change, as a share of the largest; nothing where a compliance that is not exact finds no solution.
+std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Inequalities& rows = reduced_.inequalities;
   ActiveSetProblem problem;
   problem.guess = active_;
   problem.max_iterations = active_set_limit_;
-  // `free` is balanced by the present multipliers: taking these back gives what it would be without any.
+  // The present multipliers balance the displacements: taking them back gives what those would be without any.
   const Eigen::VectorXd held = push_of_active();
-  problem.excess = rows.rows * free - rows.bounds + held;
-  const double displacement = largest(free);
+  problem.excess = rows.rows * state.reduced - rows.bounds + held;
+  const double displacement = largest(state.reduced);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
-  for (int row = 0; row < schur_->size(); ++row)
-    problem.scale[row] += displacement * Eigen::VectorXd(rows.rows.row(row)).lpNorm<1>();
+  for (int row = 0; row < rows.rows.outerSize(); ++row)
+    for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += displacement * std::abs(it.value());
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
 
+  const bool is_exact = by_gradients() || schur_->is_exact();
   ActiveSetSolution solution = solve_conditions(problem);
   counters_.contact_iterations += solution.iterations;
+  if (solution.verdict != ActiveSetVerdict::solved && !is_exact) return std::nullopt;
+  throw_unless_solved(solution);
+  const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
+  if (change.cwiseAbs().maxCoeff() > 0.0) {
+    Eigen::MatrixXd push = rows.rows.transpose() * change;
+    if (is_exact) tangent_.solve(push);
+    else tangent_.solve_once(push);
+    state.reduced -= push;
+  }
+  row_multipliers_ = std::move(solution.multipliers);
+  active_ = std::move(solution.active);
+  const double size = largest(row_multipliers_);
+  return size > 0.0 ? largest(change) / size : largest(change);
+}
+
+void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const {
   if (solution.verdict == ActiveSetVerdict::contradictory) {
     std::vector<int> full;
     for (const int row : solution.contradiction) full.push_back(reduced_.origin[row]);
@@ -154,21 +198,6 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   }
   if (solution.verdict == ActiveSetVerdict::too_many_iterations)
     throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_);
-
-  const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
-  state.reduced = free;
-  if (change.cwiseAbs().maxCoeff() > 0.0) {
-    Eigen::MatrixXd push = rows.rows.transpose() * change;
-    tangent_.solve(push);
-    state.reduced -= push;
-  }
-  Correction correction;
-  correction.changes = count_changes(active_, solution.active);
-  row_multipliers_ = std::move(solution.multipliers);
-  active_ = std::move(solution.active);
-  state.multipliers.setZero();
-  for (const int row : active_) state.multipliers[conditions_->row_slots[reduced_.origin[row]]] = row_multipliers_[row];
-  return correction;
 }
 
 /// S times the present multipliers.
@@ -184,7 +213,7 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
-  return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem);
+  return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem, memory_);
 }
 
 Eigen::VectorXd NewtonSolver::compliance_times(const Eigen::VectorXd& multipliers) {
@@ -219,7 +248,8 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
 void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
   if (!assembler_.is_linear()) return;
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < max_polishing; ++k) {
+  const int rounds = tangent_.loses_few_digits() ? 1 : max_polishing;
+  for (int k = 0; k < rounds; ++k) {
     const double step = correct(state, offset).step;
     evaluate(state, external);
     if (step <= negligible_step || step > 0.5 * last) return;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,9 @@ class NewtonSolver {
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
-  Correction correct_with_conditions(NewtonState& state, const Eigen::VectorXd& free);
+  Correction correct_with_conditions(NewtonState& state);
+  std::optional<double> settle_conditions(NewtonState& state);
+  void throw_unless_solved(const ActiveSetSolution& solution) const;
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
   Eigen::VectorXd push_of_active();
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
@@ -95,6 +98,7 @@ class NewtonSolver {
   int active_set_limit_ = 0;
   ReducedInequalities reduced_;
   std::unique_ptr<SchurComplement> schur_;
+  ActiveSetMemory memory_;
   Eigen::VectorXd row_multipliers_;  ///< one a reduced row
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced

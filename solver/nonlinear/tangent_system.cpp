@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "solver/constraints/rigid_motion.hpp"
 #include "solver/constraints/solid_unknowns.hpp"
 #include "solver/error.hpp"
+#include "solver/linear/bordered_compliance.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace comma::solver {
@@ -32,6 +34,7 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u) {
   if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
+  tangent_at_ = u;
   SymmetricMatrix reduced = assembled(u);
   if (assembler_.is_symmetric())
     factorise(std::move(reduced));
@@ -100,6 +103,7 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
     throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
   if (report.verdict == FactorVerdict::indefinite) ++counters_.indefinite_factorisations;
+  lost_digits_ = has_pivots ? report.lost_digits : std::numeric_limits<double>::digits10;
   measure_rows(reduced);
   factorised_ = true;
 }
@@ -132,6 +136,14 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
       row_sizes_[it.row()] += std::abs(it.value());
       if (it.row() != column) row_sizes_[column] += std::abs(it.value());
     }
+}
+
+Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
+  if (unsymmetric_ || elimination_.reduced_size() < large_solid) return {};
+  const SymmetricMatrix stiffness = assembled(tangent_at_);
+  const Stopwatch stopwatch(counters_.factorising);
+  ++counters_.factorisations;
+  return bordered_compliance(stiffness, rows);
 }
 
 void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {

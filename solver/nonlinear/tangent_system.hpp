@@ -12,6 +12,7 @@
 #include "solver/linear/linear_solver.hpp"
 #include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
+#include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
 
@@ -42,8 +43,14 @@ class TangentSystem {
   /// The same for the compliance of conditions (LinearSolver::solve_once).
   void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
 
+  /// rows K^-1 rows^T (m x m) from one more factorisation, which takes the rows along; empty where column by column is as good.
+  Eigen::MatrixXd compliance(const RowMatrix& rows);
+
   /// Whether a factor stands behind the solutions, so that another one costs little.
   bool has_factor() const { return unsymmetric_ || (solver_ && solver_->method() != LinearMethod::multigrid); }
+
+  /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
+  bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
@@ -67,6 +74,8 @@ class TangentSystem {
   std::unique_ptr<LinearSolver> solver_;
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
+  Eigen::VectorXd tangent_at_;  ///< u of the last factorisation
+  int lost_digits_ = 0;
   bool factorised_ = false;
   bool multigrid_failed_ = false;
   bool may_add_springs_ = false;

@@ -22,14 +22,39 @@ bool ActiveCholesky::append(const Eigen::VectorXd& coupling, double diagonal) {
   const Eigen::VectorXd row = lower_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solve(coupling);
   const double pivot = diagonal - row.squaredNorm();
   if (!(pivot > dependence_tolerance * diagonal)) return false;
-  if (size_ == lower_.rows()) {
-    const Eigen::Index capacity = std::max<Eigen::Index>(16, 2 * lower_.rows());
-    lower_.conservativeResize(capacity, capacity);
-  }
+  grow(size_ + 1);
   lower_.row(size_).head(size_) = row.transpose();
   lower_(size_, size_) = std::sqrt(pivot);
   ++size_;
   return true;
+}
+
+bool ActiveCholesky::append_all(const Eigen::MatrixXd& coupling, const Eigen::MatrixXd& block) {
+  assert(coupling.cols() == size_ && coupling.rows() == block.rows());
+  const Eigen::Index count = block.rows();
+  Eigen::MatrixXd across = coupling.transpose();
+  Eigen::MatrixXd rest = block;
+  if (size_ > 0) {
+    lower_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(across);
+    rest.selfadjointView<Eigen::Lower>().rankUpdate(across.transpose(), -1.0);
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(rest);
+  if (factor.info() != Eigen::Success) return false;
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!(rest(i, i) * rest(i, i) > dependence_tolerance * block(i, i))) return false;
+  grow(size_ + count);
+  lower_.block(size_, 0, count, size_) = across.transpose();
+  lower_.block(size_, size_, count, count).triangularView<Eigen::Lower>() = rest;
+  size_ += static_cast<int>(count);
+  return true;
+}
+
+/// By a half more each time, and by all that is asked for.
+void ActiveCholesky::grow(Eigen::Index needed) {
+  constexpr Eigen::Index least = 16;
+  if (needed <= lower_.rows()) return;
+  const Eigen::Index capacity = std::max({least, needed, lower_.rows() + lower_.rows() / 2});
+  lower_.conservativeResize(capacity, capacity);
 }
 
 void ActiveCholesky::remove(int k) {

@@ -18,6 +18,10 @@ class ActiveCholesky {
   /// leaves the factor as it was, when the row depends on those present within `dependence_tolerance`.
   bool append(const Eigen::VectorXd& coupling, double diagonal);
 
+  /// Appends many rows at once: `coupling` (k x m) and `block` (k x k, its lower triangle) are S between them and those present, and
+  /// among themselves. False, and the factor as it was, when one of them depends on the others or on those present.
+  bool append_all(const Eigen::MatrixXd& coupling, const Eigen::MatrixXd& block);
+
   /// What is left of a row's own entry once those present are eliminated: diagonal - coupling^T S^-1 coupling.
   double remaining_pivot(const Eigen::VectorXd& coupling, double diagonal) const;
   bool depends(const Eigen::VectorXd& coupling, double diagonal) const;
@@ -29,6 +33,8 @@ class ActiveCholesky {
   Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
 
  private:
+  void grow(Eigen::Index needed);
+
   Eigen::MatrixXd lower_;
   int size_ = 0;
 };

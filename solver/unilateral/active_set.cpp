@@ -4,8 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "solver/unilateral/active_cholesky.hpp"
+#include <set>
 
 namespace comma::solver {
 namespace {
@@ -13,15 +12,27 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Rounds of the packet phase: it either settles in a few or circles.
 constexpr int packet_rounds = 12;
+/// From so many rows on the factor gains by blocks: below, they are not worth the copies.
+constexpr std::size_t block_rows = 16;
 
 class ActiveSetSolver {
  public:
-  ActiveSetSolver(SchurComplement& schur, const ActiveSetProblem& problem)
+  ActiveSetSolver(SchurComplement& schur, const ActiveSetProblem& problem, ActiveSetMemory& memory)
       : schur_(schur),
         problem_(problem),
+        memory_(memory),
         is_active_(problem.excess.size(), 0),
         redundant_(problem.excess.size(), 0),
-        violation_(problem.excess) {}
+        violation_(problem.excess),
+        active_(memory.active),
+        factor_(memory.factor) {
+    if (memory.version == schur.version()) {
+      for (const int row : active_) is_active_[row] = 1;
+    } else {
+      active_.clear();
+      factor_.clear();
+    }
+  }
 
   ActiveSetSolution run() {
     start_from_guess();
@@ -47,6 +58,38 @@ class ActiveSetSolver {
     active_.push_back(row);
     is_active_[row] = 1;
     return true;
+  }
+
+  /// Those that depend on no other enter. Whether any did.
+  bool enter_all(const std::vector<int>& rows) {
+    if (rows.size() >= block_rows && enter_block(rows)) return true;
+    bool entered = false;
+    for (const int row : rows)
+      if (!is_active_[row]) entered |= enter(row);
+    return entered;
+  }
+
+  bool enter_block(const std::vector<int>& rows) {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd couplings(count, static_cast<Eigen::Index>(active_.size()));
+    Eigen::MatrixXd block(count, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::VectorXd& column = schur_.column(rows[i]);
+      for (std::size_t j = 0; j < active_.size(); ++j) couplings(i, static_cast<Eigen::Index>(j)) = column[active_[j]];
+      for (Eigen::Index j = i; j < count; ++j) block(j, i) = column[rows[j]];
+    }
+    if (!factor_.append_all(couplings, block)) return false;
+    for (const int row : rows) is_active_[row] = 1;
+    active_.insert(active_.end(), rows.begin(), rows.end());
+    return true;
+  }
+
+  /// Many at once: the factor begins anew.
+  void keep_only(const std::vector<int>& rows) {
+    for (const int row : active_) is_active_[row] = 0;
+    active_.clear();
+    factor_.clear();
+    enter_all(rows);
   }
 
   void leave(int position) {
@@ -80,22 +123,39 @@ class ActiveSetSolver {
     return rows;
   }
 
+  /// What is remembered and guessed stays, what is guessed besides enters.
   void start_from_guess() {
     schur_.require(problem_.guess);
-    for (const int row : problem_.guess)
-      if (!is_active_[row]) enter(row);
+    const std::set<int> guess(problem_.guess.begin(), problem_.guess.end());
+    std::vector<int> kept, added;
+    for (const int row : active_)
+      if (guess.contains(row)) kept.push_back(row);
+    if (kept.size() + block_rows < active_.size()) {
+      keep_only(kept);
+    } else {
+      for (int i = static_cast<int>(active_.size()) - 1; i >= 0; --i)
+        if (!guess.contains(active_[i])) leave(i);
+    }
+    for (const int row : guess)
+      if (!is_active_[row]) added.push_back(row);
+    enter_all(added);
     solve_equalities();
   }
 
   bool drop_pulling_rows() {
-    bool dropped = false;
-    for (int i = static_cast<int>(active_.size()) - 1; i >= 0; --i)
-      if (multipliers_[i] < 0.0) {
-        leave(i);
-        dropped = true;
-      }
-    if (dropped) solve_equalities();
-    return dropped;
+    std::vector<int> pulling, pushing;
+    for (int i = 0; i < static_cast<int>(active_.size()); ++i) {
+      if (multipliers_[i] < 0.0) pulling.push_back(i);
+      else pushing.push_back(active_[i]);
+    }
+    if (pulling.empty()) return false;
+    if (pulling.size() >= block_rows) {
+      keep_only(pushing);
+    } else {
+      for (auto position = pulling.rbegin(); position != pulling.rend(); ++position) leave(*position);
+    }
+    solve_equalities();
+    return true;
   }
 
   bool settle_in_packets() {
@@ -105,8 +165,7 @@ class ActiveSetSolver {
       if (!dropped && violated.empty()) return true;
       ++iterations_;
       schur_.require(violated);
-      bool entered = false;
-      for (const int row : violated) entered |= enter(row);
+      const bool entered = enter_all(violated);
       if (entered) solve_equalities();
       if (!entered && !violated.empty()) return false;
     }
@@ -219,19 +278,21 @@ class ActiveSetSolver {
     solution.multipliers = Eigen::VectorXd::Zero(problem_.excess.size());
     for (std::size_t i = 0; i < active_.size(); ++i)
       solution.multipliers[active_[i]] = std::max(0.0, multipliers_[static_cast<Eigen::Index>(i)]);
-    std::sort(active_.begin(), active_.end());
-    solution.active = std::move(active_);
+    solution.active = active_;
+    std::sort(solution.active.begin(), solution.active.end());
+    memory_.version = schur_.version();
     return solution;
   }
 
   SchurComplement& schur_;
   const ActiveSetProblem& problem_;
+  ActiveSetMemory& memory_;
   std::vector<char> is_active_;
   std::vector<char> redundant_;
-  std::vector<int> active_;
-  Eigen::VectorXd multipliers_;
   Eigen::VectorXd violation_;
-  ActiveCholesky factor_;
+  std::vector<int>& active_;
+  ActiveCholesky& factor_;
+  Eigen::VectorXd multipliers_;
   ActiveSetVerdict verdict_ = ActiveSetVerdict::solved;
   int iterations_ = 0;
   std::vector<int> contradiction_;
@@ -240,8 +301,13 @@ class ActiveSetSolver {
 }  // namespace
 
 ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem) {
+  ActiveSetMemory memory;
+  return solve_active_set(schur, problem, memory);
+}
+
+ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem, ActiveSetMemory& memory) {
   assert(problem.excess.size() == schur.size() && problem.scale.size() == schur.size());
-  return ActiveSetSolver(schur, problem).run();
+  return ActiveSetSolver(schur, problem, memory).run();
 }
 
 }  // namespace comma::solver

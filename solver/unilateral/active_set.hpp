@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "solver/unilateral/active_cholesky.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
@@ -17,6 +18,13 @@ struct ActiveSetProblem {
   Eigen::VectorXd scale;       ///< size of the terms that make up A u - b, row by row (m, > 0): tolerances are relative to it
   std::vector<int> guess;      ///< rows that were active before
   int max_iterations = 1000;   ///< changes of the active set, at most
+};
+
+/// What the method keeps from one solution to the next: the factor of the rows that were active, good as long as S is the same.
+struct ActiveSetMemory {
+  std::vector<int> active;   ///< in the order of the factor
+  ActiveCholesky factor;
+  long version = -1;         ///< of S
 };
 
 enum class ActiveSetVerdict : std::uint8_t { solved, contradictory, too_many_iterations };
@@ -34,6 +42,7 @@ struct ActiveSetSolution {
 /// one row at a time, which is finite because the dual function rises at each full step. Rows that depend on active ones
 /// never enter together with them; a violated one that nothing active can make room for is a contradiction.
 ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem);
+ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem, ActiveSetMemory& memory);
 
 /// A row is violated when it exceeds its bound by more than this share of its scale: above the rounding of K^-1, below any
 /// gap that matters.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <unordered_map>
 #include <utility>
 
 namespace comma::solver {
@@ -16,23 +17,28 @@ bool same(const RowMatrix& a, const RowMatrix& b) {
 
 }  // namespace
 
-SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support)
+SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support, std::vector<int> keys)
     : rows_(std::move(rows)),
+      keys_(std::move(keys)),
       inverse_(std::move(inverse)),
       columns_(static_cast<std::size_t>(rows_.rows())),
       support_(std::move(support)),
       compliance_(support_.size()) {
   assert(std::is_sorted(support_.begin(), support_.end()));
   rows_.makeCompressed();
+  source_ = rows_;
+}
+
+bool SchurComplement::has_columns() const {
+  return std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
 }
 
 void SchurComplement::require(std::span<const int> indices) {
   std::vector<int> missing;
   for (const int index : indices)
     if (!known(index)) missing.push_back(index);
-  if (missing.empty()) return;
-  const bool keeps_compliance = rows_change_ && support_.size() <= largest_support;
-  if (!keeps_compliance || !build_from_compliance(missing)) solve_rows(missing);
+  if (missing.empty() || (rows_change_ && keeps_compliance() && build_from_compliance(missing)) || solve_whole(missing)) return;
+  solve_rows(missing);
 }
 
 void SchurComplement::solve_rows(const std::vector<int>& missing) {
@@ -40,12 +46,23 @@ void SchurComplement::solve_rows(const std::vector<int>& missing) {
     const std::size_t count = std::min<std::size_t>(batch_size, missing.size() - first);
     Eigen::MatrixXd batch = Eigen::MatrixXd::Zero(rows_.cols(), static_cast<Eigen::Index>(count));
     for (std::size_t k = 0; k < count; ++k)
-      for (RowMatrix::InnerIterator it(rows_, missing[first + k]); it; ++it)
+      for (RowMatrix::InnerIterator it(source_, missing[first + k]); it; ++it)
         batch(it.col(), static_cast<Eigen::Index>(k)) = it.value();
     inverse_(batch);
-    const Eigen::MatrixXd product = rows_ * batch;
+    const Eigen::MatrixXd product = source_ * batch;
     for (std::size_t k = 0; k < count; ++k) columns_[missing[first + k]] = product.col(static_cast<Eigen::Index>(k));
   }
+}
+
+bool SchurComplement::solve_whole(const std::vector<int>& missing) {
+  if (!whole_ || missing.size() < many_columns || static_cast<double>(missing.size()) < many_share * size()) return false;
+  const Eigen::MatrixXd whole = whole_(rows_);
+  if (whole.size() == 0) return false;
+  source_ = rows_;
+  exact_ = true;
+  ++version_;
+  for (int row = 0; row < size(); ++row) columns_[row] = whole.col(row);
+  return true;
 }
 
 int SchurComplement::support_index(int unknown) const {
@@ -90,17 +107,74 @@ const Eigen::VectorXd& SchurComplement::column(int index) const {
   return columns_[index];
 }
 
-void SchurComplement::replace_rows(RowMatrix rows) {
+void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys) {
   rows.makeCompressed();
-  if (same(rows_, rows)) return;
+  if (same(rows_, rows) && keys_ == keys) return;
   rows_change_ = rows_change_ || rows_.rows() > 0;
+  const bool same_keys = keys_ == keys && rows_.rows() == rows.rows();
+  const bool taken = !keeps_compliance() && has_columns() && (same_keys || take_over(rows, keys));
   rows_ = std::move(rows);
+  keys_ = std::move(keys);
+  exact_ = !taken;
+  if (!taken) clear();
+}
+
+void SchurComplement::clear() {
+  ++version_;
+  source_ = rows_;
   columns_.assign(static_cast<std::size_t>(rows_.rows()), Eigen::VectorXd());
 }
 
+/// Rows that stay keep their columns. False where half of them are new.
+bool SchurComplement::take_over(const RowMatrix& rows, const std::vector<int>& keys) {
+  std::unordered_map<int, int> earlier;
+  for (int row = 0; row < size(); ++row) earlier.emplace(keys_.empty() ? row : keys_[row], row);
+  const int count = static_cast<int>(rows.rows());
+  std::vector<int> origin(static_cast<std::size_t>(count), -1);
+  std::vector<int> added;
+  for (int row = 0; row < count; ++row) {
+    const auto found = earlier.find(keys.empty() ? row : keys[row]);
+    if (found == earlier.end()) added.push_back(row);
+    else origin[row] = found->second;
+  }
+  if (2 * added.size() > static_cast<std::size_t>(count)) return false;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(count));
+  for (int row = 0; row < count; ++row) {
+    const bool stays = origin[row] >= 0;
+    for (RowMatrix::InnerIterator it(stays ? source_ : rows, stays ? origin[row] : row); it; ++it)
+      entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    if (!stays || !known(origin[row])) continue;
+    columns[row] = Eigen::VectorXd::Zero(count);
+    for (int other = 0; other < count; ++other)
+      if (origin[other] >= 0) columns[row][other] = columns_[origin[row]][origin[other]];
+  }
+  source_.resize(count, rows.cols());
+  source_.setFromTriplets(entries.begin(), entries.end());
+  columns_ = std::move(columns);
+  ++version_;
+  complete_columns(added);
+  return true;
+}
+
+/// The columns of added rows, and by symmetry their entries in the others.
+void SchurComplement::complete_columns(const std::vector<int>& added) {
+  solve_rows(added);
+  for (std::size_t row = 0; row < columns_.size(); ++row)
+    for (const int other : added)
+      if (columns_[row].size()) columns_[row][other] = columns_[other][static_cast<Eigen::Index>(row)];
+}
+
 void SchurComplement::forget() {
-  columns_.assign(static_cast<std::size_t>(rows_.rows()), Eigen::VectorXd());
   compliance_.assign(support_.size(), Eigen::VectorXd());
+  if (keeps_compliance() || !has_columns()) clear();
+  else exact_ = false;
+}
+
+void SchurComplement::start_anew() {
+  clear();
+  exact_ = true;
 }
 
 }  // namespace comma::solver

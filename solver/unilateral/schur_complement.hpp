@@ -13,16 +13,25 @@ namespace comma::solver {
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that is
-/// active again is free. Once rows have changed (geometry updates turn normals and shift weights), what is kept is the
-/// compliance C = K^-1 between the unknowns that rows can touch, the support: S = A C A^T then follows for any rows without
-/// another solve. S is in unknown / multiplier (a length a force, for contact).
+/// active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
+///  - where few unknowns are touched by rows (the support), what is kept is the compliance C = K^-1 between them: S = A C A^T then
+///    follows for any rows without another solve;
+///  - where they are many, S stays that of the earlier rows and stiffness: it is not exact any more, but so near that whoever
+///    corrects with it again, after a look at what is left, needs a few solves instead of one a row.
+/// S is in unknown / multiplier (a length a force, for contact).
 class SchurComplement {
  public:
   /// Overwrites the columns (n x k) by K^-1 times them.
   using ApplyInverse = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
+  /// The whole of S for these rows at once, or an empty matrix where that is no gain.
+  using WholeCompliance = std::function<Eigen::MatrixXd(const RowMatrix& rows)>;
 
-  /// `rows`: A, m x n. `support`: unknowns, rising; rows on others are taken, but cost a solve whenever they change.
-  SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support = {});
+  /// `rows`: A, m x n. `support`: unknowns, rising; rows on others are taken, but cost a solve whenever they change. `keys`: what
+  /// each row is about, all different, by which rows are known again when others take their place; empty: their numbers.
+  SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support = {}, std::vector<int> keys = {});
+
+  /// Another way to many columns.
+  void use_whole(WholeCompliance whole) { whole_ = std::move(whole); }
 
   int size() const { return static_cast<int>(rows_.rows()); }
   const RowMatrix& rows() const { return rows_; }
@@ -35,26 +44,47 @@ class SchurComplement {
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
-  void replace_rows(RowMatrix rows);
-  /// Forgets columns and compliance, as after a new factorisation.
+  void replace_rows(RowMatrix rows, std::vector<int> keys = {});
+  /// After a new factorisation.
   void forget();
+
+  /// Whether known columns are those of the present rows and stiffness.
+  bool is_exact() const { return exact_; }
+  /// Makes it so, at the price of all columns.
+  void start_anew();
+  /// Another one whenever a known entry may have changed, or its row's number.
+  long version() const { return version_; }
 
   /// Memory held while columns are computed: this many right-hand sides at once.
   static constexpr int batch_size = 32;
-  /// The compliance is kept up to this many unknowns (128 MB); beyond, changed rows are solved for again.
-  static constexpr std::size_t largest_support = 4000;
+  /// The compliance is kept up to this many unknowns (8 MB): beyond, its solves cost more than corrections with an earlier S.
+  static constexpr std::size_t largest_support = 1000;
+  /// From this many columns on, if they are this share of all, the whole is asked for at once.
+  static constexpr std::size_t many_columns = 100;
+  static constexpr double many_share = 0.25;
 
  private:
+  bool keeps_compliance() const { return support_.size() <= largest_support; }
+  bool has_columns() const;
+  void clear();
+  bool take_over(const RowMatrix& rows, const std::vector<int>& keys);
+  void complete_columns(const std::vector<int>& added);
   void solve_rows(const std::vector<int>& missing);
+  bool solve_whole(const std::vector<int>& missing);
   bool build_from_compliance(const std::vector<int>& missing);
   int support_index(int unknown) const;
 
   RowMatrix rows_;
+  RowMatrix source_;  ///< the rows of which S is made; empty: rows_
+  std::vector<int> keys_;
   ApplyInverse inverse_;
+  WholeCompliance whole_;
   std::vector<Eigen::VectorXd> columns_;
   std::vector<int> support_;
   std::vector<Eigen::VectorXd> compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
   bool rows_change_ = false;
+  bool exact_ = true;
+  long version_ = 0;
 };
 
 }  // namespace comma::solver

@@ -198,3 +198,37 @@ TEST_CASE("Nodes paired with nodes transmit a uniform pressure on matching meshe
   stack.scene.solve(1);
   for (const int node : stack.upper.nodes[0]) CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
 }
+
+TEST_CASE("A long contact that slides takes few solutions a step, whatever the formulation") {
+  // Beyond the size up to which the compliance of all unknowns on the surfaces is kept.
+  const int above = 300;
+  std::vector<double> sums;
+  for (const ContactFormulation formulation : {ContactFormulation::mixed, ContactFormulation::discrete}) {
+    Stack stack(260, above);
+    Scene& scene = stack.scene;
+    scene.problem.contact->formulation = formulation;
+    scene.impose(stack.upper.nodes.back(), Component::dx, 0.001, true);  // a tenth of a cell a step
+    for (std::size_t column = 0; column <= above; ++column)
+      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, 0.01 - 0.02 * static_cast<double>(column) / above, true);
+    scene.solve(4);
+    double sum = 0.0, deepest = 0.0, open = 0.0;
+    for (const int node : stack.upper.nodes[0]) {
+      const double gap = scene.contact(node, "JEU");
+      const double force = scene.contact(node, "RN");
+      if (std::isnan(gap)) continue;  // beyond the end of the other surface
+      sum += force;
+      deepest = std::min(deepest, gap);
+      open = std::max(open, std::abs(gap * force));
+      CHECK(force >= 0.0);
+    }
+    // Lengths are of order one, displacements of order 0.01.
+    CHECK(deepest > -1e-11);
+    CHECK(open < 1e-9 * sum);
+    CHECK(sum > 0.0);
+    // One solution a slave node once, and then few at each position of the surfaces.
+    CHECK(scene.counters.pairings >= 8);
+    CHECK(scene.counters.solves < above + 80 * scene.counters.pairings);
+    sums.push_back(sum);
+  }
+  CHECK(sums[0] == Approx(sums[1]).epsilon(1e-3));  // the weights of nodes differ at the ends
+}

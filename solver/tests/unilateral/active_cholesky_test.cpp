@@ -44,6 +44,27 @@ TEST_CASE("A factor that grew and shrank solves like a fresh one") {
   CHECK((sub * x - rhs).norm() <= 1e-13 * sub.norm() * x.norm());
 }
 
+TEST_CASE("Rows that enter together give the factor of rows that enter in turn") {
+  std::mt19937 generator(11);
+  const int size = 30, first = 12;
+  const Eigen::MatrixXd s = random_spd(size, generator);
+  ActiveCholesky factor;
+  REQUIRE(factor.append_all(Eigen::MatrixXd(first, 0), s.topLeftCorner(first, first)));
+  REQUIRE(factor.append_all(s.bottomLeftCorner(size - first, first), s.bottomRightCorner(size - first, size - first)));
+  REQUIRE(factor.size() == size);
+  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(size, -1.0, 2.0);
+  const Eigen::VectorXd x = factor.solve(rhs);
+  CHECK((s * x - rhs).norm() <= 1e-13 * s.norm() * x.norm());
+
+  SECTION("and none of them enters where one depends on the others") {
+    Eigen::MatrixXd twice(2, size);
+    twice << s.row(3), s.row(3);
+    REQUIRE_FALSE(factor.append_all(twice, Eigen::Matrix2d::Constant(s(3, 3))));
+    CHECK(factor.size() == size);
+    CHECK((factor.solve(rhs) - x).norm() == 0.0);
+  }
+}
+
 TEST_CASE("A row that depends on those present is refused and leaves the factor alone") {
   ActiveCholesky factor;
   REQUIRE(factor.append(Eigen::VectorXd(), 4.0));

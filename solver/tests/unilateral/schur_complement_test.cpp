@@ -1,5 +1,6 @@
 #include "solver/unilateral/schur_complement.hpp"
 
+#include <numeric>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -82,4 +83,87 @@ TEST_CASE("Rows that change are served by the compliance of their unknowns witho
   schur.replace_rows(elsewhere.sparseView());
   schur.require(std::vector<int>{0});
   CHECK((schur.column(0) - elsewhere * factor.solve(elsewhere.row(0).transpose())).norm() < 1e-10);
+}
+
+namespace {
+
+/// K is diagonal, and so large that the compliance of its unknowns is not kept. Row r touches unknowns 3 r, 3 r + 1 and 3 r + 2, with
+/// weights that turn with `place`.
+struct LongBeam {
+  static constexpr int rows = 400;
+  static constexpr int unknowns = 3 * rows;
+  long solves = 0;
+
+  static double stiffness(int unknown) { return 1.0 + 0.01 * unknown; }
+  static RowMatrix matrix(const std::vector<int>& places, double turn) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t row = 0; row < places.size(); ++row) {
+      const int first = 3 * places[row];
+      entries.emplace_back(row, first, 1.0);
+      entries.emplace_back(row, first + 1, -turn);
+      entries.emplace_back(row, (first + 3) % unknowns, turn - 1.0);
+    }
+    RowMatrix result(static_cast<Eigen::Index>(places.size()), unknowns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+  SchurComplement::ApplyInverse inverse() {
+    return [this](Eigen::Ref<Eigen::MatrixXd> columns) {
+      solves += columns.cols();
+      for (int unknown = 0; unknown < unknowns; ++unknown) columns.row(unknown) /= stiffness(unknown);
+    };
+  }
+  static Eigen::MatrixXd compliance(const RowMatrix& a, const RowMatrix& b) {
+    Eigen::VectorXd softness(unknowns);
+    for (int unknown = 0; unknown < unknowns; ++unknown) softness[unknown] = 1.0 / stiffness(unknown);
+    return Eigen::MatrixXd(a * softness.asDiagonal() * b.transpose());
+  }
+};
+
+std::vector<int> numbers(int first, int count) {
+  std::vector<int> result(static_cast<std::size_t>(count));
+  std::iota(result.begin(), result.end(), first);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Of many unknowns, rows that turn keep the columns of those before them until they are asked for anew") {
+  LongBeam beam;
+  const std::vector<int> before = numbers(0, 399);
+  const std::vector<int> after = numbers(1, 399);  // 0 leaves, 399 comes
+  SchurComplement schur(beam.matrix(before, 0.3), beam.inverse(), numbers(0, LongBeam::unknowns), before);
+  schur.require(numbers(0, 399));
+  REQUIRE(schur.is_exact());
+  REQUIRE(beam.solves == 399);
+
+  const RowMatrix turned = beam.matrix(after, 0.31);
+  schur.replace_rows(turned, after);
+  CHECK_FALSE(schur.is_exact());
+  schur.require(numbers(0, 399));
+  CHECK(beam.solves == 400);
+  // The one that came has its own row, the others those of before: together the compliance of one set of rows.
+  RowMatrix mixed = beam.matrix(after, 0.3);
+  for (RowMatrix::InnerIterator it(mixed, 398); it; ++it) it.valueRef() = turned.coeff(398, it.col());
+  const Eigen::MatrixXd expected = beam.compliance(mixed, mixed);
+  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
+
+  schur.start_anew();
+  REQUIRE(schur.is_exact());
+  schur.require(numbers(0, 399));
+  const Eigen::MatrixXd anew = beam.compliance(turned, turned);
+  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - anew.col(row)).norm() < 1e-14 * anew.col(row).norm());
+}
+
+TEST_CASE("Many columns come from the whole where there is a way to it") {
+  LongBeam beam;
+  const RowMatrix rows = beam.matrix(numbers(0, 400), 0.3);
+  SchurComplement schur(rows, beam.inverse(), numbers(0, LongBeam::unknowns));
+  schur.use_whole([&](const RowMatrix& all) { return beam.compliance(all, all); });
+  schur.require(numbers(0, 3));
+  CHECK(beam.solves == 3);
+  schur.require(numbers(0, 200));
+  CHECK(beam.solves == 3);
+  CHECK(schur.known(399));
+  CHECK((schur.column(150) - beam.compliance(rows, rows).col(150)).norm() == 0.0);
 }

@@ -1,0 +1,33 @@
+#include "solver/contact/contact_points.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "../nonlinear/scene.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either, on linear and on quadratic faces") {
+  // Two faces along the radius, one at height zero, the other at a tenth. Where the radius vanishes the weight of a quadratic
+  // rule does too, and so does the integral of the node's shape function.
+  const bool quadratic = GENERATE(false, true);
+  Scene scene;
+  const CellType type = quadratic ? CellType::seg3 : CellType::seg2;
+  const auto face = [&](const std::string& name, double height, bool reversed) {
+    std::vector<int> nodes = {scene.node(name + "a", reversed ? 1.0 : 0.0, height), scene.node(name + "b", reversed ? 0.0 : 1.0, height)};
+    if (quadratic) nodes.push_back(scene.node(name + "m", 0.5, height));
+    return scene.cell(name, type, nodes, Formulation::axisymmetric);
+  };
+  const int master = face("master", 0.0, true);
+  const int slave = face("slave", 0.1, false);
+  scene.zone({master}, {slave});
+  scene.problem.contact->formulation = ContactFormulation::mixed;
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
+  const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);
+  REQUIRE(points.size() == (quadratic ? 3U : 2U));
+  for (const ContactPoint& point : points) {
+    CHECK(point.weight > 0.0);
+    CHECK(point.status == PairingStatus::paired);
+  }
+}
