@@ -35,4 +35,9 @@ Value TableConcept::subscript(const Value& key) const {
       table.rows[row - 1][column]);
 }
 
+Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return Value(format_table(table));
+  return ConceptData::method(name, arguments, keywords);
+}
+
 }  // namespace comma::commands

@@ -87,6 +87,8 @@ struct TableConcept : ConceptData {
   Table table;
 
   Value subscript(const Value& key) const override;
+  /// EXTR_TABLE(): the table as text, for print.
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
 /// What a command function returns; null for a command that produces nothing.

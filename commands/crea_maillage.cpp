@@ -7,6 +7,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/conversion.hpp"
+#include "solver/mesh/slave_cut.hpp"
 
 namespace comma::commands {
 
@@ -38,6 +39,11 @@ solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) 
   return result;
 }
 
+solver::Mesh cut_slave_faces(const Keywords& cut, const solver::Mesh& mesh) {
+  const auto faces = selected_cells(cut, mesh, {"", "", "", "GROUP_MA_ESCL", ""});
+  return solver::with_cut_slave_faces(mesh, faces, cut.text("DECOUPE_HEXA") == "HEXA" ? solver::HexaCut::hexahedra : solver::HexaCut::pyramids);
+}
+
 }  // namespace
 
 Product crea_maillage(const Call& call, Context& context) {
@@ -49,6 +55,7 @@ Product crea_maillage(const Call& call, Context& context) {
   each_occurrence(call, "CREA_POI1", [&](const Keywords& one) {
     solver::add_points(mesh, selected_nodes(one, mesh), one.given("NOM_GROUP_MA") ? one.text("NOM_GROUP_MA") : "");
   });
+  each_occurrence(call, "DECOUPE_LAC", [&](const Keywords& one) { mesh = cut_slave_faces(one, mesh); });
   each_occurrence(call, "RESTREINT", [&](const Keywords& one) { mesh = restrict_to(one, mesh); });
   context.console.detail(fmt::format("  {} nodes, {} cells", mesh.node_count(), mesh.cell_count()));
   auto product = std::make_shared<MeshConcept>();

@@ -3,6 +3,7 @@
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/contact/patch_points.hpp"
 #include "solver/mesh/orientation.hpp"
 
 namespace comma::commands {
@@ -99,8 +100,31 @@ solver::InitialContact initial_contact(const std::string& word) {
   return word == "NON" ? solver::InitialContact::none : solver::InitialContact::interpenetrating;
 }
 
+// The gap is measured along the slave's own normals, over patches that lie wholly on one side: what says otherwise has no meaning.
+void check_local_average(const Keywords& zone) {
+  if (zone.given("APPARIEMENT") && zone.text("APPARIEMENT") != "MORTAR") {
+    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: ALGO_CONT='LAC' pairs segments of intersection", zone.span_of("APPARIEMENT"),
+                          "write APPARIEMENT='MORTAR'");
+  }
+  for (const char* keyword : {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "TOLE_PROJ_EXT", "INTEGRATION", "SANS_GROUP_NO",
+                              "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"}) {
+    if (!zone.given(keyword)) continue;
+    throw DiagnosticError("unsupported", std::string("comma does not support ") + keyword + " with ALGO_CONT='LAC'", zone.span_of(keyword),
+                          "leave it out, or take ALGO_CONT='STANDARD'");
+  }
+}
+
+// Segments of intersection are those of local average contact alone.
+void check_pairing(const Keywords& zone) {
+  if (zone.text("APPARIEMENT") != "MORTAR") return;
+  throw DiagnosticError("unsupported", "comma supports APPARIEMENT='MORTAR' with ALGO_CONT='LAC' only", zone.span_of("APPARIEMENT"),
+                        "write ALGO_CONT='LAC', or APPARIEMENT='MAIT_ESCL'");
+}
+
 solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::MixedZone zone;
+  zone.local_average = keywords.text("ALGO_CONT") == "LAC";
+  zone.local_average ? check_local_average(keywords) : check_pairing(keywords);
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
@@ -185,6 +209,8 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
   }
+  for (const solver::ContactZone& zone : definition.zones)
+    if (zone.mixed.local_average) solver::patches_of(zone, mesh);  // tells slave faces that were not cut
   return definition;
 }
 

@@ -7,6 +7,7 @@
 
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet_search.hpp"
+#include "solver/contact/patch_points.hpp"
 
 namespace comma::solver {
 namespace {
@@ -54,7 +55,7 @@ class ZonePoints {
     const auto nodes = mesh_.cell(cell);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (std::abs(point.shape[i] - 1.0) < at_node_tolerance) point.node = nodes[i];
-    point.weight = at.weight * measure(cell, type, at.xi);
+    point.weight = at.weight * measure(cell, at.xi);
     if (point.node >= 0 && point.weight == 0.0) point.weight = share_of(cell, type, point.node);
     return point;
   }
@@ -66,7 +67,7 @@ class ZonePoints {
     const auto local = static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
     double share = 0.0;
     for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0))
-      share += at.weight * measure(cell, type, at.xi) * std::abs(facet_shape(type, at.xi).values[local]);
+      share += at.weight * measure(cell, at.xi) * std::abs(facet_shape(type, at.xi).values[local]);
     return share;
   }
 
@@ -78,20 +79,7 @@ class ZonePoints {
   }
 
   /// Of the initial face: pressures are forces over the area before deformation.
-  double measure(int cell, CellType type, const Eigen::Vector2d& xi) const {
-    std::array<Vector3d, max_facet_nodes> corners;
-    const auto nodes = mesh_.cell(cell);
-    const FacetShape shape = facet_shape(type, xi);
-    double radius = 0.0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      corners[i] = Vector3d(mesh_.nodes[nodes[i]][0], mesh_.nodes[nodes[i]][1], mesh_.nodes[nodes[i]][2]);
-      radius += shape.values[i] * corners[i][0];
-    }
-    const auto tangents = facet_tangents(type, std::span(corners.data(), nodes.size()), xi);
-    const double stretch = dimension(type) == 1 ? tangents.col(0).norm()
-                                                : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
-    return is_axisymmetric(model_.formulations[cell]) ? radius * stretch : stretch;
-  }
+  double measure(int cell, const Eigen::Vector2d& xi) const { return initial_stretch(model_, cell, xi); }
 
   void face_master(const FacePoint& at, ContactPoint& point) const {
     const Vector3d here = position(point);
@@ -156,10 +144,30 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
 
 }  // namespace
 
+double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi) {
+  const Mesh& mesh = *model.mesh;
+  const CellType type = mesh.cell_types[face];
+  const FacetShape shape = facet_shape(type, xi);
+  std::array<Vector3d, max_facet_nodes> points;
+  const auto nodes = mesh.cell(face);
+  double radius = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    points[i] = Vector3d(mesh.nodes[nodes[i]][0], mesh.nodes[nodes[i]][1], mesh.nodes[nodes[i]][2]);
+    radius += shape.values[i] * points[i][0];
+  }
+  const auto tangents = facet_tangents(type, std::span(points.data(), nodes.size()), xi);
+  const double stretch = dimension(type) == 1 ? tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
+  return is_axisymmetric(model.formulations[face]) ? radius * stretch : stretch;
+}
+
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time) {
   if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time);
   std::vector<ContactPoint> points;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
+    if (definition.zones[zone].mixed.local_average) {
+      append_patch_points(definition, static_cast<int>(zone), model, positions, time, points);
+      continue;
+    }
     ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);
     for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
   }

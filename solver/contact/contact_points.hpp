@@ -13,7 +13,13 @@
 
 namespace comma::solver {
 
-/// A point of a slave face. Pressures are interpolated from the face's nodes by the same shape functions as displacements.
+/// What a gap takes of the position of a node.
+struct GapShare {
+  int node = -1;
+  Eigen::Vector3d coefficient = Eigen::Vector3d::Zero();
+};
+
+/// A point of a slave face, or a patch of them (see patch_points.hpp). Pressures are interpolated from the face's nodes by the same shape functions as displacements.
 struct ContactPoint {
   int zone = 0;
   int cell = -1;                                       ///< slave face
@@ -26,12 +32,18 @@ struct ContactPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap
+  std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position
+  double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
 /// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
+/// Zones of local average contact have a point a patch.
 /// Throws what face_rule, projections and normals throw.
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time);
+
+/// Initial area of a face a unit of its reference cell's; times the radius where axisymmetric.
+double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi);
 
 }  // namespace comma::solver

@@ -38,6 +38,7 @@ struct MixedZone {
   ContactRule rule = ContactRule::automatic;
   int rule_order = 0;                ///< 0: the rule's default
   double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
+  bool local_average = false;        ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
   bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again

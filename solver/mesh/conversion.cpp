@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_set>
 
 #include "solver/error.hpp"
+#include "solver/mesh/new_names.hpp"
 #include "solver/mesh/reference_cell.hpp"
 
 namespace comma::solver {
@@ -59,28 +59,6 @@ CellType target_of(CellType type, Conversion conversion) {
   return type;
 }
 
-/// Names in use, and new ones that are not among them.
-class Names {
- public:
-  Names(std::vector<std::string>& names, std::string prefix) : names_(names), prefix_(std::move(prefix)), used_(names.begin(), names.end()) {}
-
-  /// Gives the next member a name, in a mesh whose members have names.
-  void add() {
-    if (used_.empty()) return;
-    std::string name;
-    do {
-      name = fmt::format("{}{}", prefix_, ++count_);
-    } while (!used_.insert(name).second);
-    names_.push_back(std::move(name));
-  }
-
- private:
-  std::vector<std::string>& names_;
-  std::string prefix_;
-  std::unordered_set<std::string> used_;
-  int count_ = 0;
-};
-
 /// Nodes between others, made once for all cells that share them.
 class MiddleNodes {
  public:
@@ -99,7 +77,7 @@ class MiddleNodes {
 
  private:
   Mesh& mesh_;
-  Names names_;
+  NewNames names_;
   std::map<std::vector<int>, int> known_;
 };
 
@@ -182,6 +160,15 @@ void renumber(Groups& groups, const std::vector<int>& new_index) {
   }
 }
 
+/// Patches that lose a face go.
+void renumber_patches(Mesh& mesh, const std::vector<int>& new_index) {
+  std::erase_if(mesh.slave_patches, [&](const std::vector<int>& faces) {
+    return std::ranges::any_of(faces, [&](int face) { return new_index[static_cast<std::size_t>(face)] < 0; });
+  });
+  for (auto& faces : mesh.slave_patches)
+    for (int& face : faces) face = new_index[static_cast<std::size_t>(face)];
+}
+
 /// Keeps the nodes that cells use.
 void drop_loose_nodes(Mesh& mesh, const std::vector<bool>& candidates) {
   std::vector<bool> used(mesh.nodes.size(), false);
@@ -237,7 +224,7 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
 }
 
 void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& group) {
-  Names names(mesh.cell_names, "E");
+  NewNames names(mesh.cell_names, "E");
   std::vector<int> made;
   for (const int cell : cells) {
     const std::vector<int> nodes(mesh.cell(cell).begin(), mesh.cell(cell).end());
@@ -248,7 +235,7 @@ void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& gro
 }
 
 void add_points(Mesh& mesh, std::span<const int> nodes, const std::string& group) {
-  Names names(mesh.cell_names, "P");
+  NewNames names(mesh.cell_names, "P");
   std::vector<int> made;
   for (const int node : nodes) {
     made.push_back(mesh.add_cell(poi1, std::array{node}));
@@ -272,6 +259,7 @@ Mesh restricted(const Mesh& mesh, std::span<const int> cells) {
   replace_cells(result, types, nodes);
   result.cell_names = std::move(names);
   renumber(result.cell_groups, new_index);
+  renumber_patches(result, new_index);
   drop_loose_nodes(result, std::vector<bool>(mesh.nodes.size(), true));
   return result;
 }

@@ -97,6 +97,15 @@ void append_groups(Groups& target, const Groups& source, const std::vector<int>&
   }
 }
 
+/// Patches that lose a face go.
+void append_patches(Mesh& target, const Mesh& source, const std::vector<int>& places) {
+  for (const auto& patch : source.slave_patches) {
+    std::vector<int> faces;
+    for (const int face : patch) faces.push_back(places[static_cast<std::size_t>(face)]);
+    if (std::ranges::find(faces, -1) == faces.end()) target.slave_patches.push_back(std::move(faces));
+  }
+}
+
 /// `partners`: the node of the first mesh that stands for each of the second's, -1 for most.
 JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>& partners, std::span<const int> first_gone,
                   std::span<const int> second_gone) {
@@ -118,6 +127,8 @@ JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>&
   append_groups(mesh.cell_groups, first.cell_groups, here.cells, result.renamed);
   append_groups(mesh.node_groups, second.node_groups, there.nodes, result.renamed);
   append_groups(mesh.cell_groups, second.cell_groups, there.cells, result.renamed);
+  append_patches(mesh, first, here.cells);
+  append_patches(mesh, second, there.cells);
   return result;
 }
 

@@ -27,6 +27,7 @@ struct Mesh {
   std::vector<std::string> cell_names;    ///< the same with "M<i+1>"
   std::map<std::string, std::vector<int>, std::less<>> node_groups;
   std::map<std::string, std::vector<int>, std::less<>> cell_groups;
+  std::vector<std::vector<int>> slave_patches;  ///< face cells of each patch of a contact surface; see slave_cut.hpp
 
   int node_count() const { return static_cast<int>(nodes.size()); }
   int cell_count() const { return static_cast<int>(cell_types.size()); }

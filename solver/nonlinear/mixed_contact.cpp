@@ -11,7 +11,10 @@
 
 #include "solver/contact/box_tree.hpp"
 #include "solver/contact/contact_field.hpp"
+#include "solver/contact/patch_field.hpp"
+#include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/slave_cut.hpp"
 #include "solver/nonlinear/failure.hpp"
 
 namespace comma::solver {
@@ -85,19 +88,32 @@ void MixedContact::number_multipliers() {
   bool is_solid = false;
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
+    if (each.mixed.local_average) {
+      number_patches(static_cast<int>(zone));
+      continue;
+    }
     const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
       if (!excluded.contains(node) &&
-          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(multiplier_numbers_.size())).second)
+          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size())).second)
         problem_.smooth.push_back(!(each.mixed.friction > 0.0) || contains(each.mixed.frictionless_nodes, node));
-    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
   }
   dimension_ = is_solid ? 3 : 2;
-  problem_.node_count = static_cast<int>(multiplier_numbers_.size());
+  problem_.node_count = static_cast<int>(problem_.smooth.size());
   problem_.components = has_friction(definition_) ? dimension_ : 1;
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
+}
+
+/// One a patch, at all nodes inside it.
+void MixedContact::number_patches(int zone) {
+  for (const int patch : patches_of(definition_.zones[static_cast<std::size_t>(zone)], mesh_)) {
+    for (const int node : inner_nodes(mesh_, mesh_.slave_patches[static_cast<std::size_t>(patch)]))
+      multiplier_numbers_.emplace(Key(zone, node), static_cast<int>(problem_.smooth.size()));
+    problem_.smooth.push_back(1);
+  }
 }
 
 void MixedContact::pair(Positions positions, double time) {
@@ -134,21 +150,25 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
 
 void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& direction,
                            std::vector<Eigen::Triplet<double>>& entries) const {
-  const auto add = [&](int node, double share) {
+  const auto add = [&](int node, const Vector3d& share) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (direction[axis] == 0.0 || share == 0.0) continue;
+      if (share[axis] == 0.0) continue;
       const int dof = dofs_.dof(node, translations[axis]);
       if (dof < 0)
         throw Error("unknown-dof",
                     fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translations[axis])),
                     "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
-      entries.emplace_back(row, dof, share * direction[axis]);
+      entries.emplace_back(row, dof, share[axis]);
     }
   };
+  if (!point.shares.empty()) {
+    for (const GapShare& share : point.shares) add(share.node, share.coefficient);
+    return;
+  }
   const auto slave = mesh_.cell(point.cell);
-  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i]);
+  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i] * direction);
   const auto master = mesh_.cell(point.facet);
-  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i]);
+  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
 }
 
 /// One direction of space for all tangents of a zone, away from its normals: shears at the nodes of a face then speak of the same
@@ -177,25 +197,35 @@ MixedContact::Directions MixedContact::directions(const ContactPoint& point) con
   return {normal, along.normalized().cross(normal), along.normalized()};
 }
 
+/// The gap between the initial places of the nodes.
+double MixedContact::initial_gap(const ContactPoint& point) const {
+  const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
+  if (!point.shares.empty()) {
+    double gap = -point.thickness;
+    for (const GapShare& share : point.shares) gap += share.coefficient.dot(initial(share.node));
+    return gap;
+  }
+  Vector3d apart = Vector3d::Zero();
+  const auto slave = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * initial(slave[i]);
+  const auto master = mesh_.cell(point.facet);
+  for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * initial(master[i]);
+  return point.normal.dot(apart) - point.thickness;
+}
+
 /// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
 void MixedContact::build_rows() {
   problem_.points.clear();
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> base;
-  const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
   for (const ContactPoint& point : points_) {
     CondensedPoint each = condensed(point);
     if (point.status == PairingStatus::paired) {
       each.first_row = static_cast<int>(base.size());
       each.rows = each.components;
       const Directions along = directions(point);
-      Vector3d apart = Vector3d::Zero();
-      const auto slave = mesh_.cell(point.cell);
-      for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * initial(slave[i]);
-      const auto master = mesh_.cell(point.facet);
-      for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * initial(master[i]);
       for (int c = 0; c < each.rows; ++c) add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
-      base.push_back(point.normal.dot(apart) - point.thickness);
+      base.push_back(initial_gap(point));
       base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
     }
     problem_.points.push_back(each);
@@ -415,8 +445,11 @@ void MixedContact::add_multipliers(NodalField& displacements) const {
                 values.begin() + static_cast<std::ptrdiff_t>(node * all));
   displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + problem_.components);
   const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
-  for (const ContactZone& zone : definition_.zones)
+  for (const ContactZone& zone : definition_.zones) {
+    if (zone.mixed.local_average) continue;
     for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
+  }
+  for (const auto& [key, number] : multiplier_numbers_) std::fill_n(place(key.second), added, 0.0);
   for (const auto& [key, number] : multiplier_numbers_) {
     const Vector3d value = multiplier(number);
     const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
@@ -432,7 +465,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
     const CondensedPoint& condensed = problem_.points[p];
-    if (point.node < 0) continue;
+    if (point.node < 0 || point.area > 0.0) continue;
     NodeContact contact;
     contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
     if (condensed.first_row >= 0) {
@@ -449,6 +482,29 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
     contacts.push_back(contact);
   }
   return contact_field(contacts, mesh_.node_count(), positions);
+}
+
+std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) const {
+  if (std::ranges::none_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) return std::nullopt;
+  const Eigen::VectorXd now = jumps(u);
+  std::map<int, PatchContact> by_node;  // a node inside tells the patch
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    if (!(point.area > 0.0)) continue;
+    PatchContact& contact = by_node[point.node];
+    contact.covered = point.weight / point.area;
+    const CondensedPoint& condensed = problem_.points[p];
+    if (condensed.first_row >= 0) contact.gap = now[condensed.first_row];
+    if (condensed.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    contact.is_closed = true;
+    contact.pressure = multiplier(condensed.nodes[0])[0];
+  }
+  std::vector<std::pair<std::vector<int>, PatchContact>> patches;
+  for (const auto& faces : mesh_.slave_patches) {
+    const auto known = by_node.find(inner_nodes(mesh_, faces).front());
+    if (known != by_node.end()) patches.emplace_back(faces, known->second);
+  }
+  return patch_field(patches, mesh_.cell_count());
 }
 
 }  // namespace comma::solver

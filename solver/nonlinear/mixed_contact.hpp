@@ -58,8 +58,11 @@ class MixedContact {
   /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
 
-  /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes; with
-  /// friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
+  /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
+  std::optional<ElementField> patch_state(const Eigen::VectorXd& u) const;
+
+  /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes (under local average
+  /// contact at those inside patches); with friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
   void add_multipliers(NodalField& displacements) const;
   /// CONT_NOEU (see contact_field.hpp) at u.
   NodalField contact_state(const Eigen::VectorXd& u, Positions positions) const;
@@ -70,6 +73,8 @@ class MixedContact {
   using Directions = std::array<Eigen::Vector3d, 3>;
 
   void number_multipliers();
+  void number_patches(int zone);
+  double initial_gap(const ContactPoint& point) const;
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
   void close_nearest(const Eigen::VectorXd& jumps);

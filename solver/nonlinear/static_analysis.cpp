@@ -175,6 +175,7 @@ class StaticAnalysis {
     step.fields.emplace("SIEF_ELGA", unstressed(assembler_.stresses(now_.state.u)));
     step.parameters["ITER_GLOB"] = 0.0;
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
+    add_patch_state(step);
     append(std::move(step));
   }
 
@@ -351,6 +352,7 @@ class StaticAnalysis {
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+    add_patch_state(step);
     step.parameters["ITER_GLOB"] = iterations;
     append(std::move(step));
   }
@@ -400,6 +402,11 @@ class StaticAnalysis {
     now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
     resize_multipliers(now_.conditions);
     return contact_state();
+  }
+
+  void add_patch_state(ResultStep& step) const {
+    if (!mixed_) return;
+    if (auto state = mixed_->patch_state(now_.state.u)) step.fields.emplace("CONT_ELEM", *std::move(state));
   }
 
   NodalField contact_state() const {

@@ -1,0 +1,273 @@
+#include "solver/contact/facet_overlap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "solver/contact/face_rule.hpp"
+#include "solver/contact/polygon.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int most_steps = 30;
+/// A step of Newton's method in reference coordinates after which what is left is rounding, since it is squared.
+constexpr double last_step = 1e-9;
+/// A common part below this share of the slave's reference measure is rounding at an edge.
+constexpr double sliver = 1e-12;
+/// Gauss points a segment: exact for the products of quadratic shape functions with a quadratic map.
+constexpr int segment_points = 4;
+/// Degree of the triangles' rule where both facets are flat and undistorted: shape functions are quadratic in the plane.
+constexpr int triangle_degree = 4;
+/// Gauss points a side where one is distorted: shape functions are then no polynomials in the plane, but smooth.
+constexpr int collapsed_points = 10;
+/// Distortion, as a share of the facet's size, whose third power the lower rule leaves.
+constexpr double distortion_tolerance = 1e-3;
+
+/// A facet seen from a place near it: its distance from the origin of the mesh then costs no digits.
+class Near {
+ public:
+  Near(const FacetGeometry& facet, const Vector3d& origin) : facet_(facet) {
+    for (std::size_t i = 0; i < facet.points.size(); ++i) points_[i] = facet.points[i] - origin;
+  }
+  FacetGeometry geometry() const { return {facet_.type, {points_.data(), facet_.points.size()}, facet_.normals}; }
+
+ private:
+  const FacetGeometry& facet_;
+  std::array<Vector3d, max_facet_nodes> points_;
+};
+
+/// Solves value(xi) = 0 by the secant method from a first slope. Nothing where it does not settle.
+template <class Function>
+std::optional<double> solve_scalar(double slope, Function value) {
+  double xi = 0.0;
+  double here = value(xi);
+  for (int k = 0; k < most_steps; ++k) {
+    if (!(std::abs(slope) > 0.0)) return std::nullopt;
+    const double step = -here / slope;
+    xi += step;
+    if (!std::isfinite(xi)) return std::nullopt;
+    if (std::abs(step) <= last_step) return xi;
+    const double next = value(xi);
+    slope = (next - here) / step;
+    here = next;
+  }
+  return std::nullopt;
+}
+
+double cross(const Vector3d& a, const Vector3d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+Vector3d tangent_at(const FacetGeometry& line, double xi) { return facet_tangents(line.type, line.points, {xi, 0.0}).col(0); }
+
+/// Where the normal of a line passes through a place.
+std::optional<double> foot_on_slave(const FacetGeometry& slave, const Vector3d& place) {
+  const double slope = cross(tangent_at(slave, 0.0), normal_at(slave, {0.0, 0.0}));
+  return solve_scalar(slope, [&](double xi) { return cross(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0})); });
+}
+
+/// Where a straight line from a place meets a master line.
+std::optional<double> hit_on_master(const FacetGeometry& master, const Vector3d& place, const Vector3d& direction) {
+  return solve_scalar(cross(tangent_at(master, 0.0), direction), [&](double xi) { return cross(point_at(master, {xi, 0.0}) - place, direction); });
+}
+
+std::vector<OverlapPoint> segment_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+  const auto first = foot_on_slave(slave, master.points[0]);
+  const auto last = foot_on_slave(slave, master.points[1]);
+  if (!first || !last) return {};
+  const double begin = std::max(-1.0, std::min(*first, *last));
+  const double end = std::min(1.0, std::max(*first, *last));
+  if (end - begin <= sliver) return {};
+  std::vector<OverlapPoint> points;
+  static const auto rule = face_rule(CellType::seg2, ContactRule::gauss, segment_points);
+  for (const FacePoint& gauss : rule) {
+    OverlapPoint point;
+    point.slave = {begin + 0.5 * (1.0 + gauss.xi[0]) * (end - begin), 0.0};
+    point.weight = 0.5 * (end - begin) * gauss.weight;
+    const Vector3d normal = normal_at(slave, point.slave);
+    const auto hit = hit_on_master(master, point_at(slave, point.slave), normal);
+    if (!hit) return {};
+    point.master = {*hit, 0.0};
+    if (normal.dot(normal_at({master.type, master.points, {}}, point.master)) >= 0.0) return {};
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// The plane through the slave's centre.
+class Plane {
+ public:
+  explicit Plane(const FacetGeometry& slave) {
+    const Vector2d centre = facet_centre(slave.type);
+    origin_ = point_at(slave, centre);
+    normal_ = normal_at({slave.type, slave.points, {}}, centre);
+    first_ = normal_.unitOrthogonal();
+    second_ = normal_.cross(first_);
+  }
+
+  const Vector3d& normal() const { return normal_; }
+  Vector2d at(const Vector3d& place) const { return along(place - origin_); }
+  Vector2d along(const Vector3d& vector) const { return {first_.dot(vector), second_.dot(vector)}; }
+
+  /// Of the reference coordinates of a facet by those of the plane.
+  Eigen::Matrix2d slope(const FacetGeometry& facet, const Vector2d& xi) const {
+    const auto tangents = facet_tangents(facet.type, facet.points, xi);
+    Eigen::Matrix2d result;
+    result << along(tangents.col(0)), along(tangents.col(1));
+    return result;
+  }
+
+  /// The reference point of a facet that lies over a place of the plane.
+  std::optional<Vector2d> over(const FacetGeometry& facet, const Vector2d& place) const {
+    Vector2d xi = facet_centre(facet.type);
+    for (int k = 0; k < most_steps; ++k) {
+      const Eigen::Matrix2d derivative = slope(facet, xi);
+      if (!(std::abs(derivative.determinant()) > 0.0)) return std::nullopt;
+      const Vector2d step = derivative.inverse() * (place - at(point_at(facet, xi)));
+      xi += step;
+      if (!xi.allFinite()) return std::nullopt;
+      if (step.norm() <= last_step) return xi;
+    }
+    return std::nullopt;
+  }
+
+  /// Counter-clockwise: corners, with the mid-edge nodes between them.
+  Polygon outline(const FacetGeometry& facet) const {
+    const int corners = corner_count(facet.type);
+    const bool has_middles = node_count(facet.type) > corners;
+    Polygon polygon;
+    for (int i = 0; i < corners; ++i) {
+      polygon.push_back(at(facet.points[static_cast<std::size_t>(i)]));
+      if (has_middles) polygon.push_back(at(facet.points[static_cast<std::size_t>(corners + i)]));
+    }
+    if (signed_area(polygon) < 0.0) std::ranges::reverse(polygon);
+    return polygon;
+  }
+
+ private:
+  Vector3d origin_, normal_, first_, second_;
+};
+
+bool is_convex(const Polygon& polygon) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d a = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const Vector2d b = polygon[(i + 2) % polygon.size()] - polygon[(i + 1) % polygon.size()];
+    if (a[0] * b[1] - a[1] * b[0] < 0.0) return false;
+  }
+  return true;
+}
+
+/// Convex pieces of a facet's outline: bent edges may bend inwards, seen from the centre they do not.
+std::vector<Polygon> convex_pieces(const Polygon& outline, const Vector2d& centre) {
+  if (is_convex(outline)) return {outline};
+  std::vector<Polygon> pieces;
+  for (std::size_t i = 0; i < outline.size(); ++i) pieces.push_back({centre, outline[i], outline[(i + 1) % outline.size()]});
+  return pieces;
+}
+
+/// Whether places on a facet are nearly linear in its reference coordinates.
+bool is_undistorted(const FacetGeometry& facet) {
+  const auto tangents = facet_tangents(facet.type, facet.points, facet_centre(facet.type));
+  const Vector3d centre = point_at(facet, facet_centre(facet.type));
+  double worst = 0.0;
+  for (int i = 0; i < node_count(facet.type); ++i) {
+    const Vector2d apart = facet_node(facet.type, i) - facet_centre(facet.type);
+    worst = std::max(worst, (facet.points[static_cast<std::size_t>(i)] - centre - tangents * apart).norm());
+  }
+  return worst <= distortion_tolerance * tangents.norm();
+}
+
+/// Products of Gauss points on the square, collapsed onto a triangle: one side of the square becomes the corner (0, 0).
+std::vector<FacePoint> collapsed_rule() {
+  const auto line = face_rule(CellType::seg2, ContactRule::gauss, collapsed_points);
+  std::vector<FacePoint> points;
+  for (const FacePoint& a : line)
+    for (const FacePoint& b : line) {
+      const double s = 0.5 * (1.0 + a.xi[0]);
+      const double t = 0.5 * (1.0 + b.xi[0]);
+      points.push_back({{s * (1.0 - t), s * t}, 0.25 * a.weight * b.weight * s});
+    }
+  return points;
+}
+
+const std::vector<FacePoint>& triangle_rule(bool is_smooth_enough) {
+  static const auto low = face_rule(CellType::tria3, ContactRule::gauss, triangle_degree);
+  static const auto high = collapsed_rule();
+  return is_smooth_enough ? low : high;
+}
+
+bool misses(const Polygon& a, const Polygon& b) {
+  const auto box = [](const Polygon& polygon) {
+    Eigen::AlignedBox2d result;
+    for (const Vector2d& corner : polygon) result.extend(corner);
+    return result;
+  };
+  return !box(a).intersects(box(b));
+}
+
+/// Integration points of a triangle of the plane. False where they are not over both facets.
+bool append_points(const Plane& plane, const FacetGeometry& slave, const FacetGeometry& master, const Polygon& polygon, std::size_t i,
+                   const std::vector<FacePoint>& rule, std::vector<OverlapPoint>& points) {
+  const Vector2d a = polygon[i] - polygon[0];
+  const Vector2d b = polygon[i + 1] - polygon[0];
+  const double twice = a[0] * b[1] - a[1] * b[0];
+  for (const FacePoint& gauss : rule) {
+    const Vector2d place = polygon[0] + gauss.xi[0] * a + gauss.xi[1] * b;
+    const auto on_slave = plane.over(slave, place);
+    const auto on_master = plane.over(master, place);
+    if (!on_slave || !on_master) return false;
+    points.push_back({*on_slave, *on_master, gauss.weight * twice / std::abs(plane.slope(slave, *on_slave).determinant())});
+  }
+  return true;
+}
+
+std::vector<OverlapPoint> polygon_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+  const Plane plane(slave);
+  const Polygon theirs = plane.outline(master);
+  const Polygon ours = plane.outline(slave);
+  if (misses(ours, theirs)) return {};
+  if (plane.normal().dot(normal_at({master.type, master.points, {}}, facet_centre(master.type))) >= 0.0) return {};
+  const auto& rule = triangle_rule(is_undistorted(slave) && is_undistorted(master));
+  const double whole = signed_area(ours);
+  std::vector<OverlapPoint> points;
+  for (const Polygon& piece : convex_pieces(ours, plane.at(point_at(slave, facet_centre(slave.type))))) {
+    const Polygon common = clipped(theirs, piece);
+    if (common.empty() || signed_area(common) <= sliver * whole) continue;
+    for (std::size_t i = 1; i + 1 < common.size(); ++i)
+      if (!append_points(plane, slave, master, common, i, rule, points)) return {};
+  }
+  return points;
+}
+
+}  // namespace
+
+Vector3d point_at(const FacetGeometry& facet, const Vector2d& xi) {
+  const FacetShape shape = facet_shape(facet.type, xi);
+  Vector3d place = Vector3d::Zero();
+  for (std::size_t i = 0; i < facet.points.size(); ++i) place += shape.values[i] * facet.points[i];
+  return place;
+}
+
+Vector3d normal_at(const FacetGeometry& facet, const Vector2d& xi) {
+  if (facet.normals.empty()) return facet_normal(facet.type, facet.points, xi);
+  const FacetShape shape = facet_shape(facet.type, xi);
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < facet.normals.size(); ++i) normal += shape.values[i] * facet.normals[i];
+  const double length = normal.norm();
+  if (!(length > 0.0))
+    throw Error("degenerate-facet", "the normals at the nodes of a contact facet cancel", "refine the facet, or leave normals as they are (LISSAGE='NON')");
+  return normal / length;
+}
+
+std::vector<OverlapPoint> facet_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+  const Near near_slave(slave, slave.points[0]);
+  const Near near_master(master, slave.points[0]);
+  return dimension(slave.type) == 1 ? segment_overlap(near_slave.geometry(), near_master.geometry())
+                                    : polygon_overlap(near_slave.geometry(), near_master.geometry());
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,354 @@
+#include "solver/mesh/slave_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/mesh/boundary.hpp"
+#include "solver/mesh/new_names.hpp"
+#include "solver/mesh/reference_cell.hpp"
+
+namespace comma::solver {
+namespace {
+
+using enum CellType;
+using Eigen::Vector3d;
+
+/// The inner square of a face that is cut into five quadrangles, over the face.
+constexpr double inner_square = 1.0 / 3;
+/// How deep the inner hexahedron reaches into the body.
+constexpr double inner_depth = 0.5;
+
+struct Cell {
+  CellType type = poi1;
+  std::vector<int> nodes;
+};
+
+std::span<const int> corners_of(const Cell& cell) { return std::span(cell.nodes).first(static_cast<std::size_t>(corner_count(cell.type))); }
+
+FacetKey key_of(std::span<const int> corners) {
+  FacetKey key = {-1, -1, -1, -1};
+  std::ranges::copy(corners, key.begin());
+  std::ranges::sort(key);
+  return key;
+}
+
+/// The facets of a cell, turned outwards; the ends of a line, without a sense.
+std::vector<Cell> facets_of(const Cell& cell) {
+  if (dimension(cell.type) == 1) return {{poi1, {cell.nodes[0]}}, {poi1, {cell.nodes[1]}}};
+  std::vector<Cell> facets;
+  for (const BoundaryFacet& local : boundary_facets(cell.type)) {
+    Cell& facet = facets.emplace_back(Cell{local.type, {}});
+    for (int i = 0; i < node_count(local.type); ++i) facet.nodes.push_back(cell.nodes[static_cast<std::size_t>(local.nodes[static_cast<std::size_t>(i)])]);
+  }
+  return facets;
+}
+
+/// The cell between a facet and an apex.
+std::optional<CellType> cone_type(CellType base) {
+  switch (base) {
+    case seg2: return tria3;
+    case seg3: return tria6;
+    case tria3: return tetra4;
+    case tria6: return tetra10;
+    case quad4: return pyram5;
+    case quad8: return pyram13;
+    default: return std::nullopt;
+  }
+}
+
+bool has_inner_node(CellType type) { return type == seg3 || type == tria7 || type == quad9; }
+
+class SlaveCutter {
+ public:
+  SlaveCutter(const Mesh& mesh, HexaCut hexa_cut)
+      : source_(mesh), result_(mesh), hexa_cut_(hexa_cut), node_names_(result_.node_names, "NS"), cell_names_(result_.cell_names, "MS") {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) cells_.push_back({mesh.cell_types[cell], {mesh.cell(cell).begin(), mesh.cell(cell).end()}});
+    pieces_.resize(cells_.size());
+  }
+
+  Mesh cut(std::span<const int> faces) {
+    if (!faces.empty()) index(dimension(cells_[static_cast<std::size_t>(faces.front())].type));
+    std::vector<int> kept;
+    std::set<FacetKey> done;
+    for (const int face : faces) {
+      if (!done.insert(key_of(corners_of(cell(face)))).second) continue;
+      cut(face);
+      kept.push_back(face);
+    }
+    for (const int face : kept) result_.slave_patches.push_back(family(face));
+    for (auto& [name, members] : result_.cell_groups) members = with_pieces(members);
+    result_.cell_types.clear();
+    result_.connectivity.clear();
+    result_.cell_starts = {0};
+    for (const Cell& each : cells_) result_.add_cell(each.type, each.nodes);
+    return std::move(result_);
+  }
+
+ private:
+  const Cell& cell(int index) const { return cells_[static_cast<std::size_t>(index)]; }
+  Vector3d place(int node) const { return Vector3d(result_.nodes[node].data()); }
+
+  int add_node(const Vector3d& position) {
+    result_.nodes.push_back({position[0], position[1], position[2]});
+    node_names_.add();
+    return result_.node_count() - 1;
+  }
+
+  void index(int face_dimension) {
+    for (int each = 0; each < source_.cell_count(); ++each) {
+      if (dimension(cell(each).type) == face_dimension) skins_[key_of(corners_of(cell(each)))].push_back(each);
+      if (dimension(cell(each).type) == face_dimension + 1) add_body(each);
+    }
+  }
+
+  void add_body(int body) {
+    for (const Cell& facet : facets_of(cell(body))) bodies_[key_of(corners_of(facet))].push_back(body);
+  }
+  void remove_body(int body) {
+    for (const Cell& facet : facets_of(cell(body))) std::erase(bodies_[key_of(corners_of(facet))], body);
+  }
+
+  int body_behind(int face) const {
+    const auto found = bodies_.find(key_of(corners_of(cell(face))));
+    if (found == bodies_.end() || found->second.empty())
+      throw Error("no-body", fmt::format("no body stands behind the slave face {}", source_.cell_name(face)), "choose faces on the skin of a body");
+    if (found->second.size() > 1)
+      throw Error("inner-face", fmt::format("the slave face {} lies between two bodies", source_.cell_name(face)), "choose faces on the skin of a body");
+    return found->second.front();
+  }
+
+  void cut(int face) {
+    const int body = body_behind(face);
+    if (has_inner_node(cell(face).type)) return;
+    const FacetKey key = key_of(corners_of(cell(face)));
+    const bool by_hexahedra = hexa_cut_ == HexaCut::hexahedra && corner_count(cell(body).type) == 8;
+    std::vector<Cell> body_pieces;
+    if (by_hexahedra) {
+      prepare_square(face, body);
+      body_pieces = hexahedra(body, key);
+    } else {
+      prepare_centre(cell(face));
+      body_pieces = cones(facets_of(cell(body)), key, body);
+    }
+    for (const int skin : skins_.at(key)) replace(skin, by_hexahedra ? quadrangles(cell(skin)) : pieces_of_face(skin, key));
+    remove_body(body);
+    for (const int piece : replace(body, std::move(body_pieces))) add_body(piece);
+  }
+
+  /// The node at the centre of a face, and in front of its corners what their edges to the centre carry. On quadratic faces they
+  /// lie on the surface that the shape functions describe.
+  void prepare_centre(const Cell& face) {
+    middles_.clear();
+    const auto corners = static_cast<std::size_t>(corner_count(face.type));
+    const auto sum = [&](std::size_t from, std::size_t to) {
+      Vector3d total = Vector3d::Zero();
+      for (std::size_t i = from; i < to; ++i) total += place(face.nodes[i]);
+      return total;
+    };
+    if (face.type == tria6) {
+      centre_ = add_node(-sum(0, 3) / 9 + sum(3, 6) * 4 / 9);
+    } else if (face.type == quad8) {
+      centre_ = add_node(-sum(0, 4) / 4 + sum(4, 8) / 2);
+    } else {
+      centre_ = add_node(sum(0, corners) / static_cast<double>(corners));
+    }
+    if (face.type != tria6 && face.type != quad8) return;
+    for (std::size_t i = 0; i < corners; ++i) middles_.emplace(face.nodes[i], add_node(half_way(face, i)));
+  }
+
+  /// Half-way, in reference coordinates, from a corner of a quadratic face to its centre.
+  Vector3d half_way(const Cell& face, std::size_t i) const {
+    const auto at = [&](std::size_t local) { return place(face.nodes[local]); };
+    if (face.type == tria6) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      return (2 * at(i) - at(j) - at(k) + 4 * (at(3 + i) + at(3 + k)) + at(3 + j)) / 9;
+    }
+    const std::size_t next = (i + 1) % 4;
+    const std::size_t across = (i + 2) % 4;
+    const std::size_t last = (i + 3) % 4;
+    return (-3 * (at(next) + at(last)) - 2 * at(across) + 9 * (at(4 + i) + at(4 + last)) + 3 * (at(4 + next) + at(4 + across))) / 16;
+  }
+
+  int middle(int corner) {
+    const auto found = middles_.find(corner);
+    if (found != middles_.end()) return found->second;
+    return middles_.emplace(corner, add_node((place(corner) + place(centre_)) / 2)).first->second;
+  }
+
+  /// Between the centre of the face and each facet, but the face itself.
+  std::vector<Cell> cones(const std::vector<Cell>& facets, const FacetKey& face, int of) {
+    std::vector<Cell> pieces;
+    for (const Cell& facet : facets) {
+      if (key_of(corners_of(facet)) == face) continue;
+      const auto type = cone_type(facet.type);
+      if (!type)
+        throw Error("unsupported", fmt::format("the {} cell {} behind a slave face cannot be cut", name_of(cell(of).type), result_.cell_name(of)),
+                    "use the quadratic cells without nodes inside their facets there (HEXA20, PENTA15), or HEXA27 behind QUAD9");
+      pieces.push_back(cone(facet, *type));
+    }
+    return pieces;
+  }
+
+  std::vector<Cell> pieces_of_face(int face, const FacetKey& key) {
+    const Cell& whole = cell(face);
+    if (dimension(whole.type) > 1) return cones(facets_of(whole), key, face);
+    return {{seg2, {whole.nodes[0], centre_}}, {seg2, {centre_, whole.nodes[1]}}};
+  }
+
+  Cell cone(const Cell& base, CellType type) {
+    Cell result{type, std::vector<int>(static_cast<std::size_t>(node_count(type)), centre_)};
+    const BoundaryFacet& own = boundary_facets(type).front();
+    for (std::size_t i = 0; i < base.nodes.size(); ++i) result.nodes[static_cast<std::size_t>(own.nodes[i])] = base.nodes[i];
+    const int apex = corner_count(type) - 1;
+    const auto edges = middle_edges(type);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (edges[e][0] != apex && edges[e][1] != apex) continue;
+      const int corner = edges[e][0] == apex ? edges[e][1] : edges[e][0];
+      result.nodes[static_cast<std::size_t>(corner_count(type)) + e] = middle(result.nodes[static_cast<std::size_t>(corner)]);
+    }
+    return result;
+  }
+
+  void prepare_square(int face, int body) {
+    if (cell(body).type != hexa8)
+      throw Error("unsupported", fmt::format("the {} cell {} behind a slave face cannot be cut into hexahedra", name_of(cell(body).type), source_.cell_name(face)),
+                  "write DECOUPE_HEXA='PYRA'");
+    inner_.clear();
+    Vector3d centre = Vector3d::Zero();
+    for (const int node : cell(face).nodes) centre += place(node) / 4;
+    for (const int node : cell(face).nodes) inner_.emplace(node, add_node(centre + inner_square * (place(node) - centre)));
+  }
+
+  std::vector<Cell> quadrangles(const Cell& face) const {
+    const auto inner = [&](std::size_t i) { return inner_.at(face.nodes[i]); };
+    std::vector<Cell> pieces = {{quad4, {inner(0), inner(1), inner(2), inner(3)}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      pieces.push_back({quad4, {face.nodes[i], face.nodes[j], inner(j), inner(i)}});
+    }
+    return pieces;
+  }
+
+  /// One hexahedron under the inner square, one between it and each of the other facets.
+  std::vector<Cell> hexahedra(int body, const FacetKey& key) {
+    Cell face;
+    for (const Cell& facet : facets_of(cell(body)))
+      if (key_of(corners_of(facet)) == key) face = facet;
+    std::array<int, 4> top{}, base{}, shallow{}, deep{};  // corners of the face, those below them, and the inner ones
+    Vector3d base_centre = Vector3d::Zero();
+    for (std::size_t i = 0; i < 4; ++i) {
+      top[i] = face.nodes[i];
+      base[i] = below(cell(body), face, top[i]);
+      shallow[i] = inner_.at(top[i]);
+      base_centre += place(base[i]) / 4;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vector3d beneath = base_centre + inner_square * (place(base[i]) - base_centre);
+      deep[i] = add_node((1 - inner_depth) * place(shallow[i]) + inner_depth * beneath);
+    }
+    const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
+      return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
+    };
+    std::vector<Cell> pieces = {hexahedron(deep, shallow), hexahedron(base, deep)};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      pieces.push_back(hexahedron({base[i], base[j], deep[j], deep[i]}, {top[i], top[j], shallow[j], shallow[i]}));
+    }
+    return pieces;
+  }
+
+  /// The other end of the edge that leaves a face of a hexahedron at a corner: the corner opposite to it on a facet beside the face.
+  static int below(const Cell& body, const Cell& face, int corner) {
+    const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
+    for (const Cell& facet : facets_of(body)) {
+      const auto found = std::ranges::find(facet.nodes, corner);
+      if (found == facet.nodes.end()) continue;
+      const auto i = static_cast<std::size_t>(found - facet.nodes.begin());
+      for (const std::size_t beside : {(i + 1) % 4, (i + 3) % 4})
+        if (!on_face(facet.nodes[beside])) return facet.nodes[beside];
+    }
+    return -1;
+  }
+
+  /// Returns the indices of the pieces.
+  std::vector<int> replace(int index, std::vector<Cell> pieces) {
+    std::vector<int> places = {index};
+    cells_[static_cast<std::size_t>(index)] = std::move(pieces.front());
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+      pieces_[static_cast<std::size_t>(index)].push_back(static_cast<int>(cells_.size()));
+      cells_.push_back(std::move(pieces[i]));
+      pieces_.emplace_back();
+      cell_names_.add();
+      places.push_back(pieces_[static_cast<std::size_t>(index)].back());
+    }
+    return places;
+  }
+
+  /// A cell and what was cut off it.
+  std::vector<int> family(int index) const {
+    std::vector<int> members = {index};
+    for (const int piece : pieces_[static_cast<std::size_t>(index)]) {
+      const auto further = family(piece);
+      members.insert(members.end(), further.begin(), further.end());
+    }
+    return members;
+  }
+
+  std::vector<int> with_pieces(const std::vector<int>& members) const {
+    std::vector<int> all;
+    for (const int member : members) {
+      const auto own = family(member);
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+  }
+
+  const Mesh& source_;
+  Mesh result_;
+  HexaCut hexa_cut_;
+  NewNames node_names_;
+  NewNames cell_names_;
+  std::vector<Cell> cells_;
+  std::vector<std::vector<int>> pieces_;  ///< of each cell: what was cut off it
+  std::unordered_map<FacetKey, std::vector<int>, FacetKeyHash> skins_;
+  std::unordered_map<FacetKey, std::vector<int>, FacetKeyHash> bodies_;
+  int centre_ = -1;
+  std::map<int, int> middles_;  ///< by corner: the node between it and the centre
+  std::map<int, int> inner_;    ///< by corner: that of the inner square
+};
+
+}  // namespace
+
+Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut hexa_cut) {
+  return SlaveCutter(mesh, hexa_cut).cut(faces);
+}
+
+std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch) {
+  std::map<FacetKey, std::pair<int, std::vector<int>>> edges;  // how many faces have it, and its nodes
+  std::set<int> nodes;
+  for (const int face : patch) {
+    const Cell own{mesh.cell_types[face], {mesh.cell(face).begin(), mesh.cell(face).end()}};
+    nodes.insert(own.nodes.begin(), own.nodes.end());
+    for (const Cell& edge : facets_of(own)) {
+      auto& known = edges[key_of(corners_of(edge))];
+      ++known.first;
+      known.second = edge.nodes;
+    }
+  }
+  for (const auto& [key, edge] : edges)
+    if (edge.first == 1)
+      for (const int node : edge.second) nodes.erase(node);
+  return {nodes.begin(), nodes.end()};
+}
+
+}  // namespace comma::solver

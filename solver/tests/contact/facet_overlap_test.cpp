@@ -1,0 +1,138 @@
+#include "solver/contact/facet_overlap.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+using Points = std::vector<Vector3d>;
+
+FacetGeometry facet(CellType type, const Points& points) { return {type, points, {}}; }
+
+/// A straight facet of any type on corners: mid-edge nodes and centre lie in between.
+Points straight(CellType type, Points corners) {
+  const auto count = corners.size();
+  if (dimension(type) == 1 && node_count(type) == 3) corners.push_back((corners[0] + corners[1]) / 2);
+  if (dimension(type) == 2 && node_count(type) > static_cast<int>(count))
+    for (std::size_t i = 0; i < count; ++i) corners.push_back((corners[i] + corners[(i + 1) % count]) / 2);
+  if (type == CellType::quad9) corners.push_back((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
+  return corners;
+}
+
+Vector3d place(const FacetGeometry& of, const Vector2d& xi) { return point_at(of, xi); }
+
+/// Integral of f over the part of the slave that faces the master.
+template <class Function>
+double integral(const FacetGeometry& slave, const FacetGeometry& master, Function f) {
+  double sum = 0.0;
+  for (const OverlapPoint& at : facet_overlap(slave, master)) {
+    const auto tangents = facet_tangents(slave.type, slave.points, at.slave);
+    const double stretch = dimension(slave.type) == 1 ? tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
+    sum += at.weight * stretch * f(at);
+  }
+  return sum;
+}
+
+double one(const OverlapPoint&) { return 1.0; }
+
+}  // namespace
+
+TEST_CASE("Segments have in common what their shadows on each other have") {
+  for (const CellType type : {CellType::seg2, CellType::seg3}) {
+    const Points below = straight(type, {{0, 0, 0}, {2, 0, 0}});   // outward normal: down
+    const Points above = straight(type, {{3, -0.5, 0}, {0.5, -0.5, 0}});
+    CHECK(integral(facet(type, below), facet(type, above), one) == Approx(1.5).epsilon(1e-14));
+    const Points beside = straight(type, {{4, -0.5, 0}, {2, -0.5, 0}});
+    CHECK(facet_overlap(facet(type, below), facet(type, beside)).empty());
+    // Turned the other way it does not face the slave.
+    const Points away = straight(type, {{0.5, -0.5, 0}, {3, -0.5, 0}});
+    CHECK(facet_overlap(facet(type, below), facet(type, away)).empty());
+  }
+}
+
+TEST_CASE("Both places of an overlap point lie on the slave's normal") {
+  const Points slave = {{0, 0, 0}, {2, 0, 0}, {1, -0.1, 0}};
+  const Points master = {{2.5, -0.4, 0}, {-0.5, -0.5, 0}, {1, -0.6, 0}};
+  const std::vector<Vector3d> normals = {Vector3d(-0.3, -1, 0).normalized(), Vector3d(0.2, -1, 0).normalized(), Vector3d(0, -1, 0)};
+  for (const bool is_smooth : {false, true}) {
+    const FacetGeometry geometry{CellType::seg3, slave, is_smooth ? std::span<const Vector3d>(normals) : std::span<const Vector3d>()};
+    const auto points = facet_overlap(geometry, facet(CellType::seg3, master));
+    REQUIRE(!points.empty());
+    for (const OverlapPoint& at : points) {
+      const Vector3d apart = place(facet(CellType::seg3, master), at.master) - place(geometry, at.slave);
+      CHECK(apart.cross(normal_at(geometry, at.slave)).norm() < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("The overlaps of a bent slave line with the pieces of a master line add up to the line") {
+  const Points slave = {{0, 0, 0}, {2, 0, 0}, {1, -0.2, 0}};
+  double sum = 0.0;
+  for (int i = -4; i < 12; ++i) {
+    const double x = 0.31 * i;
+    const Points master = {{x + 0.31, -0.5 - 0.1 * x, 0}, {x, -0.5 - 0.1 * (x - 0.31), 0}};
+    for (const OverlapPoint& at : facet_overlap(facet(CellType::seg3, slave), facet(CellType::seg2, master))) sum += at.weight;
+  }
+  CHECK(sum == Approx(2.0).epsilon(1e-12));
+}
+
+TEST_CASE("The areas of a facet's overlaps with a grid of others add up to its own") {
+  const Points triangle = {{0.1, 0.2, 0}, {1.7, 0.4, 0}, {0.6, 1.8, 0}};
+  const Points quadrangle = {{0.1, 0.2, 0}, {1.7, 0.4, 0}, {1.5, 1.6, 0}, {0.3, 1.8, 0}};
+  using enum CellType;
+  for (const CellType type : {tria3, tria6, quad4, quad8, quad9}) {
+    const Points slave = straight(type, corner_count(type) == 3 ? triangle : quadrangle);
+    for (const CellType other : {tria3, tria6, quad4, quad8, quad9}) {
+      CAPTURE(name_of(type), name_of(other));
+      double sum = 0.0;
+      for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 5; ++j) {
+          const double h = 0.4;
+          const Points square = {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}};
+          if (corner_count(other) == 4) {
+            sum += integral(facet(type, slave), facet(other, straight(other, square)), one);
+          } else {
+            sum += integral(facet(type, slave), facet(other, straight(other, {square[0], square[1], square[2]})), one);
+            sum += integral(facet(type, slave), facet(other, straight(other, {square[0], square[2], square[3]})), one);
+          }
+        }
+      const Vector3d first = corner_count(type) == 3 ? triangle[1] - triangle[0] : quadrangle[2] - quadrangle[0];
+      const Vector3d second = corner_count(type) == 3 ? triangle[2] - triangle[0] : quadrangle[3] - quadrangle[1];
+      const double area = 0.5 * std::abs(first.cross(second)[2]);
+      CHECK(sum == Approx(area).epsilon(1e-13));
+    }
+  }
+}
+
+TEST_CASE("On plane facets polynomials of the shape functions' degree are integrated exactly, on either side") {
+  const Points slave = straight(CellType::tria6, {{0, 0, 0}, {2, 0.3, 0}, {0.4, 1.9, 0}});
+  const Points master = straight(CellType::tria6, {{0.2, 0.1, 0.5}, {0.5, 2.2, 0.5}, {1.9, 0.5, 0.5}});
+  const auto whole = facet(CellType::tria6, slave);
+  const auto other = facet(CellType::tria6, master);
+  // Shape functions add up to one, and interpolate places exactly: both sides give the same first and second moments.
+  const auto moment = [&](auto on) {
+    return integral(whole, other, [&](const OverlapPoint& at) {
+      const Vector3d p = on(at);
+      return p[0] * p[0] + 2.0 * p[0] * p[1] - p[1];
+    });
+  };
+  const double ours = moment([&](const OverlapPoint& at) { return place(whole, at.slave); });
+  const double theirs = moment([&](const OverlapPoint& at) { return place(other, at.master); });
+  CHECK(ours == Approx(theirs).epsilon(1e-13));
+  // Cutting the master in two changes nothing: the rule is exact for these polynomials.
+  const Vector3d half = (master[1] + master[2]) / 2;
+  double pieces = 0.0;
+  for (const Points& corners : {Points{master[0], master[1], half}, Points{master[0], half, master[2]}}) {
+    const Points piece = straight(CellType::tria6, corners);
+    pieces += integral(whole, facet(CellType::tria6, piece), [&](const OverlapPoint& at) {
+      const Vector3d p = place(whole, at.slave);
+      return p[0] * p[0] + 2.0 * p[0] * p[1] - p[1];
+    });
+  }
+  CHECK(pieces == Approx(ours).epsilon(1e-13));
+}

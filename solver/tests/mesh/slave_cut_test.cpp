@@ -1,0 +1,185 @@
+#include "solver/mesh/slave_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "reference_cells.hpp"
+#include "solver/error.hpp"
+#include "solver/mesh/boundary.hpp"
+#include "solver/mesh/conversion.hpp"
+
+using namespace comma::solver;
+using comma::solver::tests::solid_volume;
+
+namespace {
+
+/// A reference cell with a cell on each of its facets; cell 0 is the body, facet i is cell i + 1.
+Mesh dressed(CellType type) {
+  Mesh mesh;
+  mesh.nodes = reference_points(type);
+  std::vector<int> nodes(mesh.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  mesh.dimension = dimension(type);
+  mesh.add_cell(type, nodes);
+  for (int facet = 0; facet < static_cast<int>(boundary_facets(type).size()); ++facet) {
+    const auto on_facet = nodes_of_facet(mesh, {0, facet});
+    mesh.add_cell(boundary_facets(type)[static_cast<std::size_t>(facet)].type, on_facet);
+  }
+  return mesh;
+}
+
+double volume(const Mesh& mesh) {
+  double sum = 0.0;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (dimension(mesh.cell_types[cell]) != mesh.dimension) continue;
+    CAPTURE(cell, name_of(mesh.cell_types[cell]));
+    const double own = mesh.dimension == 3 ? solid_volume(mesh, cell) : signed_size(mesh, cell);
+    CHECK(own > 0.0);
+    sum += own;
+  }
+  return sum;
+}
+
+/// Whether the skin cells are just the facets that one body alone has.
+bool is_closed(const Mesh& mesh) {
+  std::vector<int> bodies;
+  std::set<FacetKey> skins;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (dimension(mesh.cell_types[cell]) == mesh.dimension) bodies.push_back(cell);
+    if (dimension(mesh.cell_types[cell]) == mesh.dimension - 1) skins.insert(facet_key(mesh, cell));
+  }
+  std::set<FacetKey> outer;
+  for (const CellFacet& facet : boundary_of(mesh, bodies)) outer.insert(facet_key(mesh, facet));
+  return outer == skins;
+}
+
+/// Every quadratic cell has its mid-edge nodes half-way.
+bool is_straight(const Mesh& mesh) {
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto nodes = mesh.cell(cell);
+    const auto edges = middle_edges(mesh.cell_types[cell]);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])][static_cast<std::size_t>(axis)]; };
+        if (std::abs(at(corner_count(mesh.cell_types[cell]) + static_cast<int>(e)) - 0.5 * (at(edges[e][0]) + at(edges[e][1]))) > 1e-14) return false;
+      }
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("Cutting a slave face fills the body, and touches none of its other facets", "[mesh]") {
+  using enum CellType;
+  for (const CellType type : {tria3, quad4, tetra4, pyram5, penta6, hexa8, tetra10, pyram13, penta15, hexa20}) {
+    const Mesh whole = dressed(type);
+    const double expected = whole.dimension == 3 ? solid_volume(whole, 0) : signed_size(whole, 0);
+    for (int face = 1; face < whole.cell_count(); ++face) {
+      CAPTURE(name_of(type), face);
+      const Mesh mesh = with_cut_slave_faces(whole, std::vector{face}, HexaCut::pyramids);
+      CHECK(volume(mesh) == Approx(expected).epsilon(1e-14));
+      CHECK(is_closed(mesh));
+      CHECK(is_straight(mesh));
+      for (int other = 1; other < whole.cell_count(); ++other)
+        if (other != face) CHECK(std::ranges::equal(mesh.cell(other), whole.cell(other)));
+      REQUIRE(mesh.slave_patches.size() == 1);
+      const std::size_t corners = static_cast<std::size_t>(corner_count(whole.cell_types[face]));
+      CHECK(mesh.slave_patches.front().size() == corners);
+      // One node inside, and on quadratic faces the middles of the edges that go there.
+      const bool is_quadratic = node_count(whole.cell_types[face]) > static_cast<int>(corners);
+      CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == (is_quadratic ? 1 + corners : 1));
+    }
+  }
+}
+
+TEST_CASE("Six hexahedra fill the one behind a slave face", "[mesh]") {
+  const Mesh whole = dressed(CellType::hexa8);
+  for (int face = 1; face < whole.cell_count(); ++face) {
+    const Mesh mesh = with_cut_slave_faces(whole, std::vector{face}, HexaCut::hexahedra);
+    CHECK(volume(mesh) == Approx(8.0).epsilon(1e-14));
+    CHECK(is_closed(mesh));
+    CHECK(std::ranges::count(mesh.cell_types, CellType::hexa8) == 6);
+    REQUIRE(mesh.slave_patches.size() == 1);
+    CHECK(mesh.slave_patches.front().size() == 5);
+    CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 4);
+  }
+}
+
+TEST_CASE("A body with several slave faces is cut for each", "[mesh]") {
+  const Mesh whole = dressed(CellType::hexa8);
+  for (const HexaCut cut : {HexaCut::pyramids, HexaCut::hexahedra}) {
+    const Mesh mesh = with_cut_slave_faces(whole, std::vector{1, 2, 3}, cut);
+    CHECK(volume(mesh) == Approx(8.0).epsilon(1e-14));
+    CHECK(is_closed(mesh));
+    CHECK(mesh.slave_patches.size() == 3);
+  }
+}
+
+TEST_CASE("Faces with a node of their own inside stay whole, and become patches", "[mesh]") {
+  using enum CellType;
+  for (const CellType type : {tria6, quad8, hexa27}) {
+    const Mesh whole = dressed(type);
+    const Mesh mesh = with_cut_slave_faces(whole, std::vector{1}, HexaCut::pyramids);
+    CHECK(mesh.cell_count() == whole.cell_count());
+    REQUIRE(mesh.slave_patches == std::vector<std::vector<int>>{{1}});
+    CHECK(inner_nodes(mesh, mesh.slave_patches.front()) == std::vector{mesh.cell(1).back()});
+  }
+}
+
+TEST_CASE("The centre of a bent quadratic face and what leads to it lie on the surface", "[mesh]") {
+  // On z = x^2 + x y + y^2 the face is exact: its shape functions hold all quadratic polynomials.
+  const auto height = [](double x, double y) { return x * x + x * y + y * y; };
+  for (const CellType type : {CellType::tetra10, CellType::hexa20}) {
+    Mesh mesh = dressed(type);
+    // The facet in the plane of smallest z.
+    double lowest = 0.0;
+    for (const Point& node : mesh.nodes) lowest = std::min(lowest, node[2]);
+    int face = -1;
+    for (int cell = 1; cell < mesh.cell_count(); ++cell)
+      if (std::ranges::all_of(mesh.cell(cell), [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)][2] == lowest; })) face = cell;
+    REQUIRE(face > 0);
+    for (Point& node : mesh.nodes)
+      if (node[2] == lowest) node[2] += height(node[0], node[1]);
+    const Mesh cut = with_cut_slave_faces(mesh, std::vector{face}, HexaCut::pyramids);
+    for (const int node : inner_nodes(cut, cut.slave_patches.front())) {
+      const Point& at = cut.nodes[static_cast<std::size_t>(node)];
+      CHECK(at[2] == Approx(lowest + height(at[0], at[1])).margin(1e-14));
+    }
+  }
+}
+
+TEST_CASE("Groups hold the pieces of their cells, the first under the old name", "[mesh]") {
+  Mesh mesh = dressed(CellType::quad4);
+  mesh.cell_names = {"BODY", "A", "B", "C", "D"};
+  mesh.cell_groups = {{"EDGE", {1, 2}}, {"BODIES", {0}}};
+  const Mesh cut = with_cut_slave_faces(mesh, mesh.cell_groups.at("EDGE"), HexaCut::pyramids);
+  CHECK(cut.cell_groups.at("EDGE").size() == 4);
+  // Two triangles and the one that the second edge cuts in two.
+  CHECK(cut.cell_groups.at("BODIES").size() == 4);
+  CHECK(cut.cell_names.size() == static_cast<std::size_t>(cut.cell_count()));
+  CHECK(std::ranges::equal(cut.cell(cut.find_cell("A")), std::vector{0, 4}));
+  CHECK(std::ranges::equal(cut.cell(cut.slave_patches.front().back()), std::vector{4, 1}));
+}
+
+TEST_CASE("Patches follow their cells into parts of the mesh", "[mesh]") {
+  const Mesh mesh = with_cut_slave_faces(dressed(CellType::tetra4), std::vector{1, 2}, HexaCut::pyramids);
+  REQUIRE(mesh.slave_patches.size() == 2);
+  const Mesh part = restricted(mesh, mesh.slave_patches.back());
+  REQUIRE(part.slave_patches.size() == 1);
+  CHECK(part.slave_patches.front() == std::vector{0, 1, 2});
+}
+
+TEST_CASE("A slave face needs one body behind it", "[mesh]") {
+  Mesh mesh = dressed(CellType::quad4);
+  const std::vector<int> lone = {0, 2};
+  const int diagonal = mesh.add_cell(CellType::seg2, lone);
+  CHECK_THROWS_AS(with_cut_slave_faces(mesh, std::vector{diagonal}, HexaCut::pyramids), Error);
+  mesh.nodes.push_back({3, -1, 0});
+  const std::vector<int> beside = {1, 4, 2};
+  mesh.add_cell(CellType::tria3, beside);
+  CHECK_THROWS_AS(with_cut_slave_faces(mesh, std::vector{2}, HexaCut::pyramids), Error);
+}
