@@ -48,6 +48,10 @@ class TimedRuns:
         return statistics.median(run.wall for run in self.runs)
 
     @property
+    def processor(self) -> float:
+        return statistics.median(run.processor for run in self.runs)
+
+    @property
     def force(self) -> float | None:
         """The force through the contact, to compare formulations by."""
         return self.runs[0].errors.get("force")
@@ -119,7 +123,7 @@ def time_bare(options: argparse.Namespace, scene: TimedScene) -> Measurement:
 def _tell(timed: TimedRuns) -> None:
     run = timed.runs[0]
     counted = "  ".join(f"{name} {value}" for name, value in run.counters.items())
-    print(f"{timed.scene.name:20} {timed.label:24} {run.unknowns:8d} unknowns {timed.wall:8.2f} s {run.memory / 1e6:6.0f} MB  {counted}"
+    print(f"{timed.scene.name:20} {timed.label:24} {run.unknowns:8d} unknowns {timed.wall:8.2f} s  processor {timed.processor:8.2f} s {run.memory / 1e6:6.0f} MB  {counted}"
           + (f"  exit {run.status}: {run.said[:300]}" if run.status else ""), flush=True)
 
 
@@ -160,11 +164,11 @@ def _row(timed: TimedRuns, results: list[TimedRuns]) -> str:
     run = timed.runs[0]
     counted = [str(run.counters.get(name, "")) for name in ("factorisations", "solves", "newton_iterations", "contact_iterations", "pairings")]
     wall = f"{timed.wall:.2f}" if run.status == 0 else f"exit {run.status}: {run.said}"
-    return f"| {timed.scene.name} | {timed.label} | {run.unknowns} | {wall} | {run.memory / 1e6:.0f} | " + " | ".join(counted) + f" | {_difference(timed, results)} |"
+    return f"| {timed.scene.name} | {timed.label} | {run.unknowns} | {wall} | {timed.processor:.2f} | {run.memory / 1e6:.0f} | " + " | ".join(counted) + f" | {_difference(timed, results)} |"
 
 
-COLUMNS = "| block | formulation | unknowns | time (s) | memory (MB) | factorisations | solves | Newton | contact iterations | pairings | difference |"
-RULE = "|---|---|---|---|---|---|---|---|---|---|---|"
+COLUMNS = "| block | formulation | unknowns | time (s) | processor (s) | memory (MB) | factorisations | solves | Newton | contact iterations | pairings | difference |"
+RULE = "|---|---|---|---|---|---|---|---|---|---|---|---|"
 
 
 def _peer_page(results: list[TimedRuns]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import resource
 import subprocess
 import time
 from dataclasses import dataclass, field
@@ -43,6 +44,7 @@ class Measurement:
     wall: float  # s, the whole process
     seconds: float  # s, the same without the commands that measure the error
     memory: int  # bytes, the largest resident size
+    processor: float = 0.0  # s, of all threads, which other work on the machine does not lengthen as much as `wall`
     errors: dict[str, float] = field(default_factory=dict)
     phases: dict[str, float] = field(default_factory=dict)
     counters: dict[str, int] = field(default_factory=dict)
@@ -72,7 +74,7 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     report_path = folder / "report.json"
     for left in (report_path, folder / "case.resu"):
         left.unlink(missing_ok=True)
-    start = time.perf_counter()
+    start, before = time.perf_counter(), _processor_seconds()
     try:
         process = subprocess.run(
             [comma, "run", "case.comm", "-q", "--json", report_path], cwd=folder, capture_output=True, text=True, timeout=timeout
@@ -86,6 +88,7 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     measurement = Measurement(
         case, unknowns, process.returncode, wall, wall - _measuring_seconds(report), report["peak_memory_bytes"]
     )
+    measurement.processor = _processor_seconds() - before
     measurement.phases = report.get("phases", {})
     measurement.counters = report["counters"]
     measurement.said = _said(report)
@@ -95,6 +98,12 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     if process.returncode == 0 and table.exists():
         measurement.errors = _errors(table.read_text(encoding="utf-8"))
     return measurement
+
+
+def _processor_seconds() -> float:
+    """Of all processes that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _measuring_seconds(report: dict) -> float:
