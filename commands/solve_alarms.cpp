@@ -54,7 +54,8 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
           fmt::format("the slave points of zone {} lie {:.2g} times as far apart as the master facets are long: master nodes between them go "
                       "through the slave side, and contact forces come out too small",
                       zone, doubt.share),
-          is_mixed ? "make the finer side the slave, or take more points (INTEGRATION='NCOTES', ORDRE_INT)" : "make the finer side the slave"};
+          is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
+                   : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'"};
 }
 
 }  // namespace

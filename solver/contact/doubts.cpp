@@ -46,7 +46,8 @@ void note_sparse_points(const ContactDefinition& definition, const Mesh& mesh, c
                         const std::vector<std::vector<int>>& facets, const std::function<bool(int)>& gives_way, ContactDoubts& doubts) {
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     const std::vector<int>& slave = definition.zones[zone].slave_cells;
-    if (!definition.zones[zone].resolved || point_counts[zone] == 0 || facets[zone].empty()) continue;
+    // Local averages see all of the master side.
+    if (!definition.zones[zone].resolved || definition.zones[zone].mixed.local_average || point_counts[zone] == 0 || facets[zone].empty()) continue;
     if (is_held(mesh, facets[zone], gives_way)) continue;
     const int across = dimension(mesh.cell_types[static_cast<std::size_t>(slave.front())]);
     const double points_a_face = static_cast<double>(point_counts[zone]) / static_cast<double>(slave.size());

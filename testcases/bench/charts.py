@@ -207,7 +207,7 @@ def draw_map(name: str, title: str, axis: str, cells: list[tuple[str, str, str, 
     data = "$D << END\n" + "\n".join(rows) + "\nEND\n"
     panel = "unset logscale; set format xy '%g'; unset grid; set style fill solid 1.0 border rgb '#ffffff'; set boxwidth 1\n"
     panel += "set xtics rotate by 30 right\nset xtics (" + ", ".join(f"'{value}' {i}" for i, value in enumerate(values)) + ")\n"
-    panel += "set ytics (" + ", ".join(f"'{label.replace('_', chr(92) * 2 + '_')}' {len(series) - 1 - i}" for i, label in enumerate(series)) + ")\n"
+    panel += "set ytics (" + ", ".join(f"'{label.replace('_', chr(92) + '_')}' {len(series) - 1 - i}" for i, label in enumerate(series)) + ")\n"
     panel += f"set xrange [-0.5:{len(values) - 0.5}]; set yrange [-0.5:{len(series) - 0.5}]; set xlabel '{axis}'\n"
     panel += "set lmargin at screen 0.27; set rmargin at screen 0.86; set tmargin at screen 0.90\n"
     panel += "set key at screen 0.995, screen 0.90 right top Left reverse samplen 1 spacing 1.3\n"

@@ -37,21 +37,23 @@ class Runner:
     def __init__(self, comma: Path, folder: Path) -> None:
         self.comma, self.folder = comma, folder
         folder.mkdir(parents=True, exist_ok=True)
-        self.meshes: dict[tuple[str, str, int], tuple[Path, int, int]] = {}
+        self.meshes: dict[tuple[str, str, int], tuple[Path, int, int, int]] = {}
 
-    def mesh(self, scene: ContactScene, family: str, size: int) -> tuple[Path, int, int]:
-        """The mesh file, its displacements and its slave nodes."""
+    def mesh(self, scene: ContactScene, family: str, size: int) -> tuple[Path, int, int, int]:
+        """The mesh file, its displacements, its slave nodes and its slave faces."""
         key = (scene.name, family, size)
         if key not in self.meshes:
             mesh = scene.mesh(family, size)
             path = self.folder / f"{scene.name}_{family}_{size}.mail"
             write_mail(mesh, path, f"{scene.name} {family} {size}")
             unknowns = len(mesh.coordinates[0]) * len(mesh.coordinates)
-            self.meshes[key] = (path, unknowns, len(nodes_of(mesh, "SLAVE")))
+            self.meshes[key] = (path, unknowns, len(nodes_of(mesh, "SLAVE")), len(mesh.cell_groups["SLAVE"]))
         return self.meshes[key]
 
     def run(self, scene: ContactScene, formulation, family: str, size: int) -> ContactRun:
-        path, unknowns, slave_nodes = self.mesh(scene, family, size)
+        path, unknowns, slave_nodes, faces = self.mesh(scene, family, size)
+        if formulation.cuts_faces:
+            slave_nodes += faces
         shutil.copy(path, self.folder / "case.mail")
         case = scene.case(formulation, family, size, slave_nodes)
         return ContactRun(scene, formulation.name, family, size, run_comma(self.comma, case, unknowns, self.folder, TIMEOUT))

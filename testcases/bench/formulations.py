@@ -26,6 +26,11 @@ class Formulation:
     rule: tuple[tuple[str, object], ...]
 
     @property
+    def cuts_faces(self) -> bool:
+        """Whether slave faces get a node more each (CREA_MAILLAGE/DECOUPE_LAC, linear cells)."""
+        return self.algorithm == "LAC"
+
+    @property
     def is_discrete(self) -> bool:
         return self.word == "DISCRETE"
 
@@ -85,6 +90,7 @@ FORMULATIONS: dict[str, Formulation] = {
         _mixed("SIMPSON", 1),
         _mixed("NCOTES", 3),
         Formulation("CONTINUE PENALISATION", "CONTINUE", (("ALGO_CONT", "PENALISATION"),)),
+        Formulation("LAC", "CONTINUE", (("ALGO_CONT", "LAC"), ("APPARIEMENT", "MORTAR"))),
         Formulation("LIAISON_UNIL", "LIAISON_UNIL", ()),
     )
 }
@@ -92,7 +98,9 @@ FORMULATIONS: dict[str, Formulation] = {
 EXACT = ("CONTRAINTE", "GCP")
 MIXED = ("CONTINUE AUTO", "CONTINUE GAUSS 2", "CONTINUE SIMPSON 1", "CONTINUE NCOTES 3")
 PENALISED = ("PENALISATION", "CONTINUE PENALISATION")
-ALL = tuple(FORMULATIONS)
+ALL = (*EXACT, "PENALISATION", *MIXED, "CONTINUE PENALISATION", "LIAISON_UNIL")
 BETWEEN_BODIES = tuple(name for name in ALL if name != "LIAISON_UNIL")
+# LAC cuts the slave cells: it is run where the mesh may be cut.
+WITH_LAC, BETWEEN_BODIES_WITH_LAC = (*ALL, "LAC"), (*BETWEEN_BODIES, "LAC")
 # Those that know friction.
 RUBBING = (*PENALISED, "CONTINUE AUTO")

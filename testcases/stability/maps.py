@@ -160,7 +160,7 @@ def _stiffness() -> StabilityMap:
         return usual(min(STEEL, STEEL / value))(series, value)
 
     return StabilityMap(
-        "stiffness", "Moduli of slave over master (a bar that closes a gap)", "E slave / E master", decades(-8, 8), f.BETWEEN_BODIES, "gap_bar", "C_PLAN",
+        "stiffness", "Moduli of slave over master (a bar that closes a gap)", "E slave / E master", decades(-8, 8), f.BETWEEN_BODIES_WITH_LAC, "gap_bar", "C_PLAN",
         lambda _: short_bars(1.0e-3), scaled, lambda series, value: BARS | {"second": STEEL / value}, pressure="stress",
         tolerances={"resultant": TOLERANCE, "pressure": TOLERANCE})
 
@@ -199,7 +199,7 @@ def _gaps() -> StabilityMap:
 
     return StabilityMap(
         "gap", "Initial gap, or overlap where negative (bars, one pushed by 0.002)", "gap (m)",
-        (-0.1, -1e-2, -1e-3, -1e-5, 0.0, 1e-9, 1e-5, 1e-3, 1.999e-3, 2.001e-3, 1e-2, 0.1), (*f.BETWEEN_BODIES, *starts), "gap_bar", "C_PLAN",
+        (-0.1, -1e-2, -1e-3, -1e-5, 0.0, 1e-9, 1e-5, 1e-3, 1.999e-3, 2.001e-3, 1e-2, 0.1), (*f.BETWEEN_BODIES_WITH_LAC, *starts), "gap_bar", "C_PLAN",
         lambda value: short_bars(value), formulation, lambda series, value: BARS | {"gap": value}, pressure="stress",
         tolerances={"resultant": TOLERANCE, "pressure": TOLERANCE, "penetration": TOLERANCE}, mesh_key=lambda value: value)
 
@@ -207,7 +207,7 @@ def _gaps() -> StabilityMap:
 def _cells() -> StabilityMap:
     return StabilityMap(
         "cells", "Length of slave cells over that of master cells (patch test)", "slave / master", (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0, 16.0),
-        f.BETWEEN_BODIES, "patch", "C_PLAN", unequal_blocks, usual(RUBBER), lambda series, value: {}, {"resultant": MESHED}, "stress",
+        f.BETWEEN_BODIES_WITH_LAC, "patch", "C_PLAN", unequal_blocks, usual(RUBBER), lambda series, value: {}, {"resultant": MESHED}, "stress",
         mesh_key=lambda value: value)
 
 

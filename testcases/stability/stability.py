@@ -10,6 +10,7 @@ from pathlib import Path
 
 import stability_report
 from contact_scenes import nodes_of
+from formulations import FORMULATIONS
 from maps import StabilityMap, maps
 from meshes import write_mail
 from run import Measurement, run_comma
@@ -59,16 +60,18 @@ def judge(of: StabilityMap, value: object, measured: Measurement) -> Outcome:
 def run_map(comma: Path, of: StabilityMap, folder: Path, quick: bool) -> list[MapCell]:
     folder.mkdir(parents=True, exist_ok=True)
     cells = []
-    unknowns = slave_nodes = 0
+    unknowns = slave_nodes = faces = 0
     meshed: object = None
     for value in of.values[:: 3 if quick else 1]:
         if meshed is None or of.mesh_key(value) is not None:
             mesh = of.mesh(value)
             write_mail(mesh, folder / "case.mail", f"{of.name} {value}")
             unknowns, slave_nodes = len(mesh.coordinates[0]) * len(mesh.coordinates), len(nodes_of(mesh, "SLAVE"))
+            faces = len(mesh.cell_groups["SLAVE"])
             meshed = value
         for series in of.series:
-            measured = run_comma(comma, of.case(series, value, slave_nodes), unknowns, folder, TIMEOUT)
+            cut = faces if series in FORMULATIONS and FORMULATIONS[series].cuts_faces else 0
+            measured = run_comma(comma, of.case(series, value, slave_nodes + cut), unknowns, folder, TIMEOUT)
             cells.append(MapCell(series, value, measured, judge(of, value, measured)))
             _tell(of, cells[-1])
     return cells

@@ -69,5 +69,8 @@ TEST_CASE("Slave points far apart on fine master facets are a doubt, unless ther
   CHECK(coarse.doubts(3).all().front().share == Approx(16.0 / 3.0).epsilon(1e-12));
   CHECK(coarse.doubts(7).all().empty());
   CHECK(coarse.doubts(3, false).all().empty());
+  Sides averaged = coarse;
+  averaged.definition.zones.front().mixed.local_average = true;
+  CHECK(averaged.doubts(3).all().empty());
   CHECK(Sides(16, 2).doubts(17).all().empty());
 }
