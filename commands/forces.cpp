@@ -44,6 +44,13 @@ Amounts<N> given_amounts(const Keywords& keywords, const std::array<const char*,
   return amounts;
 }
 
+/// Of a load that may follow the body.
+std::optional<Amount> following_amount(const Keywords& keywords, const char* name) {
+  if (!keywords.given(name)) return std::nullopt;
+  if (!keywords.at(name).value.is_concept()) return amount_of(keywords, name);
+  return Amount{0.0, following_function(keywords.concept_of(name), keywords.span_of(name))};
+}
+
 template <std::size_t N>
 void override_given(const Amounts<N>& amounts, std::array<double, N>& values, std::array<solver::FieldFunction, N>& functions) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -101,43 +108,6 @@ void add_distributed_forces(const Keywords& call, const LoadedModel& target, sol
   }
 }
 
-void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  ByCell<solver::PressureLoad> pressures;
-  for (const Keywords& occurrence : call.factors("PRES_REP")) {
-    const auto amounts = given_amounts<2>(occurrence, {"PRES", "CISA_2D"});
-    int loaded = 0;
-    for (const int cell : selected_cells(occurrence, target.mesh)) {
-      if (solver::is_plate(target.model.formulations[cell])) {
-        throw DiagnosticError("unsupported", "comma does not support PRES_REP on plates yet: " + target.mesh.cell_name(cell) + " is one",
-                              occurrence.span, "give the pressure as forces on the nodes (FORCE_NODALE)");
-      }
-      if (!target.model.is_skin(cell)) continue;
-      auto& pressure = pressures[cell];
-      pressure.cell = cell;
-      if (amounts[0]) std::tie(pressure.pressure, pressure.pressure_function) = std::pair(amounts[0]->value, amounts[0]->function);
-      if (amounts[1]) std::tie(pressure.shear, pressure.shear_function) = std::pair(amounts[1]->value, amounts[1]->function);
-      ++loaded;
-    }
-    if (loaded == 0) {
-      throw DiagnosticError("no-skin", "PRES_REP: none of these cells is on the skin of the model", occurrence.span,
-                            "a pressure acts on edges of a plane model or faces of a solid one, and AFFE_MODELE must cover them");
-    }
-  }
-  append(load.pressures, std::move(pressures));
-}
-
-void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  ByCell<solver::PressureLoad> pressures;
-  for (const Keywords& occurrence : call.factors("EFFE_FOND")) {
-    const auto rim = selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""});
-    const Amount amount = amount_of(occurrence, "PRES");
-    for (auto& pressure : solver::end_effect(target.mesh, selected_cells(occurrence, target.mesh), rim, amount.value, amount.function)) {
-      pressures[pressure.cell] = std::move(pressure);
-    }
-  }
-  append(load.pressures, std::move(pressures));
-}
-
 // A force in turned axes: each global component is a sum of the ones given.
 Amount component_of_turned(const std::array<Amount, 3>& given, const Eigen::Vector3d& direction) {
   Amount sum;
@@ -153,6 +123,71 @@ Amount component_of_turned(const std::array<Amount, 3>& given, const Eigen::Vect
     return total;
   };
   return sum;
+}
+
+bool is_plate(const LoadedModel& target, int cell) {
+  return solver::is_plate(target.model.formulations[cell]) && !target.model.is_skin(cell);
+}
+
+// What a pressure acts on.
+bool is_surface(const LoadedModel& target, int cell) {
+  if (solver::is_plate(target.model.formulations[cell])) return is_plate(target, cell);
+  return target.model.is_skin(cell);
+}
+
+// FORCE_COQUE: tractions along the axes of the mesh, or across the plate. PRES acts against the normal, F3 along it (U4.44.01).
+void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  ByCell<solver::DistributedForce> forces;
+  ByCell<solver::PressureLoad> pressures;
+  for (const Keywords& occurrence : call.factors("FORCE_COQUE")) {
+    const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
+    const bool pressed = occurrence.given("PRES"), pulled = occurrence.given("F3");
+    const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX()) : amount_of(occurrence, "PRES");
+    for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate", [&](int each) { return is_plate(target, each); })) {
+      if (pressed || pulled) {
+        pressures[cell].cell = cell;
+        std::tie(pressures[cell].pressure, pressures[cell].pressure_function) = std::pair(across.value, across.function);
+        continue;
+      }
+      forces[cell].cell = cell;
+      override_given(amounts, forces[cell].force, forces[cell].functions);
+    }
+  }
+  append(load.distributed_forces, std::move(forces));
+  append(load.pressures, std::move(pressures));
+}
+
+void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  ByCell<solver::PressureLoad> pressures;
+  for (const Keywords& occurrence : call.factors("PRES_REP")) {
+    const Amounts<2> amounts = {following_amount(occurrence, "PRES"), following_amount(occurrence, "CISA_2D")};
+    int loaded = 0;
+    for (const int cell : selected_cells(occurrence, target.mesh)) {
+      if (!is_surface(target, cell)) continue;
+      auto& pressure = pressures[cell];
+      pressure.cell = cell;
+      if (amounts[0]) std::tie(pressure.pressure, pressure.pressure_function) = std::pair(amounts[0]->value, amounts[0]->function);
+      if (amounts[1]) std::tie(pressure.shear, pressure.shear_function) = std::pair(amounts[1]->value, amounts[1]->function);
+      ++loaded;
+    }
+    if (loaded == 0) {
+      throw DiagnosticError("no-skin", "PRES_REP: none of these cells is on the skin of the model or a plate", occurrence.span,
+                            "a pressure acts on edges of a plane model, faces of a solid one, or plates, and AFFE_MODELE must cover them");
+    }
+  }
+  append(load.pressures, std::move(pressures));
+}
+
+void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  ByCell<solver::PressureLoad> pressures;
+  for (const Keywords& occurrence : call.factors("EFFE_FOND")) {
+    const auto rim = selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""});
+    const Amount amount = amount_of(occurrence, "PRES");
+    for (auto& pressure : solver::end_effect(target.mesh, selected_cells(occurrence, target.mesh), rim, amount.value, amount.function)) {
+      pressures[pressure.cell] = std::move(pressure);
+    }
+  }
+  append(load.pressures, std::move(pressures));
 }
 
 using NodeForces = std::map<std::pair<int, solver::Component>, Amount>;
@@ -310,6 +345,7 @@ void add_forces(const Keywords& call, const LoadedModel& target, solver::Load& l
   add_nodal_forces(call, target, load);
   add_force_vector(call, target, load);
   add_pressures(call, target, load);
+  add_plate_forces(call, target, load);
   add_end_effects(call, target, load);
   add_distributed_forces(call, target, load);
   add_beam_forces(call, target, load);

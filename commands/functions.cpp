@@ -9,6 +9,7 @@
 
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/functions/deformed_place.hpp"
 
 namespace comma::commands {
 
@@ -25,14 +26,17 @@ std::shared_ptr<const FunctionConcept> function_behind(const ConceptPtr& handle)
   return std::dynamic_pointer_cast<const FunctionConcept>(handle->data);
 }
 
+bool is_deformed(const std::string& parameter) { return parameter == "XF" || parameter == "YF" || parameter == "ZF"; }
+
 /// For each parameter of the function, its place among `known`.
 std::vector<std::size_t> places_of(const FunctionConcept& function, const std::string& name,
                                    const std::vector<std::string>& known, const Span& span) {
   std::vector<std::size_t> places;
   for (const std::string& parameter : function.parameters()) {
     const auto found = std::find(known.begin(), known.end(), parameter);
-    if (parameter == "XF" || parameter == "YF" || parameter == "ZF") {
-      throw DiagnosticError("unsupported", fmt::format("{} depends on {}, a place on the deformed mesh, which comma does not give to functions yet", name, parameter), span);
+    if (found == known.end() && is_deformed(parameter)) {
+      throw DiagnosticError("unsupported", fmt::format("{} depends on {}, a place on the deformed body, which pressures alone know (PRES_REP)", name, parameter), span,
+                            "let it depend on the initial place: X, Y, Z");
     }
     if (found == known.end()) {
       throw DiagnosticError("unknown-parameter", fmt::format("{} depends on {}, which has no value here", name, parameter), span,
@@ -132,9 +136,12 @@ solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {
   return [function = std::move(function)](double time) { return function->evaluate({&time, 1}); };
 }
 
-solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) {
+namespace {
+
+/// `names`: of the three coordinates and time.
+solver::FieldFunction function_of(const ConceptPtr& handle, const std::vector<std::string>& names, const Span& span) {
   auto function = function_behind(handle);
-  const auto places = places_of(*function, handle->name, place_and_time(), span);
+  const auto places = places_of(*function, handle->name, names, span);
   std::array<std::size_t, 4> order{};
   std::copy(places.begin(), places.end(), order.begin());
   const std::size_t count = places.size();
@@ -144,6 +151,20 @@ solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span)
     for (std::size_t i = 0; i < count; ++i) arguments[i] = known[order[i]];
     return function->evaluate({arguments.data(), count});
   };
+}
+
+}  // namespace
+
+solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) { return function_of(handle, place_and_time(), span); }
+
+solver::FieldFunction following_function(const ConceptPtr& handle, const Span& span) {
+  const auto& parameters = function_behind(handle)->parameters();
+  if (std::ranges::none_of(parameters, is_deformed)) return field_function(handle, span);
+  if (std::ranges::any_of(parameters, [](const std::string& name) { return name == "X" || name == "Y" || name == "Z"; })) {
+    throw DiagnosticError("unsupported", handle->name + " depends on the initial and on the deformed place, of which comma gives a function one", span,
+                          "write it with X, Y, Z or with XF, YF, ZF alone");
+  }
+  return solver::DeformedPlaceFunction{function_of(handle, {"XF", "YF", "ZF", "INST"}, span)};
 }
 
 double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names, std::span<const double> values,

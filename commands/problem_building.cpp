@@ -1,5 +1,6 @@
 #include "commands/problem_building.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -7,25 +8,39 @@
 
 #include "commands/functions.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/functions/deformed_place.hpp"
 
 namespace comma::commands {
 
 using interpreter::Call;
+using interpreter::DiagnosticError;
 using interpreter::Keywords;
 using solver::LinearMethod;
 
 namespace {
 
-std::vector<solver::AppliedLoad> applied_loads(const Call& call) {
-  std::vector<solver::AppliedLoad> loads;
+// On the initial geometry there is no deformed place.
+void require_initial_places(const Keywords& excitation, const solver::Load& load) {
+  const bool deformed = std::ranges::any_of(load.pressures, [](const solver::PressureLoad& pressure) {
+    return solver::is_of_deformed_place(pressure.pressure_function) || solver::is_of_deformed_place(pressure.shear_function);
+  });
+  if (!deformed) return;
+  throw DiagnosticError("fixed-load", excitation.concept_of("CHARGE")->name + " has a pressure that depends on XF, YF or ZF, the place on the deformed body",
+                        excitation.span_of("CHARGE"), "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
+}
+
+void take_loads(const Call& call, solver::StaticProblem& problem) {
+  problem.loads.clear();
+  problem.followers.clear();
   for (const Keywords& excitation : call.factors("EXCIT")) {
-    solver::AppliedLoad& applied = loads.emplace_back();
+    const bool follows = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV";
+    solver::AppliedLoad& applied = (follows ? problem.followers : problem.loads).emplace_back();
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
     }
+    if (!follows) require_initial_places(excitation, *applied.load);
   }
-  return loads;
 }
 
 std::optional<LinearMethod> linear_method(const std::string& word) {
@@ -60,7 +75,7 @@ solver::StaticProblem static_problem(const Call& call) {
   problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
   problem.properties = call.has("CARA_ELEM") ? call.data<PropertiesConcept>("CARA_ELEM").properties
                                              : std::make_shared<const solver::ElementProperties>();
-  problem.loads = applied_loads(call);
+  take_loads(call, problem);
   return problem;
 }
 
@@ -69,7 +84,7 @@ solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& s
   if (call.has("MODELE")) problem.model = call.data<ModelConcept>("MODELE").model;
   if (call.has("CHAM_MATER")) problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
   if (call.has("CARA_ELEM")) problem.properties = call.data<PropertiesConcept>("CARA_ELEM").properties;
-  if (call.has("EXCIT")) problem.loads = applied_loads(call);
+  if (call.has("EXCIT")) take_loads(call, problem);
   if (!problem.properties) problem.properties = std::make_shared<const solver::ElementProperties>();
   if (problem.model && problem.materials) return problem;
   const char* missing = problem.model ? "CHAM_MATER" : "MODELE";

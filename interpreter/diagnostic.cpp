@@ -137,17 +137,18 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   const std::string folded = lower(word);
   std::string best;
   std::size_t best_distance = most + 1;
-  std::size_t best_prefix = 0;
+  std::pair<bool, std::size_t> best_likeness;
   for (const std::string& candidate : known) {
     if (candidate.size() > word.size() + most || candidate.size() + most < word.size() || candidate == word) continue;
     // A word in the wrong case is one slip, however long it is.
     const std::size_t distance = std::min(edit_distance(word, candidate), edit_distance(folded, lower(candidate)) + 1);
     if (distance > most || distance > best_distance) continue;
-    // Of words as near, the one that begins like the written one, for a slip in the first letters is rare.
-    const std::size_t prefix = common_prefix(folded, lower(candidate));
-    if (distance == best_distance && prefix <= best_prefix) continue;
+    // Of words as near, the one of the same letters, and then the one that begins like the written one: a slip in the first letters is
+    // rare.
+    const std::pair likeness(std::ranges::is_permutation(folded, lower(candidate)), common_prefix(folded, lower(candidate)));
+    if (distance == best_distance && likeness <= best_likeness) continue;
     best_distance = distance;
-    best_prefix = prefix;
+    best_likeness = likeness;
     best = candidate;
   }
   return best;

@@ -58,6 +58,7 @@ TEST_CASE("The nearest known word is found by slips of the fingers", "[diagnosti
   CHECK(nearest("AFE_MODEL", known) == "AFFE_MODELE");
   CHECK(nearest("DYY", {"DX", "DRY", "DY"}) == "DY");
   CHECK(nearest("DW", {"DY", "DX"}) == "DY");
+  CHECK(nearest("DZR", {"DZ", "DRZ"}) == "DRZ");
   CHECK(nearest("XYZ", known).empty());
   CHECK(nearest("", known).empty());
   CHECK(nearest(std::string(1000, 'A'), known).empty());

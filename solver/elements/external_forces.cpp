@@ -11,6 +11,22 @@
 
 namespace comma::solver {
 
+void check_pressure(const Model& model, const PressureLoad& load) {
+  const Mesh& mesh = *model.mesh;
+  const int skin = dimension(mesh.cell_types[load.cell]);
+  const int body = continuum_dimension(model.formulations[load.cell]);
+  const bool plate = is_plate(model.formulations[load.cell]) && !model.is_skin(load.cell);
+  if (!plate && (body == 0 || skin != body - 1)) {
+    throw Error("not-a-skin",
+                fmt::format("pressure is applied to cell {}, a {}, which is neither on the boundary of a body of the model nor a plate",
+                            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
+  }
+  if (skin == 2 && (load.shear != 0.0 || load.shear_function)) {
+    throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
+                                           mesh.cell_name(load.cell)));
+  }
+}
+
 namespace {
 
 constexpr std::array<std::string_view, 3> axis_names = {"X", "Y", "Z"};
@@ -40,31 +56,11 @@ Point to_point(const Eigen::Vector3d& at) {
   return {at[0], at[1], at[2]};
 }
 
-void check_pressure(const Model& model, const PressureLoad& load) {
-  const Mesh& mesh = *model.mesh;
-  const int skin = dimension(mesh.cell_types[load.cell]);
-  const int body = continuum_dimension(model.formulations[load.cell]);
-  if (body == 0 || skin != body - 1) {
-    throw Error("not-a-skin",
-                fmt::format("pressure is applied to cell {}, a {}, which is not on the boundary of a body of the model",
-                            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
-  }
-  if (skin == 2 && (load.shear != 0.0 || load.shear_function)) {
-    throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
-                                           mesh.cell_name(load.cell)));
-  }
-}
-
 void check_distributed_force(const Model& model, const DistributedForce& load) {
   const Mesh& mesh = *model.mesh;
   const int body = continuum_dimension(model.formulations[load.cell]);
   const int type_dimension = dimension(mesh.cell_types[load.cell]);
-  const bool on_plate = is_plate(model.formulations[load.cell]);
-  if (on_plate && model.is_skin(load.cell)) return;
-  if (on_plate) {
-    throw Error("unsupported", fmt::format("a distributed force acts on plate {}, but comma supports forces on the edges of plates alone",
-                                           mesh.cell_name(load.cell)));
-  }
+  if (is_plate(model.formulations[load.cell])) return;
   if (body == 0 || type_dimension == 0 || type_dimension > body) {
     throw Error("unsupported",
                 fmt::format("a distributed force acts on cell {}, a {}, which is no part of a continuum of the model",

@@ -19,6 +19,10 @@ struct ForceInput {
   const VariableState* state = nullptr;  ///< command variables, on which densities and moduli may depend
 };
 
+/// Throws Error `not-a-skin` for a pressure on a cell that is neither a skin cell of a continuum nor a plate, `unsupported` for shear on a
+/// face.
+void check_pressure(const Model& model, const PressureLoad& load);
+
 /// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,
 /// pressures, distributed forces, forces on beams, gravity and rotation. Initial strains act inside elements: see
 /// imposed_strains.hpp.
@@ -27,7 +31,9 @@ struct ForceInput {
 /// which points out of a body whose boundary runs counter-clockwise; a face has its normal by the right-hand rule.
 /// Pressure p and shear q act as the traction -p n + q t (U4.44.01, PRES_REP). Axisymmetric loads are per radian.
 ///
-/// Gravity and centrifugal forces are those of the mass of continua, bars, beams and discrete elements; what they have
+/// Pressures and distributed forces on plates act on the surface of the mesh, on translations alone, which are linear between nodes.
+///
+/// Gravity and centrifugal forces are those of the mass of continua, bars, beams, plates (about their middle) and discrete elements; what they have
 /// across the plane of a plane model is left to the supports that such a model implies.
 ///
 /// Throws Error `unknown-dof` for a force on a component that its node does not carry, `not-a-skin` for a pressure on a

@@ -44,6 +44,31 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
   }
 }
 
+/// On the surface of the mesh, with the moments of a middle that lies apart from it.
+void add_plate(const ForceInput& input, int cell, const AccelerationField& field, double factor, CellSamples& samples,
+               std::span<long double> forces) {
+  const Mesh& mesh = *input.model.mesh;
+  const auto section = input.properties.plates.find(cell);
+  if (section == input.properties.plates.end()) {
+    throw Error("missing-properties", fmt::format("plate {} has no thickness", mesh.cell_name(cell)));
+  }
+  const double per_area = factor * section->second.thickness * density(elasticity_of(input, cell), material_point_of(input, cell));
+  const NodeColumns places = node_places(mesh, cell);
+  for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::body)) {
+    const CellPoint point = locate(places, sample);
+    const Eigen::Vector3d arm = section->second.offset * point.normal(2).normalized();
+    const Eigen::Vector3d force = per_area * sample.weight * point.measure(2) * field.at(point.at + arm);
+    const Eigen::Vector3d moment = arm.cross(force);
+    for (Eigen::Index a = 0; a < places.cols(); ++a) {
+      const int first = input.dofs.dof(mesh.cell(cell)[static_cast<std::size_t>(a)], Component::dx);
+      for (int c = 0; c < 3; ++c) {
+        forces[static_cast<std::size_t>(first + c)] += sample.values[a] * force[c];
+        forces[static_cast<std::size_t>(first + 3 + c)] += sample.values[a] * moment[c];
+      }
+    }
+  }
+}
+
 void add_slender(const ForceInput& input, int cell, const AccelerationField& field, double factor,
                  std::span<long double> forces) {
   const double per_volume = factor * density(elasticity_of(input, cell), material_point_of(input, cell));
@@ -116,10 +141,7 @@ void add_inertia_forces(const ForceInput& input, int cell, const AccelerationFie
   const Formulation formulation = input.model.formulations[cell];
   if (continuum_dimension(formulation) > 0) return add_continuum(input, cell, field, factor, samples, forces);
   if (is_bar(formulation) || is_beam(formulation)) return add_slender(input, cell, field, factor, forces);
-  if (is_plate(formulation)) {
-    throw Error("unsupported", fmt::format("gravity or rotation acts on plate {}, which comma does not support yet",
-                                           input.model.mesh->cell_name(cell)), "name the cells without plates");
-  }
+  if (is_plate(formulation)) return add_plate(input, cell, field, factor, samples, forces);
   add_discrete(input, cell, field, factor, forces);
 }
 

@@ -276,7 +276,10 @@ Field FieldComputation::internal_forces(std::size_t step) {
 }
 
 Field FieldComputation::reactions(std::size_t step) {
-  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant);
+  const double time = result_.steps[step].instant;
+  FollowerForces followers(*problem_.model, dofs_, problem_.followers);
+  followers.set_time(time);
+  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time);
 }
 
 }  // namespace comma::solver

@@ -32,9 +32,9 @@ NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const No
 }
 
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
-                           std::span<const AppliedLoad> loads, double time) {
-  const Eigen::VectorXd internal = assembler.internal_forces(to_dofs(displacement, dofs));
-  return to_field(internal - assembler.external_forces(loads, time), dofs, "DEPL_R");
+                           std::span<const AppliedLoad> loads, const FollowerForces& followers, double time) {
+  const Eigen::VectorXd u = to_dofs(displacement, dofs);
+  return to_field(assembler.internal_forces(u) - assembler.external_forces(loads, time) - followers.at(u), dofs, "DEPL_R");
 }
 
 }  // namespace comma::solver

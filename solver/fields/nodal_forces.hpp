@@ -4,6 +4,7 @@
 #include <span>
 
 #include "solver/elements/assembler.hpp"
+#include "solver/elements/follower_forces.hpp"
 
 namespace comma::solver {
 
@@ -14,8 +15,9 @@ Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs);
 NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
                         std::span<const AppliedLoad> loads, double time);
 
-/// REAC_NODA: internal minus external forces; zero where nothing is imposed, the reaction where something is.
+/// REAC_NODA: internal minus external forces, those that follow the body included; zero where nothing is imposed, the reaction where
+/// something is.
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
-                           std::span<const AppliedLoad> loads, double time);
+                           std::span<const AppliedLoad> loads, const FollowerForces& followers, double time);
 
 }  // namespace comma::solver

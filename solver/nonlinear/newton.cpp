@@ -106,11 +106,13 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
 
 /// Residual of the reduced unknowns and the size of the loads, reactions and contact forces included.
 void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
-  const Eigen::VectorXd unbalanced = external - assembler_.internal_forces(state.u);
+  Eigen::VectorXd loads = external;
+  if (followers_) loads += followers_->at(state.u);
+  const Eigen::VectorXd unbalanced = loads - assembler_.internal_forces(state.u);
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = std::max(largest(external), largest(unbalanced));
+  load_ = std::max(largest(loads), largest(unbalanced));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
@@ -246,7 +248,7 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
 /// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put
 /// it: residuals of 1e-6 of the largest force move a body on weak springs by metres.
 void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
-  if (!assembler_.is_linear()) return;
+  if (!tangent_.is_constant()) return;
   double last = std::numeric_limits<double>::infinity();
   const int rounds = tangent_.loses_few_digits() ? 1 : max_polishing;
   for (int k = 0; k < rounds; ++k) {

@@ -54,6 +54,9 @@ class NewtonSolver {
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
+  /// The forces act beside the external ones from now on; they must outlive the solver.
+  void follow(const FollowerForces& forces) { followers_ = &forces; }
+
   /// The step is accepted: its loads count in the criterion of later ones.
   void accept_step() { criterion_.accept(load_); }
 
@@ -94,6 +97,7 @@ class NewtonSolver {
 
   const ContactDefinition* definition_ = nullptr;
   MixedContact* mixed_ = nullptr;
+  const FollowerForces* followers_ = nullptr;
   const ConditionSet* conditions_ = nullptr;
   int active_set_limit_ = 0;
   ReducedInequalities reduced_;

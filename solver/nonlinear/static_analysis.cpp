@@ -37,12 +37,17 @@ class StaticAnalysis {
         counters_(counters),
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.kinematics.get()),
+        followers_(*problem.model, dofs_, problem.followers),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
     if (problem.contact) newton_.use_algorithm(*problem.contact);
+    if (!followers_.empty()) {
+      tangent_.follow(followers_, !problem.contact && problem.unilateral.empty());
+      newton_.follow(followers_);
+    }
     require_symmetry();
     if (!is_mixed()) return;
     tangent_.allow_springs();
@@ -243,6 +248,7 @@ class StaticAnalysis {
 
   int solve_step(double time) {
     assembler_.set_time(time);
+    followers_.set_time(time);
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
@@ -433,6 +439,7 @@ class StaticAnalysis {
   Counters& counters_;
   DofMap dofs_;
   Assembler assembler_;
+  FollowerForces followers_;
   Elimination elimination_;
   TangentSystem tangent_;
   std::vector<int> contact_nodes_;

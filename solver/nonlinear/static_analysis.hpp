@@ -36,7 +36,8 @@ struct StaticProblem {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const MaterialField> materials;
   std::shared_ptr<const ElementProperties> properties;  ///< never null, may be empty
-  std::vector<AppliedLoad> loads;
+  std::vector<AppliedLoad> loads;      ///< on the initial geometry
+  std::vector<AppliedLoad> followers;  ///< on the deformed one: see follower_forces.hpp
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
   std::shared_ptr<const KinematicsOfCells> kinematics;  ///< null: small strains everywhere
@@ -73,6 +74,7 @@ using StepObserver = std::function<void(Result& result)>;
 
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
 /// `result`: DEPL, SIEF_ELGA, and CONT_NOEU with contact. Steps already appended stay when it throws.
+/// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
 /// Errors: `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
 /// Returns what may be wrong with the contact of the solution although its equations are solved.

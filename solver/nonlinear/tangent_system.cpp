@@ -18,6 +18,16 @@ namespace {
 /// Beyond, the rounding of squares hides what holds a body.
 constexpr int most_gram_digits = 15;
 
+/// From the lower triangle of a matrix whose pattern has room for it.
+void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, SymmetricMatrix& matrix) {
+  for (int column = 0; column < change.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(change, column); it; ++it) {
+      const int row = static_cast<int>(it.row());
+      matrix.coeffRef(std::max(row, column), std::min(row, column)) -= (row == column ? 1.0 : 0.5) * it.value();
+    }
+  }
+}
+
 }  // namespace
 
 TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler,
@@ -31,23 +41,36 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
       linear_(options.linear) {}
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u) {
-  if (factorised_ && assembler_.is_linear() && version_ == assembler_.stiffness_version()) return false;
+  if (factorised_ && is_constant() && version_ == assembler_.stiffness_version()) return false;
   if (elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
   tangent_at_ = u;
   SymmetricMatrix reduced = assembled(u);
-  if (assembler_.is_symmetric())
+  if (is_symmetric())
     factorise(std::move(reduced));
   else
-    factorise(reduced, elimination_.reduce_skew(assembler_.skew_stiffness(u)));
+    factorise(reduced, elimination_.reduce_skew(skew(u)));
   return true;
 }
 
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u) const {
   const Stopwatch stopwatch(counters_.assembling);
-  SymmetricMatrix reduced = elimination_.reduce(assembler_.stiffness(u));
+  SymmetricMatrix whole = assembler_.stiffness(u);
+  if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);
+  SymmetricMatrix reduced = elimination_.reduce(whole);
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
+}
+
+/// The skew half of the tangent, by its strictly lower triangle.
+SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u) const {
+  SkewMatrix matrix = assembler_.skew_stiffness(u);
+  if (!followers_) return matrix;
+  const SkewMatrix change = followers_->tangent(u);
+  const SkewMatrix transposed = change.transpose();
+  const SkewMatrix half = 0.5 * (change - transposed);
+  const SkewMatrix lower = half.triangularView<Eigen::StrictlyLower>();
+  return matrix - lower;
 }
 
 /// Springs at the rows without a pivot, as stiff as the bodies are there. Whether there were any to add.

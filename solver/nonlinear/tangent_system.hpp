@@ -9,6 +9,7 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
+#include "solver/elements/follower_forces.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
@@ -35,6 +36,14 @@ class TangentSystem {
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
   void allow_springs() { may_add_springs_ = true; }
+  /// The forces take part in the tangent from now on, whole or by their symmetric half; they must outlive the system.
+  void follow(const FollowerForces& forces, bool whole) {
+    followers_ = &forces;
+    whole_ = whole;
+  }
+  /// Whether the tangent is the same for every displacement.
+  bool is_constant() const { return assembler_.is_linear() && followers_ == nullptr; }
+
   /// The reduced unknowns that hold a spring to the ground, and its stiffness.
   const std::vector<std::pair<int, double>>& springs() const { return springs_; }
 
@@ -57,6 +66,8 @@ class TangentSystem {
 
  private:
   SymmetricMatrix assembled(const Eigen::VectorXd& u) const;
+  bool is_symmetric() const { return assembler_.is_symmetric() && !(followers_ && whole_); }
+  SkewMatrix skew(const Eigen::VectorXd& u) const;
   void factorise(SymmetricMatrix reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
   bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);
@@ -70,6 +81,8 @@ class TangentSystem {
   const Elimination& elimination_;
   const NewtonOptions& options_;
   Counters& counters_;
+  const FollowerForces* followers_ = nullptr;
+  bool whole_ = true;
   LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;

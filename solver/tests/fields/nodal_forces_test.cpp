@@ -44,8 +44,9 @@ TEST_CASE("reactions are what the applied forces leave of the nodal forces", "[f
   const Eigen::VectorXd internal = body.assembler->internal_forces(u);
   auto load = std::make_shared<Load>();
   for (int dof = 4; dof < 8; ++dof) load->nodal_forces.push_back({body.dofs->node_of(dof), body.dofs->component_of(dof), internal[dof], {}});
+  const FollowerForces none(body.model, *body.dofs, {});
   const NodalField reactions =
-      nodal_reactions(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"), std::vector<AppliedLoad>{{load, {}}}, 0.0);
+      nodal_reactions(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"), std::vector<AppliedLoad>{{load, {}}}, none, 0.0);
   CHECK(reactions.at(2, 0) == 0.0);
   CHECK(reactions.at(3, 1) == 0.0);
   CHECK(reactions.at(0, 1) == internal[1]);

@@ -1,0 +1,159 @@
+#include "solver/elements/follower_forces.hpp"
+
+#include "solver/elements/external_forces.hpp"
+#include "solver/error.hpp"
+#include "solver/functions/deformed_place.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Point to_point(const Vector3d& at) { return {at[0], at[1], at[2]}; }
+
+double value_of(double number, const FieldFunction& function, const CellPoint& initial, const CellPoint& now, double time) {
+  if (!function) return number;
+  return function(to_point(is_of_deformed_place(function) ? now.at : initial.at), time);
+}
+
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d matrix;
+  matrix << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return matrix;
+}
+
+/// d(normal) / d(place of node b): see CellPoint::normal.
+Matrix3d normal_change(const CellPoint& now, const CellSample& sample, Eigen::Index b) {
+  if (sample.derivatives.cols() == 1) {
+    Matrix3d turn = Matrix3d::Zero();
+    turn(0, 1) = sample.derivatives(b, 0);
+    turn(1, 0) = -sample.derivatives(b, 0);
+    return turn;
+  }
+  return sample.derivatives(b, 1) * cross_matrix(now.tangents.col(0)) - sample.derivatives(b, 0) * cross_matrix(now.tangents.col(1));
+}
+
+void require_pressures_alone(const Load& load) {
+  const bool others = !load.relations.empty() || !load.nodal_forces.empty() || !load.distributed_forces.empty() || !load.beam_forces.empty() ||
+                      !load.gravities.empty() || !load.rotations.empty() || !load.initial_strains.empty() || !load.initial_slender_strains.empty();
+  if (!others) return;
+  throw Error("unsupported", "of loads that follow the body comma knows pressures alone, and this one has something else",
+              "put pressures into a load of their own, and let the rest act on the initial geometry");
+}
+
+}  // namespace
+
+/// What acts on a unit of reference measure, but for the radius.
+struct FollowerForces::Traction {
+  double pressure = 0.0;
+  double shear = 0.0;
+  Vector3d force = Vector3d::Zero();
+};
+
+FollowerForces::FollowerForces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads)
+    : model_(model), dofs_(dofs), loads_(loads) {
+  for (const AppliedLoad& applied : loads) {
+    require_pressures_alone(*applied.load);
+    for (const PressureLoad& pressure : applied.load->pressures) check_pressure(model, pressure);
+  }
+}
+
+/// visit(cell, sample, load, factor, initial point, moved point) at each point of each pressure.
+template <class Visit>
+void FollowerForces::each_point(const Eigen::VectorXd& u, Visit&& visit) const {
+  const Mesh& mesh = *model_.mesh;
+  for (const AppliedLoad& applied : loads_) {
+    const double factor = applied.multiplier ? applied.multiplier(time_) : 1.0;
+    if (factor == 0.0) continue;
+    for (const PressureLoad& load : applied.load->pressures) {
+      const NodeColumns places = node_places(mesh, load.cell);
+      NodeColumns moved = places;
+      for (Eigen::Index a = 0; a < moved.cols(); ++a) {
+        for (int c = 0; c < 3; ++c) {
+          const int dof = dofs_.dof(mesh.cell(load.cell)[static_cast<std::size_t>(a)], static_cast<Component>(c));
+          if (dof >= 0) moved(c, a) += u[dof];
+        }
+      }
+      for (const CellSample& sample : samples_.of(mesh.cell_types[load.cell], CellRole::skin)) {
+        visit(sample, load, factor, locate(places, sample), locate(moved, sample));
+      }
+    }
+  }
+}
+
+FollowerForces::Traction FollowerForces::traction(const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) const {
+  Traction traction;
+  traction.pressure = factor * value_of(load.pressure, load.pressure_function, initial, now, time_);
+  traction.shear = factor * value_of(load.shear, load.shear_function, initial, now, time_);
+  traction.force = traction.shear * now.tangents.col(0) - traction.pressure * now.normal(dimension(model_.mesh->cell_types[load.cell]));
+  return traction;
+}
+
+Eigen::VectorXd FollowerForces::at(const Eigen::VectorXd& u) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
+    const double radius = is_axisymmetric(model_.formulations[load.cell]) ? now.at[0] : 1.0;
+    const Vector3d force = radius * sample.weight * traction(load, factor, initial, now).force;
+    const auto nodes = model_.mesh->cell(load.cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      for (int c = 0; c < 3; ++c) {
+        const int dof = dofs_.dof(nodes[a], static_cast<Component>(c));
+        if (dof >= 0) sums[static_cast<std::size_t>(dof)] += sample.values[static_cast<Eigen::Index>(a)] * force[c];
+      }
+    }
+  });
+  Eigen::VectorXd forces(dofs_.size());
+  for (int dof = 0; dof < dofs_.size(); ++dof) forces[dof] = static_cast<double>(sums[static_cast<std::size_t>(dof)]);
+  return forces;
+}
+
+Vector3d FollowerForces::pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const {
+  Vector3d gradient = Vector3d::Zero();
+  if (!is_of_deformed_place(load.pressure_function)) return gradient;
+  // Half of the digits go into the difference, half into its accuracy.
+  constexpr double share = 1e-7;
+  const double step = share * now.tangents.colwise().norm().maxCoeff();
+  const int directions = model_.mesh->dimension;
+  for (int c = 0; c < directions; ++c) {
+    Vector3d before = now.at, after = now.at;
+    before[c] -= step;
+    after[c] += step;
+    gradient[c] = factor * (load.pressure_function(to_point(after), time_) - load.pressure_function(to_point(before), time_)) / (2.0 * step);
+  }
+  return gradient;
+}
+
+Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
+    const bool axisymmetric = is_axisymmetric(model_.formulations[load.cell]);
+    const double radius = axisymmetric ? now.at[0] : 1.0;
+    const Traction acting = traction(load, factor, initial, now);
+    const Vector3d normal = now.normal(dimension(model_.mesh->cell_types[load.cell]));
+    const Vector3d gradient = pressure_gradient(load, factor, now);
+    const auto nodes = model_.mesh->cell(load.cell);
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+      const auto column = static_cast<Eigen::Index>(b);
+      Matrix3d change = -acting.pressure * normal_change(now, sample, column) - sample.values[column] * normal * gradient.transpose();
+      if (acting.shear != 0.0) change += acting.shear * sample.derivatives(column, 0) * Matrix3d::Identity();
+      change *= radius;
+      if (axisymmetric) change.col(0) += sample.values[column] * acting.force;
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        const double weight = sample.weight * sample.values[static_cast<Eigen::Index>(a)];
+        for (int i = 0; i < 3; ++i) {
+          for (int j = 0; j < 3; ++j) {
+            const int row = dofs_.dof(nodes[a], static_cast<Component>(i)), other = dofs_.dof(nodes[b], static_cast<Component>(j));
+            if (row >= 0 && other >= 0 && change(i, j) != 0.0) entries.emplace_back(row, other, weight * change(i, j));
+          }
+        }
+      }
+    }
+  });
+  Eigen::SparseMatrix<double> matrix(dofs_.size(), dofs_.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace comma::solver
