@@ -114,8 +114,9 @@ def time_scene(options: argparse.Namespace, scene: TimedScene, names: tuple[str,
 
 
 def time_bare(options: argparse.Namespace, scene: TimedScene) -> Measurement:
-    """The same bodies tied to nothing but their bases: reading, assembling, one factorisation, one solution."""
+    """The same bodies, each held and pushed by itself: reading, assembling, one factorisation, one solution."""
     folder = options.output / "work"
+    folder.mkdir(parents=True, exist_ok=True)
     unknowns = _mesh_apart(scene, folder / "case.mail")
     return run_comma(options.comma, Case(scene.name, "bare", "HEXA8", "3D", "MULT_FRONT", 0, {}, None), unknowns, folder, TIMEOUT)
 
