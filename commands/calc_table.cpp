@@ -39,19 +39,63 @@ Value value_of(const Cell& cell) {
   return Value(std::get<double>(cell));
 }
 
-Cell cell_of(const Value& value, const Keywords& action) {
+Cell cell_of(const Value& value, const Keywords& action, const char* keyword = "FORMULE") {
   if (value.is_integer()) return value.as_integer();
   if (value.is_bool()) return static_cast<std::int64_t>(value.as_bool());
   if (value.is_number()) return value.as_real();
   if (value.is_text()) return value.as_text();
-  throw DiagnosticError("wrong-type", "CALC_TABLE: the formula gives " + value.repr() + ", which no cell holds", action.span_of("FORMULE"));
+  throw DiagnosticError("wrong-type", std::string("CALC_TABLE: ") + keyword + " gives " + value.repr() + ", which no cell holds", action.span_of(keyword));
+}
+
+std::vector<Cell> cells_of(const Keywords& action, const char* keyword) {
+  std::vector<Cell> cells;
+  for (const Value& value : action.at(keyword).value.items()) cells.push_back(cell_of(value, action, keyword));
+  return cells;
+}
+
+void check_count(const Keywords& action, const char* keyword, std::size_t count, std::size_t wanted, const char* what) {
+  if (count == wanted) return;
+  throw DiagnosticError("wrong-count", fmt::format("CALC_TABLE: {} has {} values for {} {}", keyword, count, wanted, what), action.span_of(keyword));
+}
+
+void add_row(Table& table, const Keywords& action) {
+  const auto names = action.texts("NOM_PARA");
+  const auto cells = cells_of(action, "VALE");
+  check_count(action, "VALE", cells.size(), names.size(), "columns");
+  std::vector<std::pair<std::string, Cell>> row;
+  for (std::size_t i = 0; i < names.size(); ++i) row.emplace_back(names[i], cells[i]);
+  table.add_row(row);
+}
+
+// One value a column, or the values of one column.
+void add_columns(Table& table, const Keywords& action) {
+  const auto names = action.texts("NOM_PARA");
+  for (const std::string& name : names) {
+    if (table.column(name) < 0) continue;
+    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + name, action.span_of("NOM_PARA"));
+  }
+  const bool by_row = action.given("VALE_COLONNE");
+  const char* keyword = by_row ? "VALE_COLONNE" : "VALE";
+  const auto cells = cells_of(action, keyword);
+  if (by_row) check_count(action, "NOM_PARA", names.size(), 1, "columns of VALE_COLONNE");
+  check_count(action, keyword, cells.size(), by_row ? table.rows.size() : names.size(), by_row ? "rows" : "columns");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto column = static_cast<std::size_t>(table.add_column(names[i]));
+    for (std::size_t row = 0; row < table.rows.size(); ++row) table.rows[row][column] = cells[by_row ? row : i];
+  }
 }
 
 // A row in which a variable of the formula is empty gets an empty cell.
 void compute(Table& table, const Keywords& action) {
   const auto& function = action.data<FunctionConcept>("FORMULE");
   std::vector<int> sources;
-  for (const std::string& name : function.parameters()) sources.push_back(column_of(table, name, action, "FORMULE"));
+  const bool renamed = action.given("NOM_COLONNE");
+  const auto names = renamed ? action.texts("NOM_COLONNE") : function.parameters();
+  if (names.size() != function.parameters().size()) {
+    throw DiagnosticError("wrong-count", fmt::format("CALC_TABLE: the formula has {} variables, and NOM_COLONNE names {} columns", function.parameters().size(), names.size()),
+                          action.span_of("NOM_COLONNE"));
+  }
+  for (const std::string& name : names) sources.push_back(column_of(table, name, action, renamed ? "NOM_COLONNE" : "FORMULE"));
   const int target = table.add_column(action.text("NOM_PARA"));
   for (auto& row : table.rows) {
     std::vector<Value> arguments;
@@ -160,6 +204,8 @@ Table acted(Table table, const Keywords& action) {
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
   if (operation == "OPER") compute(table, action);
+  if (operation == "AJOUT_LIGNE") add_row(table, action);
+  if (operation == "AJOUT_COLONNE") add_columns(table, action);
   return table;
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/field_types.hpp"
+#include "commands/result_reading.hpp"
 #include "commands/occurrences.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -160,9 +162,25 @@ std::vector<int> nodes_in_order(const Keywords& creation, const solver::Mesh& me
   return solver::nodes_along_segment(mesh, selected_nodes(creation, mesh), *start, *end, tolerance);
 }
 
+// INTERVALLE_VALE: where a component of a field lies between two values.
+std::vector<int> nodes_in_interval(const Keywords& creation, const solver::Mesh& mesh) {
+  const FieldConcept& data = number_field(creation.concept_of("CHAM_GD"), creation, "CHAM_GD");
+  if (data.mesh.get() != &mesh) throw DiagnosticError("different-mesh", "DEFI_GROUP: the field lies on another mesh", creation.span_of("CHAM_GD"));
+  const auto& field = std::get<solver::NodalField>(data.field);
+  const int component = component_of(creation, field.components, creation.text("NOM_CMP"));
+  const auto bounds = creation.reals("VALE");
+  std::vector<int> nodes;
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    const double value = field.at(node, component);
+    if (value >= bounds[0] && value <= bounds[1]) nodes.push_back(node);  // false where there is none
+  }
+  return nodes;
+}
+
 std::vector<int> nodes_of_option(const Keywords& creation, const solver::Mesh& mesh) {
   const std::string& option = creation.text("OPTION");
   if (option == "NOEUD_ORDO" || option == "SEGM_DROI_ORDO") return nodes_in_order(creation, mesh);
+  if (option == "INTERVALLE_VALE") return nodes_in_interval(creation, mesh);
   const solver::Point at = centre(creation, mesh);
   const double tolerance = creation.real("PRECISION");
   if (option == "ENV_SPHERE") return solver::nodes_on_sphere(mesh, at, creation.real("RAYON"), tolerance);

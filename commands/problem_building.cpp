@@ -29,17 +29,38 @@ void require_initial_places(const Keywords& excitation, const solver::Load& load
                         excitation.span_of("CHARGE"), "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
 }
 
+// TYPE_CHARGE='SUIV': pressures follow; dead forces and displacements of single nodes are the same on any geometry.
+void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
+  const solver::Load& load = *applied.load;
+  const auto is_shared = [](const solver::LinearRelation& relation) { return relation.terms.size() > 1; };
+  if (std::ranges::any_of(load.relations, is_shared)) {
+    throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + " has relations between displacements, which comma does not let follow large rotations yet",
+                          excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where rotations are small");
+  }
+  auto following = std::make_shared<solver::Load>();
+  following->pressures = load.pressures;
+  auto dead = std::make_shared<solver::Load>(load);
+  dead->pressures.clear();
+  if (!following->pressures.empty()) problem.followers.push_back({std::move(following), applied.multiplier});
+  problem.loads.push_back({std::move(dead), applied.multiplier});
+}
+
 void take_loads(const Call& call, solver::StaticProblem& problem) {
   problem.loads.clear();
   problem.followers.clear();
   for (const Keywords& excitation : call.factors("EXCIT")) {
-    const bool follows = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV";
-    solver::AppliedLoad& applied = (follows ? problem.followers : problem.loads).emplace_back();
+    solver::AppliedLoad applied;
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
     }
-    if (!follows) require_initial_places(excitation, *applied.load);
+    if (excitation.has("COEF_MULT")) applied.multiplier = [factor = excitation.real("COEF_MULT")](double) { return factor; };
+    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV") {
+      add_following(excitation, applied, problem);
+      continue;
+    }
+    require_initial_places(excitation, *applied.load);
+    problem.loads.push_back(std::move(applied));
   }
 }
 
