@@ -103,6 +103,7 @@ class PlateBlock final : public ElementBlock {
   static constexpr int size = 6 * Nodes;
   static constexpr CellType type = Nodes == 3 ? CellType::tria3 : CellType::quad4;
   using Matrix = Eigen::Matrix<double, size, size>;
+  using Vector = Eigen::Matrix<double, size, 1>;
 
  public:
   PlateBlock(const BlockInput& input, std::vector<int> cells)
@@ -133,10 +134,13 @@ class PlateBlock final : public ElementBlock {
     std::array<int, size> dofs;
     Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
-      check_unstrained(element, state);
       map_.dofs(element, dofs.data());
       const Matrix& k = matrix_at(element, state, own);
       const auto moved = relative(u, dofs);
+      if (const double strain = inelastic_strain(element, state); strain != 0.0) {
+        const Vector push = forces_of_strain(element, state, strain);
+        for (int i = 0; i < size; ++i) forces[dofs[i]] -= push[i];
+      }
       std::array<long double, 3> balance{};
       for (int i = 0; i < size; ++i) {
         const bool balances = i >= size - 6 && i < size - 3;
@@ -158,19 +162,19 @@ class PlateBlock final : public ElementBlock {
     std::array<int, size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
-      check_unstrained(element, state);
       map_.dofs(element, dofs.data());
       const auto moved = relative(u, dofs);
-      Eigen::Matrix<double, size, 1> own;
+      Vector own;
       for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
       for (int i = 0; i < size; i += 3) own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
       const PlateRigidity rigidity = this->rigidity(element, state);
+      const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
       const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
       for (const ReferencePoint& corner : reference_nodes(type)) {
         const PlateRows<Nodes> rows = kinematics.at(corner);
         const double offset = plates_[element].section->offset;
         const Eigen::Vector3d curvature = rows.curvature * own;
-        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature);
+        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
         const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
         const Eigen::Vector2d shear = rows.shear_force * own;
         target = std::copy(normal.begin(), normal.end(), target);
@@ -184,7 +188,6 @@ class PlateBlock final : public ElementBlock {
     std::array<int, size> dofs;
     Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
-      check_unstrained(element, state);
       map_.dofs(element, dofs.data());
       const Matrix& k = matrix_at(element, state, own);
       const auto moved = relative(u, dofs);
@@ -193,6 +196,12 @@ class PlateBlock final : public ElementBlock {
         for (int i = 0; i < size; ++i) work += moved[i] * k(i, j) * moved[j];
       }
       out[element] = static_cast<double>(0.5L * work);
+      const double strain = inelastic_strain(element, state);
+      if (strain == 0.0) continue;
+      const Vector push = forces_of_strain(element, state, strain);
+      for (int i = 0; i < size; ++i) out[element] -= static_cast<double>(moved[i]) * push[i];
+      const Eigen::Vector3d undone = membrane_forces(rigidity(element, state), strain);
+      out[element] += 0.5 * area(element) * strain * (undone[0] + undone[1]);
     }
   }
 
@@ -233,11 +242,39 @@ class PlateBlock final : public ElementBlock {
     return rigidity_of(*plate.section, moduli(*plate.material, material_point(element, state)), shears_);
   }
 
-  void check_unstrained(int element, const VariableState& state) const {
-    if (state.empty()) return;
-    if (inelastic_axial_strain(*plates_[element].material, material_point(element, state)) == 0.0) return;
-    throw Error("unsupported", fmt::format("command variables strain the plate on cell {}, which comma does not support for plates",
-                                           mesh_.cell_name(cells_[element])));
+  /// What the command variables at the middle of the cell strain it by, the same in all directions and through the thickness.
+  double inelastic_strain(int element, const VariableState& state) const {
+    return state.empty() ? 0.0 : inelastic_axial_strain(*plates_[element].material, material_point(element, state));
+  }
+
+  /// The membrane forces that undo such a strain, about the middle of the plate.
+  static Eigen::Vector3d membrane_forces(const PlateRigidity& rigidity, double strain) {
+    return plane_law(rigidity.membrane, rigidity.poisson) * Eigen::Vector3d(strain, strain, 0.0);
+  }
+
+  double area(int element) const {
+    const auto& corners = plates_[element].corners;
+    double twice = 0.0;
+    for (int i = 0; i < Nodes; ++i) {
+      const auto a = corners.col(i), b = corners.col((i + 1) % Nodes);
+      twice += a[0] * b[1] - a[1] * b[0];
+    }
+    return 0.5 * twice;
+  }
+
+  /// The forces (in the axes of the mesh) with which such a strain pushes the nodes apart.
+  Vector forces_of_strain(int element, const VariableState& state, double strain) const {
+    const Plate<Nodes>& plate = plates_[element];
+    const PlateRigidity rigidity = this->rigidity(element, state);
+    const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
+    const Eigen::Vector3d pushing = membrane_forces(rigidity, strain);
+    Vector forces = Vector::Zero();
+    for (const QuadraturePoint& point : points_) {
+      const PlateRows<Nodes> rows = kinematics.at(point.at);
+      forces += point.weight * rows.measure * (rows.membrane + plate.section->offset * rows.curvature).transpose() * pushing;
+    }
+    for (int i = 0; i < size; i += 3) forces.template segment<3>(i) = (plate.axes.transpose() * forces.template segment<3>(i)).eval();
+    return forces;
   }
 
   const Matrix& matrix_at(int element, const VariableState& state, Matrix& own) const {
