@@ -133,8 +133,9 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     archive.update(result);
   };
-  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
+  const auto doubts = solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
   warn_of_indefinite_stiffness(call, before, context);
+  if (product->problem.contact) warn_of_contact(call, *product->problem.contact, doubts, context);
   return product;
 }
 

@@ -58,9 +58,13 @@ ContactLaw law_of(const ContactZone& zone) {
   return law;
 }
 
-bool has_friction(const ContactDefinition& definition) {
-  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
+double strongest_friction(const ContactDefinition& definition) {
+  double strongest = 0.0;
+  for (const ContactZone& zone : definition.zones) strongest = std::max(strongest, zone.mixed.friction);
+  return strongest;
 }
+
+bool has_friction(const ContactDefinition& definition) { return strongest_friction(definition) > 0.0; }
 
 bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
@@ -419,7 +423,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   counters_.contact_iterations += solution.iterations;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
-    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations);
+    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
     state_ = earlier;
     return std::nullopt;
   }
