@@ -116,8 +116,20 @@ void MixedContact::number_patches(int zone) {
   }
 }
 
+std::vector<Vector3d> MixedContact::positions_at(const Eigen::VectorXd& u) const {
+  std::vector<Vector3d> positions;
+  for (int node = 0; node < mesh_.node_count(); ++node) {
+    Vector3d& place = positions.emplace_back(mesh_.nodes[node].data());
+    for (int axis = 0; axis < 3; ++axis) {
+      const int dof = dofs_.dof(node, translations[static_cast<std::size_t>(axis)]);
+      if (dof >= 0) place[axis] += u[dof];
+    }
+  }
+  return positions;
+}
+
 void MixedContact::pair(Positions positions, double time) {
-  points_ = contact_points(definition_, model_, positions, time);
+  points_ = contact_points(definition_, model_, positions, positions_at(reference_), time);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();
@@ -201,7 +213,7 @@ MixedContact::Directions MixedContact::directions(const ContactPoint& point) con
 double MixedContact::initial_gap(const ContactPoint& point) const {
   const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
   if (!point.shares.empty()) {
-    double gap = -point.thickness;
+    double gap = -point.offset;
     for (const GapShare& share : point.shares) gap += share.coefficient.dot(initial(share.node));
     return gap;
   }
