@@ -209,8 +209,10 @@ def draw_map(name: str, title: str, axis: str, cells: list[tuple[str, str, str, 
     panel += "set xtics rotate by 30 right\nset xtics (" + ", ".join(f"'{value}' {i}" for i, value in enumerate(values)) + ")\n"
     panel += "set ytics (" + ", ".join(f"'{label.replace('_', chr(92) + '_')}' {len(series) - 1 - i}" for i, label in enumerate(series)) + ")\n"
     panel += f"set xrange [-0.5:{len(values) - 0.5}]; set yrange [-0.5:{len(series) - 0.5}]; set xlabel '{axis}'\n"
-    panel += "set lmargin at screen 0.27; set rmargin at screen 0.86; set tmargin at screen 0.90\n"
-    panel += "set key at screen 0.995, screen 0.90 right top Left reverse samplen 1 spacing 1.3\n"
+    height = 200 + 34 * len(series)
+    top = 1.0 - 52 / height  # below the title
+    panel += f"set lmargin at screen 0.27; set rmargin at screen 0.86; set tmargin at screen {top}\n"
+    panel += f"set key at screen 0.995, screen {top} right top Left reverse samplen 1 spacing 1.3\n"
     keys = [f"NaN with boxes lc rgb '{colour}' title '{outcome}'" for outcome, colour in colours.items()]
     boxes = "$D using 1:2:(0.48):(0.46):3 with boxxyerrorbars lc rgb variable notitle, $D using 1:2:4 with labels font ',9' notitle"
-    _gnuplot(folder / name, 1100, 200 + 34 * len(series), title, data, panel + "plot " + ", ".join([boxes, *keys]) + "\n")
+    _gnuplot(folder / name, 1100, height, title, data, panel + "plot " + ", ".join([boxes, *keys]) + "\n")
