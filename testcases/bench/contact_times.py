@@ -169,6 +169,7 @@ def _row(timed: TimedRuns, results: list[TimedRuns]) -> str:
 
 
 COLUMNS = "| block | formulation | unknowns | time (s) | processor (s) | memory (MB) | factorisations | solves | Newton | contact iterations | pairings | difference |"
+SHARED = "Elapsed times are those of a machine that other work may have shared, several times over."
 RULE = "|---|---|---|---|---|---|---|---|---|---|---|---|"
 
 
@@ -179,7 +180,7 @@ def _peer_page(results: list[TimedRuns]) -> str:
         f"RESI_GLOB_RELA 1e-10; medians of {len(results[0].runs)} whole processes, {machine()}. *Difference*: of the force through the contact, from the "
         "first formulation's. *Peer*: what Code_Aster 17.3 was measured to take on scenes of these kinds with one thread on a machine like this one, and how many "
         "times comma's processor time that is, which counts all threads and suffers less from other work on the machine than elapsed time. "
-        "The other program's scenes are not these very ones.\n\n"
+        f"The other program's scenes are not these very ones. {SHARED}\n\n"
     )
     text += COLUMNS + " peer (s) | ratio |\n" + RULE + "---|---|\n"
     for timed in results:
@@ -194,7 +195,7 @@ def _large_page(bare: Measurement, results: list[TimedRuns]) -> str:
     text = (
         "# Contact: a large scene\n\nWritten by `./comma bench large`. A block of 71 x 71 x 7 HEXA8 with 5,184 slave nodes, on a wider one of 61 x 61 x 6 whose mesh "
         f"does not match, 10 steps, RESI_GLOB_RELA 1e-10; whole processes, {machine()}.\n\nWithout contact, the same bodies take {bare.wall:.1f} s ({bare.processor:.1f} s of "
-        f"the processor) and {bare.memory / 1e6:.0f} MB, one factorisation {factorising:.1f} s of it. *Times*: the processor time over that of this whole run.\n\n"
+        f"the processor) and {bare.memory / 1e6:.0f} MB, one factorisation {factorising:.1f} s of it. *Times*: the processor time over that of this whole run. {SHARED}\n\n"
     )
     text += COLUMNS + " times |\n" + RULE + "---|\n"
     for timed in results:
