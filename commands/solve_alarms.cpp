@@ -2,10 +2,71 @@
 
 #include <fmt/format.h>
 
+#include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/locking.hpp"
 
 namespace comma::commands {
+
+namespace {
+
+/// A message and what to try.
+struct Advice {
+  std::string code;
+  std::string message;
+  std::string hint;
+};
+
+std::string exact_formulation(const solver::ContactDefinition& contact) {
+  return contact.formulation == solver::ContactFormulation::mixed ? "ALGO_CONT='STANDARD'" : "ALGO_CONT='CONTRAINTE'";
+}
+
+Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact, const solver::Mesh& mesh) {
+  const bool is_mixed = contact.formulation == solver::ContactFormulation::mixed;
+  const std::string penalty = is_mixed ? "COEF_PENA_CONT" : "E_N";
+  const int zone = doubt.zone + 1;
+  switch (doubt.kind) {
+    case solver::DoubtKind::soft_penalty:
+      return {"soft-penalty",
+              fmt::format("with {} = {:.3g} the slave nodes of zone {} sink in by {:.3g}, {:.0f} % of what they would without contact: "
+                          "contact forces come out too small by about that share",
+                          penalty, doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
+              fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+    case solver::DoubtKind::deep_penalty:
+      return {"soft-penalty",
+              fmt::format("with {} = {:.3g} the slave nodes of zone {} sink in by {:.3g}, {:.2g} times the size of the slave side", penalty,
+                          doubt.penalty, zone, doubt.length, doubt.share),
+              fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+    case solver::DoubtKind::soft_friction:
+      return {"soft-friction-penalty",
+              fmt::format("with E_T = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without contact: "
+                          "friction comes out too small by about that share",
+                          doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
+              fmt::format("take E_T = {:.0e}, or FORMULATION='CONTINUE', where what sticks does not creep", doubt.wanted)};
+    case solver::DoubtKind::held_overlap:
+      return {"held-overlap",
+              fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",
+                          mesh.cell_name(doubt.cell), zone, doubt.length),
+              "free its nodes along the normal, or take them out of the contact (SANS_GROUP_NO)"};
+    case solver::DoubtKind::sparse_points: break;
+  }
+  return {"coarse-slave",
+          fmt::format("the slave points of zone {} lie {:.2g} times as far apart as the master facets are long: master nodes between them go "
+                      "through the slave side, and contact forces come out too small",
+                      zone, doubt.share),
+          is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
+                   : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'"};
+}
+
+}  // namespace
+
+void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& contact, const solver::ContactDoubts& doubts, Context& context) {
+  const auto& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
+  for (const solver::ContactDoubt& doubt : doubts.all()) {
+    const Advice advice = advice_on(doubt, contact, mesh);
+    context.diagnostics.alarm(advice.code, call.command + ": " + advice.message, call.span, advice.hint);
+  }
+}
 
 void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   const auto risk = solver::find_locking(*problem.model, *problem.materials);

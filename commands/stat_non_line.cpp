@@ -193,7 +193,7 @@ std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateCho
 
 void show_header(const Call& call, const Context& context) {
   context.console.progress("STAT_NON_LINE " + call.result->name);
-  context.console.progress("     instant  iter   relative   absolute  worst                 active  changes");
+  context.console.progress("     instant iter relative absolute  worst              active changes     depth");
 }
 
 solver::IterationObserver live_table(const Context& context) {
@@ -203,9 +203,10 @@ solver::IterationObserver live_table(const Context& context) {
       context.console.progress("  " + report.event);
       return;
     }
-    context.console.progress(fmt::format("  {:>10.5g} {:>5} {:>10.2e} {:>10.2e}  {:<20} {:>7} {:>8}", report.instant, report.iteration,
+    const std::string depth = report.penetration ? fmt::format("{:.2e}", *report.penetration) : "-";
+    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8.1e} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant, report.iteration,
                                          report.relative_residual, report.absolute_residual, report.worst,
-                                         report.active_conditions, report.contact_changes));
+                                         report.active_conditions, report.contact_changes, depth));
   };
 }
 
@@ -230,8 +231,9 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     archive.update(result);
   };
-  solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
+  const auto doubts = solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
   warn_of_indefinite_stiffness(call, before, context);
+  if (product->problem.contact) warn_of_contact(call, *product->problem.contact, doubts, context);
   return product;
 }
 

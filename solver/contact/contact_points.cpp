@@ -160,12 +160,12 @@ double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi) 
   return is_axisymmetric(model.formulations[face]) ? radius * stretch : stretch;
 }
 
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time) {
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time) {
   if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time);
   std::vector<ContactPoint> points;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     if (definition.zones[zone].mixed.local_average) {
-      append_patch_points(definition, static_cast<int>(zone), model, positions, time, points);
+      append_patch_points(definition, static_cast<int>(zone), model, positions, start, time, points);
       continue;
     }
     ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);

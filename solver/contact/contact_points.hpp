@@ -32,16 +32,17 @@ struct ContactPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap
-  std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position
+  std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
+  double offset = 0.0;                                 ///< see shares; thicknesses count in it
   double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
 /// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
-/// Zones of local average contact have a point a patch.
+/// Zones of local average contact have a point a patch; `start`: where the nodes were when the step began.
 /// Throws what face_rule, projections and normals throw.
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time);
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time);
 
 /// Initial area of a face a unit of its reference cell's; times the radius where axisymmetric.
 double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ using Eigen::Vector3d;
 /// A patch of which less than this share faces the master is open: what rounding leaves at an edge would not bear a pressure.
 constexpr double covered_tolerance = 1e-9;
 
-/// A facet's nodes, where they are.
+/// A facet's nodes where they are, and the outward normals there: those of the cells around where they are smoothed, else the facet's own.
 struct Gathered {
   CellType type = CellType::seg2;
   std::array<Vector3d, max_facet_nodes> points;
@@ -35,12 +36,54 @@ struct Gathered {
   FacetGeometry geometry() const { return {type, {points.data(), count}, {normals.data(), is_smooth ? count : 0}}; }
 };
 
+/// The facets of a surface at one moment.
+class Surface {
+ public:
+  Surface(const Mesh& mesh, std::span<const int> cells, Positions positions, bool is_smooth) : mesh_(mesh), positions_(positions), is_smooth_(is_smooth) {
+    if (is_smooth) normals_ = nodal_normals(mesh, cells, positions);
+  }
+
+  Gathered gather(int cell) const {
+    Gathered facet;
+    facet.type = mesh_.cell_types[cell];
+    facet.is_smooth = is_smooth_;
+    for (const int node : mesh_.cell(cell)) {
+      facet.points[facet.count++] = positions_[node];
+      facet.centre += positions_[node];
+    }
+    facet.centre /= static_cast<double>(facet.count);
+    const auto nodes = mesh_.cell(cell);
+    for (std::size_t i = 0; i < facet.count; ++i) {
+      facet.radius = std::max(facet.radius, (facet.points[i] - facet.centre).norm());
+      facet.normals[i] = is_smooth_ ? normals_.at(nodes[i])
+                                    : facet_normal(facet.type, {facet.points.data(), facet.count}, facet_node(facet.type, static_cast<int>(i)));
+    }
+    return facet;
+  }
+
+ private:
+  const Mesh& mesh_;
+  Positions positions_;
+  bool is_smooth_;
+  std::unordered_map<int, Vector3d> normals_;
+};
+
 class PatchGaps {
  public:
-  PatchGaps(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time)
-      : zone_(definition.zones[static_cast<std::size_t>(zone)]), index_(zone), model_(model), mesh_(*model.mesh), positions_(positions), time_(time) {
-    if (definition.smooth_normals) slave_normals_ = nodal_normals(mesh_, zone_.slave_cells, positions);
-    for (const int cell : zone_.master_cells) masters_.push_back(gather(cell));
+  PatchGaps(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time)
+      : zone_(definition.zones[static_cast<std::size_t>(zone)]),
+        index_(zone),
+        model_(model),
+        mesh_(*model.mesh),
+        time_(time),
+        slaves_(mesh_, zone_.slave_cells, positions, definition.smooth_normals),
+        slaves_at_start_(mesh_, zone_.slave_cells, start, definition.smooth_normals) {
+    const Surface masters(mesh_, zone_.master_cells, positions, definition.smooth_normals);
+    const Surface masters_at_start(mesh_, zone_.master_cells, start, false);
+    for (const int cell : zone_.master_cells) {
+      masters_.push_back(masters.gather(cell));
+      masters_at_start_.push_back(masters_at_start.gather(cell));
+    }
   }
 
   ContactPoint point_of(const std::vector<int>& patch) {
@@ -56,34 +99,20 @@ class PatchGaps {
     }
     point_.status = PairingStatus::paired;
     for (const auto& [node, sum] : sums_) point_.shares.push_back({node, sum / point_.weight});
-    point_.thickness /= point_.weight;
+    point_.offset /= point_.weight;
     point_.normal.normalize();
     return point_;
   }
 
  private:
-  Gathered gather(int cell) const {
-    Gathered facet;
-    facet.type = mesh_.cell_types[cell];
-    facet.is_smooth = !slave_normals_.empty();
-    for (const int node : mesh_.cell(cell)) {
-      facet.points[facet.count] = positions_[node];
-      if (const auto known = slave_normals_.find(node); known != slave_normals_.end()) facet.normals[facet.count] = known->second;
-      facet.centre += positions_[node];
-      ++facet.count;
-    }
-    facet.centre /= static_cast<double>(facet.count);
-    for (std::size_t i = 0; i < facet.count; ++i) facet.radius = std::max(facet.radius, (facet.points[i] - facet.centre).norm());
-    return facet;
-  }
-
   void add_face(int face) {
-    const Gathered slave = gather(face);
+    const Gathered slave = slaves_.gather(face);
+    const Gathered before = slaves_at_start_.gather(face);
     for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * stretch(face, at.xi);
     for (std::size_t m = 0; m < masters_.size(); ++m) {
-      if (!may_overlap(slave, masters_[m])) continue;
-      const auto common = facet_overlap(slave.geometry(), {masters_[m].type, {masters_[m].points.data(), masters_[m].count}, {}});
-      for (const OverlapPoint& each : common) add(face, slave, zone_.master_cells[m], masters_[m], each);
+      const Gathered& master = masters_at_start_[m];
+      if (!may_overlap(before, master)) continue;
+      for (const OverlapPoint& each : facet_overlap(before.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
     }
   }
 
@@ -97,25 +126,30 @@ class PatchGaps {
   }
 
   void add(int face, const Gathered& slave, int facet, const Gathered& master, const OverlapPoint& at) {
-    const FacetGeometry geometry = slave.geometry();
-    const Vector3d here = point_at(geometry, at.slave);
-    const Vector3d foot = point_at({master.type, {master.points.data(), master.count}, {}}, at.master);
-    const Vector3d normal = -normal_at(geometry, at.slave);
-    if (zone_.pairing_distance >= 0.0 && std::abs(normal.dot(here - foot)) > zone_.pairing_distance) return;
+    const Vector3d here = point_at(slave.geometry(), at.slave);
+    const Vector3d foot = point_at(master.geometry(), at.master);
+    const Vector3d normal = -normal_at(slave.geometry(), at.slave);
+    const double gap = normal.dot(here - foot);
+    if (zone_.pairing_distance >= 0.0 && std::abs(gap) > zone_.pairing_distance) return;
     const double area = at.weight * stretch(face, at.slave);
-    const FacetShape ours = facet_shape(slave.type, at.slave);
-    const FacetShape theirs = facet_shape(master.type, at.master);
-    const auto slave_nodes = mesh_.cell(face);
-    const auto master_nodes = mesh_.cell(facet);
-    for (std::size_t i = 0; i < slave_nodes.size(); ++i) sum_at(slave_nodes[i]) += area * ours.values[i] * normal;
-    for (std::size_t i = 0; i < master_nodes.size(); ++i) sum_at(master_nodes[i]) -= area * theirs.values[i] * normal;
+    const double shared = add_shares(face, slave, facet_shape(slave.type, at.slave), -area) + add_shares(facet, master, facet_shape(master.type, at.master), -area);
+    point_.offset += shared - area * (gap - thickness_at(zone_, here, foot, time_));
     point_.weight += area;
-    point_.thickness += area * thickness_at(zone_, here, foot, time_);
     point_.normal += area * normal;
     point_.facet = facet;
   }
 
-  Vector3d& sum_at(int node) { return sums_.try_emplace(node, Vector3d::Zero()).first->second; }
+  /// Adds what a point's gap takes of a facet's nodes, along their outward normals; returns what it makes of their places now.
+  double add_shares(int cell, const Gathered& facet, const FacetShape& shape, double factor) {
+    const auto nodes = mesh_.cell(cell);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vector3d coefficient = factor * shape.values[i] * facet.normals[i];
+      sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += coefficient;
+      sum += coefficient.dot(facet.points[i]);
+    }
+    return sum;
+  }
 
   /// Initial area a unit of the reference cell's, times the radius where axisymmetric: pressures are forces over the area before
   /// deformation.
@@ -126,10 +160,9 @@ class PatchGaps {
   int index_;
   const Model& model_;
   const Mesh& mesh_;
-  Positions positions_;
   double time_;
-  std::unordered_map<int, Vector3d> slave_normals_;
-  std::vector<Gathered> masters_;
+  Surface slaves_, slaves_at_start_;
+  std::vector<Gathered> masters_, masters_at_start_;
   ContactPoint point_;
   std::map<int, Vector3d> sums_;
 };
@@ -157,9 +190,9 @@ std::vector<int> patches_of(const ContactZone& zone, const Mesh& mesh) {
   return patches;
 }
 
-void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time,
+void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time,
                          std::vector<ContactPoint>& points) {
-  PatchGaps gaps(definition, zone, model, positions, time);
+  PatchGaps gaps(definition, zone, model, positions, start, time);
   for (const int patch : patches_of(definition.zones[static_cast<std::size_t>(zone)], *model.mesh))
     points.push_back(gaps.point_of(model.mesh->slave_patches[static_cast<std::size_t>(patch)]));
 }

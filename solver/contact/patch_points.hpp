@@ -18,10 +18,13 @@ namespace comma::solver {
 std::vector<int> patches_of(const ContactZone& zone, const Mesh& mesh);
 
 /// Appends a point for each patch of a zone. Its pressure is constant, its gap the mean over the part that faces the master:
-///     1/|P| integral over P of n . (x_s - x_m) - thickness,   x_m the place on the master along the slave's normal -n from x_s
-/// as shares of the nodes' positions; weights are initial areas, that of P for `weight`. The point lies on a node inside the patch.
+///     1/|P| integral over P of n . (x_s - x_m) - thickness,   -n the slave's normal at x_s
+/// Weights are initial areas, that of P for `weight`. The point lies on a node inside the patch. As Code_Aster's figures tell (ssnp173a,
+/// ssnp173b, to 1e-9): which places face each other (x_m on the slave's normal from x_s) is settled when a step begins, at `start`;
+/// gaps and normals are those of `positions`; and the pressure acts on a node of either side along that side's own normal there,
+/// N_i n_i, which with LISSAGE is that of the cells around and else the facet's own. So do the shares of a gap that moves.
 /// Facets whose gap is beyond the zone's pairing distance are left out.
-void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time,
+void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time,
                          std::vector<ContactPoint>& points);
 
 }  // namespace comma::solver

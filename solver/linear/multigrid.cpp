@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "solver/linear/aggregation.hpp"
@@ -33,6 +34,28 @@ std::vector<Eigen::Matrix<double, N, N>> inverse_diagonal(const BlockMatrix<N, N
   std::vector<Eigen::Matrix<double, N, N>> result(static_cast<std::size_t>(matrix.rows()));
   for (int i = 0; i < matrix.rows(); ++i) result[i] = matrix.find(i, i)->inverse();
   return result;
+}
+
+/// Inverse diagonal blocks for a smoother whose parts do not wait for each other: to the diagonal come the sizes of what couples a node
+/// to other parts, without which the smoother could overshoot there (Baker, Falgout, Kolev and Yang, SIAM Journal on Scientific
+/// Computing 33, 2011).
+template <int N>
+std::vector<Eigen::Matrix<double, N, N>> smoothing_inverse(const BlockMatrix<N, N>& matrix,
+                                                           std::vector<Eigen::Matrix<double, N, N>> inverse) {
+  for (int part = 0; part < matrix.part_count(); ++part) {
+    const int first = matrix.part_start(part);
+    const int last = matrix.part_start(part + 1);
+    for (int i = first; i < last; ++i) {
+      Eigen::Matrix<double, N, 1> coupled = Eigen::Matrix<double, N, 1>::Zero();
+      for (int k = matrix.starts[i]; k < matrix.starts[i + 1]; ++k)
+        if (matrix.columns[k] < first || matrix.columns[k] >= last) coupled += matrix.blocks[k].cwiseAbs().rowwise().sum();
+      if (coupled.isZero(0.0)) continue;
+      Eigen::Matrix<double, N, N> diagonal = *matrix.find(i, i);
+      diagonal.diagonal() += coupled;
+      inverse[i] = diagonal.inverse();
+    }
+  }
+  return inverse;
 }
 
 template <int N>
@@ -90,8 +113,10 @@ double largest_eigenvalue(const BlockMatrix<N, N>& matrix, const std::vector<Eig
   double value = 1.0;
   for (int step = 0; step < power_steps; ++step) {
     x.normalize();
-    for (int i = 0; i < matrix.rows(); ++i)
-      y.segment<N>(static_cast<Eigen::Index>(i) * N).noalias() = inverse[i] * matrix.row_times(i, x);
+    run_parts(matrix.part_count(), [&](int part) {
+      for (int i = matrix.part_start(part); i < matrix.part_start(part + 1); ++i)
+        y.segment<N>(static_cast<Eigen::Index>(i) * N).noalias() = inverse[i] * matrix.row_times(i, x);
+    });
     value = y.norm();
     std::swap(x, y);
   }
@@ -169,14 +194,14 @@ void hold_absent_motions(CoarseRows& rows) {
   }
 }
 
-/// P^T A P, fine row by fine row.
+/// What fine rows first .. last - 1 give to P^T A P.
 template <int N>
-CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int count) {
-  CoarseRows rows(count);
-  std::vector<int> slots(static_cast<std::size_t>(count), -1);
+void add_coarse_rows(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int first, int last,
+                     CoarseRows& rows) {
+  std::vector<int> slots(rows.columns.size(), -1);
   std::vector<int> columns;
   std::vector<Eigen::Matrix<double, N, motion_count>> products;
-  for (int i = 0; i < matrix.rows(); ++i) {
+  for (int i = first; i < last; ++i) {
     columns.clear();
     products.clear();
     for (int k = matrix.starts[i]; k < matrix.starts[i + 1]; ++k) {
@@ -196,6 +221,20 @@ CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N,
         rows.at(prolongator.columns[k], columns[l]).noalias() += prolongator.blocks[k].transpose() * products[l];
     for (const int column : columns) slots[column] = -1;
   }
+}
+
+/// P^T A P.
+template <int N>
+CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int count) {
+  std::vector<CoarseRows> parts(static_cast<std::size_t>(matrix.part_count()), CoarseRows(count));
+  run_parts(matrix.part_count(), [&](int part) {
+    add_coarse_rows(matrix, prolongator, matrix.part_start(part), matrix.part_start(part + 1), parts[static_cast<std::size_t>(part)]);
+  });
+  CoarseRows& rows = parts.front();
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    for (int row = 0; row < count; ++row)
+      for (std::size_t k = 0; k < parts[part].columns[row].size(); ++k)
+        rows.at(row, parts[part].columns[row][k]) += parts[part].blocks[row][k];
   hold_absent_motions(rows);
   return rows.matrix();
 }
@@ -203,26 +242,42 @@ CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N,
 template <int N>
 struct Level {
   BlockMatrix<N, N> matrix;
-  std::vector<Eigen::Matrix<double, N, N>> inverse;  ///< of the diagonal blocks
+  std::vector<Eigen::Matrix<double, N, N>> smoothing;  ///< inverse diagonal blocks of the smoother
   BlockMatrix<N, motion_count> prolongator;          ///< from the next coarser level
   Eigen::VectorXd residual, coarse_rhs, coarse_solution;
 
-  void sweep(int i, const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+  /// A step of Gauss and Seidel's method at a node, within part first .. last - 1 of the nodes; the others stand as in `elsewhere`: parts
+  /// do not wait for each other, and forwards and backwards stay the transposes that conjugate gradients need.
+  void sweep(int i, int first, int last, const Eigen::VectorXd& b, const Eigen::VectorXd& elsewhere, Eigen::VectorXd& x) const {
     const Eigen::Index at = static_cast<Eigen::Index>(i) * N;
-    x.template segment<N>(at).noalias() += inverse[i] * (b.template segment<N>(at) - matrix.row_times(i, x));
+    const Eigen::Matrix<double, N, 1> left = b.template segment<N>(at) - matrix.row_times(i, x, elsewhere, first, last);
+    x.template segment<N>(at).noalias() += smoothing[i] * left;
   }
 
+  /// From x = 0.
   void smooth_forwards(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-    for (int i = 0; i < matrix.rows(); ++i) sweep(i, b, x);
+    x.setZero(b.size());
+    const Eigen::VectorXd elsewhere = x;
+    run_parts(matrix.part_count(), [&](int part) {
+      const int first = matrix.part_start(part);
+      const int last = matrix.part_start(part + 1);
+      for (int i = first; i < last; ++i) sweep(i, first, last, b, elsewhere, x);
+    });
   }
 
   void smooth_backwards(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-    for (int i = matrix.rows() - 1; i >= 0; --i) sweep(i, b, x);
+    const Eigen::VectorXd elsewhere = x;
+    run_parts(matrix.part_count(), [&](int part) {
+      const int first = matrix.part_start(part);
+      const int last = matrix.part_start(part + 1);
+      for (int i = last - 1; i >= first; --i) sweep(i, first, last, b, elsewhere, x);
+    });
   }
 
   /// Builds the prolongator; `motions` becomes the coarse grid's. Returns the coarse matrix.
   CoarseMatrix coarsen(Motions<N>& motions, Motions<motion_count>& coarse_motions) {
-    inverse = inverse_diagonal(matrix);
+    const auto inverse = inverse_diagonal(matrix);
+    smoothing = smoothing_inverse(matrix, inverse);
     const Aggregates aggregates = aggregate(strong_graph(matrix));
     coarse_motions = orthonormalise(aggregates, motions);
     prolongator = smoothed_prolongator(matrix, inverse, aggregates, motions);
@@ -235,7 +290,6 @@ struct Level {
 
   template <typename Coarse>
   void cycle(const Eigen::VectorXd& b, Eigen::VectorXd& x, Coarse&& solve_coarse) {
-    x.setZero(b.size());
     smooth_forwards(b, x);
     matrix.multiply(x, residual);
     residual = b - residual;
@@ -297,6 +351,29 @@ BlockMatrix<3, 3> nodal_blocks(const SymmetricMatrix& matrix, const SolidUnknown
   return result;
 }
 
+/// The nodes in the order of their places along the body, so that parts of rows are slices of it.
+SolidUnknowns sorted_along(const SolidUnknowns& unknowns) {
+  Eigen::Vector3d low = unknowns.places.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& place : unknowns.places) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  std::vector<int> order(unknowns.places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int node) { return unknowns.places[node][axis]; });
+  std::vector<int> rank(order.size());
+  SolidUnknowns sorted = unknowns;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    rank[order[k]] = static_cast<int>(k);
+    sorted.places[k] = unknowns.places[order[k]];
+  }
+  for (int& node : sorted.nodes) node = rank[node];
+  return sorted;
+}
+
 /// Zero where a node lacks the unknown. Places count from their centre over their extent, so that motions are of like size.
 Motions<3> rigid_motions(const SolidUnknowns& unknowns) {
   Eigen::Vector3d low = unknowns.places.front();
@@ -338,7 +415,8 @@ struct Multigrid::Hierarchy {
   }
 };
 
-Multigrid::Multigrid(const SymmetricMatrix& matrix, const SolidUnknowns& unknowns) : hierarchy_(std::make_unique<Hierarchy>()) {
+Multigrid::Multigrid(const SymmetricMatrix& matrix, const SolidUnknowns& given) : hierarchy_(std::make_unique<Hierarchy>()) {
+  const SolidUnknowns unknowns = sorted_along(given);
   Hierarchy& h = *hierarchy_;
   for (std::size_t row = 0; row < unknowns.nodes.size(); ++row)
     h.positions.push_back(static_cast<Eigen::Index>(unknowns.nodes[row]) * 3 + unknowns.axes[row]);

@@ -65,9 +65,11 @@ class MultigridSolver final : public LinearSolver {
     for (int iteration = 0; iteration <= most_multigrid_iterations; ++iteration) {
       multigrid_->precondition(r, z);
       const double product = r.dot(z);
+      if (product == 0.0 && r.isZero(0.0)) return x;
+      if (!(product > 0.0)) break;  // no preconditioner at all
       // Energy of the solution so far; of the first guess while there is none.
-      share = std::sqrt(std::max(product, 0.0) / std::max(energy > 0.0 ? energy : product, 1e-300));
-      if (product <= 0.0 || (iteration > 0 && share <= multigrid_tolerance)) return x;
+      share = std::sqrt(product / (energy > 0.0 ? energy : product));
+      if (iteration > 0 && share <= multigrid_tolerance) return x;
       direction = z + (iteration > 0 ? (product - z.dot(last_r)) / last_product : 0.0) * direction;
       multigrid_->multiply(direction, image);
       const double curvature = direction.dot(image);

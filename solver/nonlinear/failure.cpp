@@ -51,9 +51,16 @@ void throw_active_set_limit(int limit) {
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
 }
 
-void throw_condensed_limit(int limit) {
-  throw Error("contact-cycling", fmt::format("the contact status did not settle within {} iterations on the contact rows", limit),
-              "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)");
+void throw_condensed_limit(int limit, double friction) {
+  const std::string message = fmt::format("the contact status did not settle within {} iterations on the contact rows", limit);
+  constexpr double strong_friction = 1.0;
+  if (friction < strong_friction)
+    throw Error("contact-cycling", message, "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)");
+  throw Error("contact-cycling",
+              fmt::format("{}; with COULOMB = {:g} friction is stronger than the pressure that causes it, and a state of rest need not exist, "
+                          "or be the only one",
+                          message, friction),
+              "take a smaller COULOMB, or another number of steps");
 }
 
 void throw_geometry_failure(double time, const GeometryHistory& history, const ContactDefinition& contact) {

@@ -16,8 +16,8 @@ namespace comma::solver {
 /// Error `contact-cycling`: the active set needed more changes than allowed.
 [[noreturn]] void throw_active_set_limit(int limit);
 
-/// Error `contact-cycling`: the statuses of the mixed formulation did not settle.
-[[noreturn]] void throw_condensed_limit(int limit);
+/// Error `contact-cycling`: the statuses of the mixed formulation did not settle. `friction`: the strongest of all zones.
+[[noreturn]] void throw_condensed_limit(int limit, double friction);
 
 /// How far the geometry moved at each update, relative (RESI_GEOM), and whether pairings came back.
 struct GeometryHistory {

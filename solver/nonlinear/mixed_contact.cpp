@@ -58,9 +58,13 @@ ContactLaw law_of(const ContactZone& zone) {
   return law;
 }
 
-bool has_friction(const ContactDefinition& definition) {
-  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
+double strongest_friction(const ContactDefinition& definition) {
+  double strongest = 0.0;
+  for (const ContactZone& zone : definition.zones) strongest = std::max(strongest, zone.mixed.friction);
+  return strongest;
 }
+
+bool has_friction(const ContactDefinition& definition) { return strongest_friction(definition) > 0.0; }
 
 bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
@@ -112,8 +116,20 @@ void MixedContact::number_patches(int zone) {
   }
 }
 
+std::vector<Vector3d> MixedContact::positions_at(const Eigen::VectorXd& u) const {
+  std::vector<Vector3d> positions;
+  for (int node = 0; node < mesh_.node_count(); ++node) {
+    Vector3d& place = positions.emplace_back(mesh_.nodes[node].data());
+    for (int axis = 0; axis < 3; ++axis) {
+      const int dof = dofs_.dof(node, translations[static_cast<std::size_t>(axis)]);
+      if (dof >= 0) place[axis] += u[dof];
+    }
+  }
+  return positions;
+}
+
 void MixedContact::pair(Positions positions, double time) {
-  points_ = contact_points(definition_, model_, positions, time);
+  points_ = contact_points(definition_, model_, positions, positions_at(reference_), time);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();
@@ -197,7 +213,7 @@ MixedContact::Directions MixedContact::directions(const ContactPoint& point) con
 double MixedContact::initial_gap(const ContactPoint& point) const {
   const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
   if (!point.shares.empty()) {
-    double gap = -point.thickness;
+    double gap = -point.offset;
     for (const GapShare& share : point.shares) gap += share.coefficient.dot(initial(share.node));
     return gap;
   }
@@ -407,7 +423,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   counters_.contact_iterations += solution.iterations;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
-    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations);
+    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
     state_ = earlier;
     return std::nullopt;
   }
@@ -426,6 +442,14 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
 
 int MixedContact::closed_count() const {
   return static_cast<int>(std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
+}
+
+double MixedContact::penetration(const Eigen::VectorXd& u) const {
+  const Eigen::VectorXd now = jumps(u);
+  double deepest = 0.0;
+  for (const CondensedPoint& point : problem_.points)
+    if (point.rows > 0) deepest = std::max(deepest, -now[point.first_row]);
+  return deepest;
 }
 
 void MixedContact::add_multipliers(NodalField& displacements) const {

@@ -14,6 +14,7 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/condensed_contact.hpp"
 #include "solver/contact/contact_points.hpp"
+#include "solver/contact/doubts.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
@@ -52,6 +53,12 @@ class MixedContact {
   int correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected);
 
   int closed_count() const;
+  /// The largest depth of a point at u (a length).
+  double penetration(const Eigen::VectorXd& u) const;
+  const std::vector<ContactPoint>& points() const { return points_; }
+
+  /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
+  void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
 
   /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
   std::optional<ElementField> patch_state(const Eigen::VectorXd& u) const;
@@ -69,6 +76,7 @@ class MixedContact {
 
   void number_multipliers();
   void number_patches(int zone);
+  std::vector<Eigen::Vector3d> positions_at(const Eigen::VectorXd& u) const;
   double initial_gap(const ContactPoint& point) const;
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
@@ -83,6 +91,10 @@ class MixedContact {
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
   void update_schur();
+  Eigen::VectorXd jumps_without_contact(const Eigen::VectorXd& u);
+  void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
+  void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
+  void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
   Eigen::VectorXd held_forces() const;

@@ -72,7 +72,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     else
       evaluate(state, external);
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
-    history.push_back(report(time, iteration, measure, correction.changes));
+    history.push_back(report(time, iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
     if (measure.converged) {
       polish(state, external, offset);
@@ -305,8 +305,14 @@ void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, c
   }
 }
 
-IterationReport NewtonSolver::report(double time, int iteration, const ConvergenceCriterion::Measure& measure,
-                                     int changes) const {
+std::optional<double> NewtonSolver::penetration(const NewtonState& state) const {
+  if (mixed_) return mixed_->penetration(state.u);
+  if (!row_multipliers_.size()) return std::nullopt;
+  return std::max(0.0, (reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds).maxCoeff());
+}
+
+IterationReport NewtonSolver::report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
+                                     const NewtonState& state) const {
   IterationReport line;
   line.instant = time;
   line.iteration = iteration;
@@ -315,6 +321,7 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
   line.worst = worst_place();
   line.active_conditions = mixed_ ? mixed_->closed_count() : static_cast<int>(active_.size());
   line.contact_changes = changes;
+  line.penetration = penetration(state);
   return line;
 }
 

@@ -91,7 +91,9 @@ class NewtonSolver {
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
   bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
-  IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes) const;
+  std::optional<double> penetration(const NewtonState& state) const;
+  IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
+                         const NewtonState& state) const;
   std::string worst_place() const;
   [[noreturn]] void fail(double time, const std::vector<IterationReport>& history) const;
 

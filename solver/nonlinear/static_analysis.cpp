@@ -66,6 +66,7 @@ class StaticAnalysis {
       const std::optional<int> iterations = try_step(instant, sequence);
       if (!iterations) continue;
       newton_.accept_step();
+      if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
       speed_ = (now_.state.u - start_) / (instant - from);
@@ -73,6 +74,8 @@ class StaticAnalysis {
       sequence.accept(*iterations);
     }
   }
+
+  const ContactDoubts& doubts() const { return doubts_; }
 
  private:
   /// What a step changes before it is accepted.
@@ -91,7 +94,7 @@ class StaticAnalysis {
     try {
       return solve_from_either_side(instant, before);
     } catch (const Error& error) {
-      if (!is_failure_of_step(error.code()) || !sequence.cut()) throw;
+      if (!is_failure_of_step(error.code()) || !sequence.cut()) throw advised(error);
       take_back(before);
       if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, sequence.target())));
       return std::nullopt;
@@ -130,6 +133,15 @@ class StaticAnalysis {
   /// What a shorter step may overcome.
   static bool is_failure_of_step(std::string_view code) {
     return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
+  }
+
+  /// Inequalities are solved on the compliance of bodies that stand without them.
+  Error advised(const Error& error) const {
+    const bool has_inequalities = !problem_.unilateral.empty() || (problem_.contact && !is_mixed());
+    if (error.code() != "singular-matrix" || !has_inequalities) return error;
+    const std::string otherwise =
+        problem_.contact ? "if contact is to hold it, take FORMULATION='CONTINUE' or ALGO_CONT='PENALISATION', which do without; else " : "bounds alone cannot hold it: ";
+    return Error(error.code(), error.what(), otherwise + error.hint());
   }
 
   static IterationReport event(double instant, std::string text) {
@@ -308,6 +320,31 @@ class StaticAnalysis {
     return result;
   }
 
+  /// Where slave points lie too far apart for the master facets that they face.
+  void check_points() {
+    const std::size_t zones = problem_.contact->zones.size();
+    std::vector<int> counts(zones, 0);
+    std::vector<std::vector<int>> facets(zones);
+    const auto count = [&](int zone, int facet) {
+      ++counts[static_cast<std::size_t>(zone)];
+      if (facet >= 0) facets[static_cast<std::size_t>(zone)].push_back(facet);
+    };
+    if (mixed_) {
+      for (const ContactPoint& point : mixed_->points()) count(point.zone, point.facet);
+    } else {
+      for (const ContactPair& pair : now_.pairs) count(pair.zone, pair.facet);
+    }
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> transformation = elimination_.transformation();
+    const auto gives_way = [&](int node) {
+      for (int component = 0; component < component_count; ++component) {
+        const int dof = dofs_.dof(node, static_cast<Component>(component));
+        if (dof >= 0 && transformation.outerIndexPtr()[dof + 1] > transformation.outerIndexPtr()[dof]) return true;
+      }
+      return false;
+    };
+    note_sparse_points(*problem_.contact, mesh_, counts, facets, gives_way, doubts_);
+  }
+
   int solve_step(double time) {
     assembler_.set_time(time);
     followers_.set_time(time);
@@ -367,6 +404,8 @@ class StaticAnalysis {
       now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
       ++counters_.pairings;
     }
+    if (!points_checked_) check_points();
+    points_checked_ = true;
     now_.paired = true;
     now_.reference = now_.state.u;
   }
@@ -511,6 +550,8 @@ class StaticAnalysis {
   std::unique_ptr<MixedContact> mixed_;
 
   Progress now_;
+  ContactDoubts doubts_;
+  bool points_checked_ = false;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
   double last_instant_ = 0.0;
@@ -518,9 +559,11 @@ class StaticAnalysis {
 
 }  // namespace
 
-void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
-                  Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
-  StaticAnalysis(problem, options, result, counters, observer, after_step).run(plan);
+ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
+                           Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
+  StaticAnalysis analysis(problem, options, result, counters, observer, after_step);
+  analysis.run(plan);
+  return analysis.doubts();
 }
 
 }  // namespace comma::solver

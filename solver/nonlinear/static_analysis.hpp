@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/contact/definition.hpp"
+#include "solver/contact/doubts.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/linear/linear_solver.hpp"
@@ -103,6 +104,7 @@ struct IterationReport {
   std::string worst;         ///< "DY at N12": where the residual is largest
   int active_conditions = 0;
   int contact_changes = 0;
+  std::optional<double> penetration;  ///< how deep contact and unilateral conditions are passed at worst (a length, as a rule)
   std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 
@@ -118,7 +120,8 @@ using StepObserver = std::function<void(Result& result)>;
 /// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
 /// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
-void solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
-                  Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});
+/// Returns what may be wrong with the contact of the solution although its equations are solved.
+ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
+                           Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});
 
 }  // namespace comma::solver

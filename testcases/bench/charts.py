@@ -168,3 +168,51 @@ def _gnuplot(path: Path, width: int, height: int, title: str, data: str, panels:
     done = subprocess.run([gnuplot], input=script, cwd=path.parent, capture_output=True, text=True)
     if done.returncode != 0 or "error" in done.stderr.lower():
         print(f"comma bench: gnuplot could not draw {path.name}: {done.stderr[-300:]}", file=sys.stderr)
+
+
+def draw_contact(name: str, title: str, series: dict[str, list], quantities: list[str], folder: Path) -> None:
+    """A panel for each quantity: error against time, a line for each formulation. `series`: runs by label."""
+    blocks, styles = [], []
+    times: list[float] = []
+    for number, (label, runs) in enumerate(series.items()):
+        good = [run.measured for run in runs if run.measured.errors]
+        if not good:
+            continue
+        times += [run.seconds for run in good]
+        rows = [f"{run.seconds!r} " + " ".join(repr(max(run.errors.get(q, 0.0), LEAST)) for q in quantities) for run in good]
+        blocks.append(f"$D{number} << END\n" + "\n".join(rows) + "\nEND\n")
+        colour = OTHERS[number % len(OTHERS)]
+        styles.append((number, label.replace("_", "\\_"), f"with linespoints lc rgb '{colour}' lw 1.4 dt {1 + number // len(OTHERS)} pt {4 + number} ps 0.8"))
+    if not times:
+        return
+    panels = []
+    width = 0.80 / len(quantities)
+    for column, quantity in enumerate(quantities):
+        left = 0.06 + width * column
+        panels.append(_axis("time (s)", times, False))
+        panels.append(f"set lmargin at screen {left}; set rmargin at screen {left + width - 0.055}\n"
+                      "set bmargin at screen 0.13; set tmargin at screen 0.90\n"
+                      f"set ylabel 'relative error: {quantity}'; set yrange [*:*]\n")
+        panels.append("set key at screen 0.995, screen 0.90 right top vertical Left reverse samplen 2 spacing 1.2\n" if column == 0 else "unset key\n")
+        panels.append("plot " + ", ".join(f"$D{number} using 1:{column + 2} {style} title '{label}'" for number, label, style in styles) + "\n")
+    _gnuplot(folder / name, 1500, 480, title, "".join(blocks), "".join(panels))
+
+
+def draw_map(name: str, title: str, axis: str, cells: list[tuple[str, str, str, int]], colours: dict[str, str], folder: Path) -> None:
+    """A coloured box for each (series, value), with its iterations. `colours`: by outcome."""
+    series = list(dict.fromkeys(cell[0] for cell in cells))
+    values = list(dict.fromkeys(cell[1] for cell in cells))
+    rows = [f"{values.index(value)} {len(series) - 1 - series.index(row)} {int(colours[outcome][1:], 16)} {count}"
+            for row, value, outcome, count in cells]
+    data = "$D << END\n" + "\n".join(rows) + "\nEND\n"
+    panel = "unset logscale; set format xy '%g'; unset grid; set style fill solid 1.0 border rgb '#ffffff'; set boxwidth 1\n"
+    panel += "set xtics rotate by 30 right\nset xtics (" + ", ".join(f"'{value}' {i}" for i, value in enumerate(values)) + ")\n"
+    panel += "set ytics (" + ", ".join(f"'{label.replace('_', chr(92) + '_')}' {len(series) - 1 - i}" for i, label in enumerate(series)) + ")\n"
+    panel += f"set xrange [-0.5:{len(values) - 0.5}]; set yrange [-0.5:{len(series) - 0.5}]; set xlabel '{axis}'\n"
+    height = 200 + 34 * len(series)
+    top = 1.0 - 52 / height  # below the title
+    panel += f"set lmargin at screen 0.27; set rmargin at screen 0.86; set tmargin at screen {top}\n"
+    panel += f"set key at screen 0.995, screen {top} right top Left reverse samplen 1 spacing 1.3\n"
+    keys = [f"NaN with boxes lc rgb '{colour}' title '{outcome}'" for outcome, colour in colours.items()]
+    boxes = "$D using 1:2:(0.48):(0.46):3 with boxxyerrorbars lc rgb variable notitle, $D using 1:2:4 with labels font ',9' notitle"
+    _gnuplot(folder / name, 1100, height, title, data, panel + "plot " + ", ".join([boxes, *keys]) + "\n")

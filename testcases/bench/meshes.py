@@ -125,6 +125,29 @@ def _append_faces(
                 number += 1
 
 
+def merged(bodies: list[tuple[str, Mesh]]) -> Mesh:
+    """Several bodies as one mesh, which share no node. A body's prefix goes in front of the names of its groups."""
+    types = list(dict.fromkeys(cell_type for _, body in bodies for cell_type in body.cells))
+    whole = Mesh([], {cell_type: [] for cell_type in types}, {}, {})
+    numbers: list[dict[tuple[str, int], int]] = [{} for _ in bodies]
+    first_nodes = [sum(len(before.coordinates) for _, before in bodies[:k]) for k in range(len(bodies))]
+    count = 0
+    for cell_type in types:
+        for (_, body), first, its in zip(bodies, first_nodes, numbers):
+            for i, nodes in enumerate(body.cells.get(cell_type, [])):
+                whole.cells[cell_type].append([first + node for node in nodes])
+                its[cell_type, i] = count
+                count += 1
+    for (prefix, body), first, its in zip(bodies, first_nodes, numbers):
+        own = [its[cell_type, i] for cell_type, cells in body.cells.items() for i in range(len(cells))]
+        for name, members in body.cell_groups.items():
+            whole.cell_groups.setdefault(prefix + name, []).extend(own[member] for member in members)
+        for name, members in body.node_groups.items():
+            whole.node_groups.setdefault(prefix + name, []).extend(first + member for member in members)
+        whole.coordinates += body.coordinates
+    return whole
+
+
 def write_mail(mesh: Mesh, path: Path, title: str) -> None:
     """Writes the mesh in Code_Aster's format (U3.01.00)."""
     with path.open("w", encoding="ascii") as out:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import resource
 import subprocess
 import time
 from dataclasses import dataclass, field
@@ -20,7 +21,7 @@ class Case:
     """One run: the files it is made of, the values in front of them, and where it stands in its bench."""
 
     scene: str
-    folder: str
+    folder: str  # of the command file of the same name, from here
     family: str
     modelisation: str
     solver: str  # METHODE, or METHODE/PRE_COND
@@ -43,9 +44,13 @@ class Measurement:
     wall: float  # s, the whole process
     seconds: float  # s, the same without the commands that measure the error
     memory: int  # bytes, the largest resident size
+    processor: float = 0.0  # s, of all threads, which other work on the machine does not lengthen as much as `wall`
     errors: dict[str, float] = field(default_factory=dict)
     phases: dict[str, float] = field(default_factory=dict)
+    counters: dict[str, int] = field(default_factory=dict)
     said: str = ""  # the first error, or all alarms
+    advice: str = ""  # what to write or try instead
+    codes: list[str] = field(default_factory=list)  # of all errors and alarms
 
 
 def command_file(case: Case) -> str:
@@ -57,7 +62,7 @@ def command_file(case: Case) -> str:
     values = {"modelisation": f'"{case.modelisation}"', "solver": f"_F({solver})"}
     values |= {name: repr(value) for name, value in case.parameters.items()}
     text = "".join(f"{name} = {value}\n" for name, value in values.items())
-    text += (HERE / case.folder / f"{case.folder}.comm").read_text(encoding="utf-8")
+    text += (HERE / case.folder / f"{Path(case.folder).name}.comm").read_text(encoding="utf-8")
     if case.measured_by:
         text += (HERE / "shared" / case.measured_by).read_text(encoding="utf-8")
     return text
@@ -69,7 +74,7 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     report_path = folder / "report.json"
     for left in (report_path, folder / "case.resu"):
         left.unlink(missing_ok=True)
-    start = time.perf_counter()
+    start, before = time.perf_counter(), _processor_seconds()
     try:
         process = subprocess.run(
             [comma, "run", "case.comm", "-q", "--json", report_path], cwd=folder, capture_output=True, text=True, timeout=timeout
@@ -83,12 +88,22 @@ def run_comma(comma: Path, case: Case, unknowns: int, folder: Path, timeout: flo
     measurement = Measurement(
         case, unknowns, process.returncode, wall, wall - _measuring_seconds(report), report["peak_memory_bytes"]
     )
+    measurement.processor = _processor_seconds() - before
     measurement.phases = report.get("phases", {})
+    measurement.counters = report["counters"]
     measurement.said = _said(report)
+    measurement.codes = [diagnostic["code"] for diagnostic in report["diagnostics"]]
+    measurement.advice = next((diagnostic.get("hint") or "" for diagnostic in report["diagnostics"]), "")
     table = folder / "case.resu"
     if process.returncode == 0 and table.exists():
         measurement.errors = _errors(table.read_text(encoding="utf-8"))
     return measurement
+
+
+def _processor_seconds() -> float:
+    """Of all processes that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _measuring_seconds(report: dict) -> float:

@@ -2,11 +2,18 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import block
+import contact
+import contact_times
 import statics
+
+sys.path.append(str(Path(__file__).resolve().parent.parent / "stability"))
+import stability  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -21,6 +28,9 @@ class Suite:
 
 SUITES = (
     Suite("statics", tuple(statics.names()), statics.run, by_default=True),
+    Suite("contact", tuple(contact.names()), contact.run, by_default=False),
+    Suite("contact_times", tuple(contact_times.names()), contact_times.run, by_default=False),
+    Suite("stability", tuple(stability.names()), stability.run, by_default=False),
     Suite("block", ("block",), block.run, by_default=False),
 )
 

@@ -119,6 +119,32 @@ TEST_CASE("multigrid agrees with a direct solver") {
   CHECK((x - expected).norm() < 1e-8 * expected.norm());
 }
 
+TEST_CASE("multigrid in parts finds the same however the nodes are numbered") {
+  // Enough nodes for several parts. Numbers without any order put neighbours into different parts.
+  const System system(Block(15, 15, 20, 0.3, true, 20.0 / 15));
+  REQUIRE(system.options.solid);
+  SolidUnknowns shuffled = *system.options.solid;
+  const int count = static_cast<int>(shuffled.places.size());
+  REQUIRE(count > 4000);
+  const int stride = 1999;  // a prime: k -> stride * k takes every number once
+  REQUIRE(count % stride != 0);
+  for (int node = 0; node < count; ++node)
+    shuffled.places[static_cast<std::size_t>(static_cast<long>(node) * stride % count)] = system.options.solid->places[static_cast<std::size_t>(node)];
+  for (int& node : shuffled.nodes) node = static_cast<int>(static_cast<long>(node) * stride % count);
+  LinearOptions options = system.options;
+  options.solid = std::make_shared<const SolidUnknowns>(shuffled);
+  const auto multigrid = make_linear_solver(LinearMethod::multigrid, options);
+  const auto direct = make_linear_solver(LinearMethod::cholmod, {});
+  CHECK(multigrid->factorise(system.matrix).verdict == FactorVerdict::ok);
+  direct->factorise(system.matrix);
+  Eigen::MatrixXd x(system.matrix.rows(), 1);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = std::sin(static_cast<double>(k));
+  Eigen::MatrixXd expected = x;
+  CHECK(multigrid->solve(x) < 1e-12);
+  direct->solve(expected);
+  CHECK((x - expected).norm() < 1e-8 * expected.norm());
+}
+
 TEST_CASE("one solid of fully integrated cells qualifies for multigrid; a hinge, a loose cell or springs do not") {
   Block block(2, 2, 2);
   const auto qualifies = [&](const Block& scene) {

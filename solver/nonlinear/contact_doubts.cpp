@@ -1,0 +1,107 @@
+// The part of MixedContact that looks back on a converged step.
+#include <algorithm>
+#include <cmath>
+
+#include "solver/contact/box_tree.hpp"
+#include "solver/nonlinear/mixed_contact.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Slips below this share of the largest displacement are no slips.
+constexpr double negligible_slip = 1e-6;
+/// Imposed displacements may overlap by this share of the face's size.
+constexpr double overlap_tolerance = 1e-9;
+
+double size_of(const Mesh& mesh, const std::vector<int>& cells) {
+  Box box;
+  for (const int cell : cells)
+    for (const int node : mesh.cell(cell)) box.extend(Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
+  return box.diagonal().norm();
+}
+
+double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
+  return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
+}
+
+}  // namespace
+
+void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
+  const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
+  if (rows_.rows() == 0 || std::ranges::none_of(definition_.zones, is_penalised)) return;
+  const Eigen::VectorXd now = jumps(u);
+  const Eigen::VectorXd without = jumps_without_contact(u);
+  note_held_overlaps(now, doubts);
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
+    if (definition_.zones[zone].mixed.penalised) note_depth(static_cast<int>(zone), now, without, doubts);
+    if (definition_.zones[zone].mixed.friction_penalised) note_creep(static_cast<int>(zone), u, now, without, doubts);
+  }
+}
+
+/// Where the present loads would take the points if contact forces did not hold them.
+Eigen::VectorXd MixedContact::jumps_without_contact(const Eigen::VectorXd& u) {
+  Eigen::MatrixXd push = forces();
+  tangent_.solve_once(push);
+  return jumps(u) - reduced_rows_ * push;
+}
+
+void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {
+  const ContactZone& definition = definition_.zones[static_cast<std::size_t>(zone)];
+  double depth = 0.0;
+  double reach = 0.0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    depth = std::max(depth, -now[point.first_row]);
+    reach = std::max(reach, -without[point.first_row]);
+  }
+  ContactDoubt doubt{.zone = zone, .length = depth, .penalty = definition.mixed.augmentation};
+  // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
+  if (problem_.springs.empty() && depth > doubtful_share * reach) {
+    doubt.kind = DoubtKind::soft_penalty;
+    doubt.share = std::min(1.0, depth / reach);
+    doubt.wanted = wanted_penalty(doubt.penalty, doubt.share);
+    doubts.note(doubt);
+  }
+  const double size = size_of(mesh_, definition.slave_cells);
+  if (depth <= doubtful_depth * size) return;
+  doubt.kind = DoubtKind::deep_penalty;
+  doubt.share = depth / size;
+  doubt.wanted = std::pow(10.0, std::ceil(std::log10(doubt.penalty * doubt.share / penalty_goal)));
+  doubts.note(doubt);
+}
+
+void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
+                              ContactDoubts& doubts) const {
+  const double least = negligible_slip * (u.size() ? u.cwiseAbs().maxCoeff() : 0.0);
+  double creep = 0.0;
+  double reach = 0.0;
+  double limit = 0.0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking) continue;
+    const CondensedPoint& point = problem_.points[p];
+    creep = std::max(creep, slip_of(point, now));
+    limit = std::max(limit, point.law.friction * forces_[point.first_row]);
+    reach = std::max(reach, slip_of(point, without));
+  }
+  if (creep <= least || creep <= doubtful_share * reach) return;
+  ContactDoubt doubt{.kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
+  doubt.penalty = definition_.zones[static_cast<std::size_t>(zone)].mixed.friction_penalty;
+  // With it, friction is at its limit after a small share of the present creep.
+  doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
+  doubts.note(doubt);
+}
+
+void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {
+  for (const std::size_t p : blocked_) {
+    const double depth = -now[problem_.points[p].first_row];
+    const double size = size_of(mesh_, {points_[p].cell});
+    if (depth <= overlap_tolerance * size) continue;
+    doubts.note({.kind = DoubtKind::held_overlap, .zone = points_[p].zone, .share = depth / size, .length = depth, .cell = points_[p].cell});
+  }
+}
+
+}  // namespace comma::solver

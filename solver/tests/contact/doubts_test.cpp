@@ -1,0 +1,76 @@
+#include "solver/contact/doubts.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+
+namespace {
+
+/// A row of edges of unit length in all for each side, the slave one above.
+struct Sides {
+  Mesh mesh;
+  ContactDefinition definition;
+  std::vector<std::vector<int>> facets{1};
+
+  Sides(int slaves, int masters) {
+    mesh.dimension = 2;
+    ContactZone zone;
+    zone.slave_cells = row(slaves, 1.0);
+    zone.master_cells = row(masters, 0.0);
+    facets.front() = zone.master_cells;
+    definition.zones.push_back(zone);
+  }
+
+  ContactDoubts doubts(int points, bool gives_way = true) const {
+    ContactDoubts found;
+    note_sparse_points(definition, mesh, {points}, facets, [gives_way](int) { return gives_way; }, found);
+    return found;
+  }
+
+ private:
+  std::vector<int> row(int count, double height) {
+    std::vector<int> cells;
+    const int first = mesh.node_count();
+    for (int i = 0; i <= count; ++i) mesh.nodes.push_back({static_cast<double>(i) / count, height, 0.0});
+    for (int i = 0; i < count; ++i) cells.push_back(mesh.add_cell(CellType::seg2, std::vector<int>{first + i, first + i + 1}));
+    return cells;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("The penalty that is proposed leaves no more than its goal, and is no more than ten times too large") {
+  const double stiffness = 3.0e7;  // of the bodies, in series with the penalty
+  for (double penalty = 1.0e-6 * stiffness; penalty < 100.0 * stiffness; penalty *= 7.0) {
+    const auto share = [&](double of) { return stiffness / (stiffness + of); };
+    const double wanted = wanted_penalty(penalty, share(penalty));
+    CHECK(share(wanted) <= penalty_goal * (1.0 + 1e-6));
+    CHECK(share(wanted / 10.0) > penalty_goal);
+  }
+}
+
+TEST_CASE("Of the doubts about a zone the deepest stays, one of each kind") {
+  ContactDoubts doubts;
+  doubts.note({.kind = DoubtKind::soft_penalty, .zone = 0, .length = 1.0});
+  doubts.note({.kind = DoubtKind::soft_penalty, .zone = 0, .length = 3.0});
+  doubts.note({.kind = DoubtKind::soft_penalty, .zone = 0, .length = 2.0});
+  doubts.note({.kind = DoubtKind::soft_penalty, .zone = 1, .length = 0.5});
+  doubts.note({.kind = DoubtKind::soft_friction, .zone = 0, .length = 0.1});
+  REQUIRE(doubts.all().size() == 3);
+  CHECK(doubts.all().front().length == 3.0);
+}
+
+TEST_CASE("Slave points far apart on fine master facets are a doubt, unless there are points in between or the master cannot move") {
+  const Sides coarse(2, 16);
+  REQUIRE(coarse.doubts(3).all().size() == 1);
+  // Three points for two faces: a distance of 1/3, on facets of 1/16.
+  CHECK(coarse.doubts(3).all().front().share == Approx(16.0 / 3.0).epsilon(1e-12));
+  CHECK(coarse.doubts(7).all().empty());
+  CHECK(coarse.doubts(3, false).all().empty());
+  Sides averaged = coarse;
+  averaged.definition.zones.front().mixed.local_average = true;
+  CHECK(averaged.doubts(3).all().empty());
+  CHECK(Sides(16, 2).doubts(17).all().empty());
+}

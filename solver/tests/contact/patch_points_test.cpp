@@ -1,0 +1,113 @@
+#include "solver/contact/patch_points.hpp"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+using namespace comma::solver;
+using Eigen::Vector3d;
+
+namespace {
+
+/// An arc of two SEG3 about the origin, wholly inside another of two that reaches farther: a pin in a bush.
+struct Arcs {
+  std::shared_ptr<Mesh> mesh = std::make_shared<Mesh>();
+  Model model;
+  ContactDefinition definition;
+  std::vector<Vector3d> places;
+
+  Arcs(double slave_radius, double master_radius) {
+    mesh->dimension = 2;
+    // Counter-clockwise about a solid inside: outward is away from the origin; the bush goes the other way round.
+    definition.zones.emplace_back();
+    ContactZone& zone = definition.zones.front();
+    zone.mixed.local_average = true;
+    for (int k = 0; k < 2; ++k) zone.slave_cells.push_back(arc(slave_radius, 0.2 * k - 0.2, 0.2 * k));
+    for (int k = 0; k < 2; ++k) zone.master_cells.push_back(arc(master_radius, 0.3 - 0.25 * k, 0.05 - 0.3 * k));
+    for (const int cell : zone.slave_cells) mesh->slave_patches.push_back({cell});
+    model.mesh = mesh;
+    model.formulations.assign(static_cast<std::size_t>(mesh->cell_count()), Formulation::plane_strain);
+    for (const Point& node : mesh->nodes) places.emplace_back(node[0], node[1], node[2]);
+  }
+
+  int node(double radius, double angle) {
+    const Point at = {radius * std::cos(angle), radius * std::sin(angle), 0.0};
+    for (int known = 0; known < mesh->node_count(); ++known)
+      if (std::hypot(mesh->nodes[known][0] - at[0], mesh->nodes[known][1] - at[1]) < 1e-12) return known;
+    mesh->nodes.push_back(at);
+    return mesh->node_count() - 1;
+  }
+
+  int arc(double radius, double from, double to) {
+    const std::vector<int> nodes = {node(radius, from), node(radius, to), node(radius, 0.5 * (from + to))};
+    return mesh->add_cell(CellType::seg3, nodes);
+  }
+
+  std::vector<ContactPoint> points(const std::vector<Vector3d>& now) const {
+    std::vector<ContactPoint> result;
+    append_patch_points(definition, 0, model, now, places, 0.0, result);
+    return result;
+  }
+};
+
+double gap_of(const ContactPoint& point, const std::vector<Vector3d>& places) {
+  double gap = -point.offset;
+  for (const GapShare& share : point.shares) gap += share.coefficient.dot(places[static_cast<std::size_t>(share.node)]);
+  return gap;
+}
+
+}  // namespace
+
+TEST_CASE("The mean gap of a patch is that of the surfaces, now and along its shares") {
+  const Arcs arcs(10.0, 10.5);
+  const auto points = arcs.points(arcs.places);
+  REQUIRE(points.size() == 2);
+  for (const ContactPoint& point : points) {
+    CHECK(point.status == PairingStatus::paired);
+    // Lengths of parabolas by Gauss's rule, in pieces and at once.
+    CHECK(point.weight == Approx(point.area).epsilon(1e-9));
+    // Parabolas over half an angle a leave the arc by up to R a^4 / 16, here 1.6e-4 of the bush's.
+    CHECK(gap_of(point, arcs.places) == Approx(0.5).margin(1.6e-4));
+  }
+  // The bush widens: its nodes move along their normals, and the gaps by as much.
+  std::vector<Vector3d> wider = arcs.places;
+  for (Vector3d& place : wider)
+    if (place.norm() > 10.25) place *= 10.6 / 10.5;
+  for (const ContactPoint& point : points) CHECK(gap_of(point, wider) == Approx(gap_of(point, arcs.places) + 0.1).epsilon(1e-3));
+  for (const ContactPoint& point : arcs.points(wider)) CHECK(gap_of(point, wider) == Approx(0.6).margin(1.6e-4));
+}
+
+TEST_CASE("The pressure of a patch acts on each node along the normal there") {
+  Arcs arcs(10.0, 10.01);
+  arcs.definition.smooth_normals = true;
+  for (const ContactPoint& point : arcs.points(arcs.places)) {
+    double pin = 0.0;
+    double bush = 0.0;
+    for (const GapShare& share : point.shares) {
+      const Vector3d& place = arcs.places[static_cast<std::size_t>(share.node)];
+      const Vector3d radial = place.normalized();
+      // The normal at the end of a parabola over half an angle a leaves the radius by a^3 / 4, here 8e-4.
+      CHECK(share.coefficient.cross(radial).norm() < 1e-3 * share.coefficient.norm());
+      (place.norm() < 10.005 ? pin : bush) += share.coefficient.dot(radial);
+    }
+    // The pin is pressed inwards, the bush outwards, by the same.
+    CHECK(pin == Approx(-1.0).epsilon(1e-6));
+    CHECK(bush == Approx(1.0).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("A patch that faces nothing carries nothing, and a slave face needs a patch") {
+  Arcs arcs(10.0, 10.5);
+  arcs.definition.zones.front().pairing_distance = 0.4;
+  for (const ContactPoint& point : arcs.points(arcs.places)) {
+    CHECK(point.status == PairingStatus::outside);
+    CHECK(point.weight == 0.0);
+    CHECK(point.area > 0.0);
+  }
+  arcs.mesh->slave_patches.pop_back();
+  CHECK_THROWS_AS(patches_of(arcs.definition.zones.front(), *arcs.mesh), Error);
+}
