@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "../nonlinear/scene.hpp"
+#include "solver/tests/nonlinear/scene.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
