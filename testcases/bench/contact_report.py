@@ -2,12 +2,11 @@
 from __future__ import annotations
 
 import csv
-import re
-import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import charts
+import pages
 from orders import slope
 from run import HERE, machine
 
@@ -40,18 +39,8 @@ def write(results: list[list[ContactRun]], folder: Path, seconds: float, quick: 
 
 
 def publish(folder: Path) -> None:
-    """Makes the page docs/bench_contact.md, with some of the charts in docs/bench/; the others are left out."""
-    docs = HERE.parent.parent / "docs"
-    lines = []
-    for line in (folder / "contact.md").read_text(encoding="utf-8").splitlines():
-        chart = re.fullmatch(r"!\[(.*)\]\((.*)\.svg\)", line)
-        if chart and chart[2] not in PUBLISHED:
-            continue
-        if chart:
-            shutil.copy(folder / f"{chart[2]}.svg", docs / "bench")
-            line = f"![{chart[1]}](bench/{chart[2]}.svg)"
-        lines.append(line)
-    (docs / "bench_contact.md").write_text(re.sub(r"\n{3,}", "\n\n", "\n".join(lines)) + "\n", encoding="utf-8")
+    """Makes the page docs/bench_contact.md, with some of the charts."""
+    pages.publish(folder / "contact.md", "bench_contact.md", PUBLISHED)
 
 
 def measured_quantities(runs: list[ContactRun]) -> list[str]:

@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import csv
 import re
-import shutil
 from pathlib import Path
 
+import pages
 from charts import series_of
 from limits import Limit
 from orders import expected, falls_short, observed
-from run import HERE, Measurement, machine
+from run import Measurement, machine
 from scenes import Scene
 
 SceneRuns = list[tuple[Scene, list[Measurement]]]
@@ -33,20 +33,8 @@ def write(scene_runs: SceneRuns, limit_runs: LimitRuns, folder: Path, seconds: f
 
 
 def publish(folder: Path) -> None:
-    """Makes the report docs/bench.md, with the charts that say most in docs/bench/; the others are left out."""
-    docs = HERE.parent.parent / "docs"
-    (docs / "bench").mkdir(exist_ok=True)
-    lines = []
-    for line in (folder / "report.md").read_text(encoding="utf-8").splitlines():
-        chart = re.fullmatch(r"!\[(.*)\]\((.*)\.svg\)", line)
-        if chart and chart[2] not in PUBLISHED:
-            continue
-        if chart:
-            shutil.copy(folder / f"{chart[2]}.svg", docs / "bench")
-            line = f"![{chart[1]}](bench/{chart[2]}.svg)"
-        lines.append(line)
-    text = re.sub(r"\n{3,}", "\n\n", "\n".join(lines))
-    (docs / "bench.md").write_text(text + "\n", encoding="utf-8")
+    """Makes the report docs/bench.md, with the charts that say most."""
+    pages.publish(folder / "report.md", "bench.md", PUBLISHED)
 
 
 def _head(seconds: float, quick: bool) -> str:
