@@ -4,21 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/contact/box_tree.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/mesh/cell_type.hpp"
 
 namespace comma::solver {
 namespace {
 
-double size_of(const Mesh& mesh, int cell) {
-  Box box;
-  for (const int node : mesh.cell(cell)) box.extend(Eigen::Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
-  return box.diagonal().norm();
-}
-
 double mean_size(const Mesh& mesh, const std::vector<int>& cells) {
   double sum = 0.0;
-  for (const int cell : cells) sum += size_of(mesh, cell);
+  for (const int cell : cells) sum += extent(mesh, cell);
   return sum / static_cast<double>(cells.size());
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact/box_tree.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 
 namespace comma::solver {
@@ -15,13 +15,6 @@ using Eigen::Vector3d;
 constexpr double negligible_slip = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
-
-double size_of(const Mesh& mesh, const std::vector<int>& cells) {
-  Box box;
-  for (const int cell : cells)
-    for (const int node : mesh.cell(cell)) box.extend(Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
-  return box.diagonal().norm();
-}
 
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
@@ -66,7 +59,7 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
     doubt.wanted = wanted_penalty(doubt.penalty, doubt.share);
     doubts.note(doubt);
   }
-  const double size = size_of(mesh_, definition.slave_cells);
+  const double size = extent(mesh_, definition.slave_cells);
   if (depth <= doubtful_depth * size) return;
   doubt.kind = DoubtKind::deep_penalty;
   doubt.share = depth / size;
@@ -98,7 +91,7 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
 void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {
   for (const std::size_t p : blocked_) {
     const double depth = -now[problem_.points[p].first_row];
-    const double size = size_of(mesh_, {points_[p].cell});
+    const double size = extent(mesh_, points_[p].cell);
     if (depth <= overlap_tolerance * size) continue;
     doubts.note({.kind = DoubtKind::held_overlap, .zone = points_[p].zone, .share = depth / size, .length = depth, .cell = points_[p].cell});
   }

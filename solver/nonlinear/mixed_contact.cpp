@@ -9,13 +9,14 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/box_tree.hpp"
 #include "solver/contact/contact_field.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/slave_cut.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/unilateral/rounds.hpp"
 
 namespace comma::solver {
 namespace {
@@ -31,21 +32,11 @@ constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
-/// The law holds when a round changes forces by less than this share of the largest.
-constexpr double negligible_change = 1e-10;
-/// Rounds with one compliance: each costs a solution.
-constexpr int most_rounds = 20;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;
   for (RowMatrix::InnerIterator it(rows, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
   return largest;
-}
-
-double size_of(const Mesh& mesh, int cell) {
-  Box box;
-  for (const int node : mesh.cell(cell)) box.extend(Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
-  return box.diagonal().norm();
 }
 
 ContactLaw law_of(const ContactZone& zone) {
@@ -268,7 +259,7 @@ void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
   for (const std::size_t p : blocked_) {
     const double gap = jumps[problem_.points[p].first_row];
     if (definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.penalised) continue;
-    if (gap >= -overlap_tolerance * size_of(mesh_, points_[p].cell)) continue;
+    if (gap >= -overlap_tolerance * extent(mesh_, points_[p].cell)) continue;
     throw Error("contradictory-conditions",
                 fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}", mesh_.cell_name(points_[p].cell),
                             mesh_.cell_name(points_[p].facet), -gap),
@@ -282,7 +273,7 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
     const InitialContact initial = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.initial;
-    const bool touches = jumps[point.first_row] <= touching * size_of(mesh_, points_[p].cell);
+    const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points_[p].cell);
     if (initial == InitialContact::all || (initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
@@ -297,7 +288,7 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * size_of(mesh_, points_[p].cell))
+    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points_[p].cell))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }
@@ -387,14 +378,7 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   const std::vector<ContactStatus> statuses = state_.statuses;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
   forces.head(forces_.size()) = forces_;
-  double last = std::numeric_limits<double>::infinity();
-  for (int round = 1;; ++round) {
-    const bool is_exact = schur_->is_exact();
-    const std::optional<double> change = settle(before, offset, forces, corrected);
-    if (is_exact || (change && *change <= negligible_change)) break;
-    if (!change || *change > 0.5 * last || round == most_rounds) schur_->start_anew();
-    last = change.value_or(last);
-  }
+  settle_in_rounds(*schur_, [&] { return settle(before, offset, forces, corrected); });
   forces_ = forces.head(forces_.size());
   int changes = 0;
   for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != state_.statuses[p];

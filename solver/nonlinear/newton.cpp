@@ -12,6 +12,7 @@
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/line_search.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
+#include "solver/unilateral/rounds.hpp"
 
 namespace comma::solver {
 namespace {
@@ -25,11 +26,6 @@ constexpr double rounding_share = 1e-14;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
 /// all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
-/// Conditions hold when a round changes multipliers by less than this share of the largest: another round would gain three digits or
-/// more.
-constexpr double negligible_change = 1e-10;
-/// Rounds with one compliance: each costs a solution.
-constexpr int most_rounds = 20;
 
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -190,14 +186,8 @@ void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
 /// of an earlier stiffness leaves something to the next round; where that does not shrink, the compliance is made anew.
 NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state) {
   const std::vector<int> before = active_;
-  double last = std::numeric_limits<double>::infinity();
-  for (int round = 1;; ++round) {
-    const bool is_last = by_gradients() || schur_->is_exact();
-    const std::optional<double> change = settle_conditions(state);
-    if (is_last || (change && *change <= negligible_change)) break;
-    if (!change || *change > 0.5 * last || round == most_rounds) schur_->start_anew();
-    last = change.value_or(last);
-  }
+  if (by_gradients()) settle_conditions(state);
+  else settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);
   state.multipliers.setZero();
