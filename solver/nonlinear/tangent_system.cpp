@@ -182,7 +182,7 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
 }
 
 Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
-  if (unsymmetric_ || elimination_.reduced_size() < large_solid) return {};
+  if (!gives_compliance()) return {};
   const SymmetricMatrix stiffness = assembled(tangent_at_, kind_);
   const Stopwatch stopwatch(counters_.factorising);
   ++counters_.factorisations;
@@ -190,7 +190,7 @@ Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
 }
 
 void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
-  if (!has_factor()) {
+  if (unsymmetric_ || !has_factor()) {
     solve(columns);
     return;
   }

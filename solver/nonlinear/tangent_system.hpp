@@ -55,9 +55,11 @@ class TangentSystem {
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
-  /// The same for the compliance of conditions (LinearSolver::solve_once).
+  /// The same where iterations around it correct what is missing (LinearSolver::solve_once).
   void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
 
+  /// Whether `compliance` gives one.
+  bool gives_compliance() const { return !unsymmetric_ && elimination_.reduced_size() >= large_solid; }
   /// rows K^-1 rows^T (m x m) from one more factorisation, which takes the rows along; empty where column by column is as good.
   Eigen::MatrixXd compliance(const RowMatrix& rows);
 
