@@ -210,11 +210,16 @@ void check_one_algorithm(const Call& call) {
   }
 }
 
-// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest.
+// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest. Newton's method that stops at a
+// change r leaves r^2; updates one after the other converge linearly and go on until they change as little.
 void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
   constexpr int most_updates_by_newton = 100;
+  constexpr double rounding = 1e-11;
   definition.max_geometry_updates = most_updates_by_newton;
   definition.geometry_update = call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
+  if (!call.has("RESI_GEOM")) return;
+  const double change = call.real("RESI_GEOM");
+  definition.geometry_tolerance = call.text("ALGO_RESO_GEOM") == "NEWTON" ? std::max(rounding, change * change) : change;
 }
 
 solver::ContactDefinition contact(const Call& call, const solver::Model& model) {
@@ -226,7 +231,6 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   set_geometry_update(call, definition);
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
-  if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
   if (!is_mixed) {

@@ -301,12 +301,22 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
 }
 
-/// Where points lie on nodes the solution does not depend on the augmentation; one as stiff as the bodies suits any unit of length.
+/// Multipliers that points between nodes take part of: there the law holds in the mean alone, and the augmentation is in the solution.
+std::vector<char> MixedContact::shared_multipliers() const {
+  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0);
+  for (const CondensedPoint& point : problem_.points)
+    for (int i = 0; i < point.node_count && point.node_count > 1; ++i) shared[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+  return shared;
+}
+
+/// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as stiff as the bodies
+/// suits any unit of length.
 void MixedContact::add_natural_augmentation() {
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  const std::vector<char> shared = shared_multipliers();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
-    if (points_[p].node < 0 || point.rows == 0) continue;
+    if (points_[p].node < 0 || point.rows == 0 || shared[static_cast<std::size_t>(point.nodes[0])]) continue;
     double stiffness = 0.0;
     for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
       stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);

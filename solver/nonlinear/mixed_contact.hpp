@@ -88,6 +88,7 @@ class MixedContact {
   CondensedPoint condensed(const ContactPoint& point) const;
   void choose_directions();
   Directions directions(const ContactPoint& point) const;
+  std::vector<char> shared_multipliers() const;
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
