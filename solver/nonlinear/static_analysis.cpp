@@ -364,9 +364,9 @@ class StaticAnalysis {
       if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
         now_.conditions = std::move(next);
-        const int limit = active_set_limit();
-        const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
-        iterations = is_weak ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
+        // Between updates of the geometry the discrete formulation goes on counting, the mixed one begins again (ssnv504f, ssnv504j).
+        const int earlier = is_weak ? 0 : iterations;
+        iterations = earlier + newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state);
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);
