@@ -56,12 +56,12 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       prediction_(options.tangent.prediction) {}
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
-                        const ConditionSet& conditions, int active_set_limit, NewtonState& state) {
+                        const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(conditions, offset, state);
   start(external, offset, state);
   std::vector<IterationReport> history;
-  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
+  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations - earlier); ++iteration) {
     if (iteration > 1 && is_tangent_due(options_.tangent, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
@@ -71,7 +71,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     else
       evaluate(state, external);
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_));
-    history.push_back(report(time, iteration, measure, correction.changes, state));
+    history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
     if (measure.converged) {
       polish(state, external, offset);
