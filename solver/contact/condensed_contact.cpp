@@ -30,6 +30,9 @@ constexpr double rounding_share = 1e-13;
 constexpr double rounding_scale = 1e-6;
 
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+/// By how much friction grows at first, and at least, as a share of the whole.
+constexpr double first_friction_step = 0.125;
+constexpr double least_friction_step = 1.0 / 1024.0;
 
 class CondensedSolver {
  public:
@@ -39,8 +42,8 @@ class CondensedSolver {
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that fails, from those of points that stick to what they touch; at last from what relaxation
-  /// finds.
+  /// From the statuses given; where that fails, from those of points that stick to what they touch; then from what relaxation finds; at
+  /// last with friction that grows from none.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
@@ -52,6 +55,10 @@ class CondensedSolver {
     if (!solved) {
       restart(multipliers);
       solved = relax() && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = raise_friction(solution.iterations);
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
@@ -68,6 +75,37 @@ class CondensedSolver {
     state_.statuses = start_;
     jumps_ = problem_.free;
     forces_ = problem_.held;
+  }
+
+  /// Solutions of weaker friction lead to that of the friction asked for: each starts from the one before.
+  bool raise_friction(int& iterations) {
+    if (problem_.components == 1) return false;
+    double reached = 0.0;
+    double step = first_friction_step;
+    friction_share_ = 0.0;
+    bool solved = settle(Rubbing::by_law, iterations);
+    while (solved && reached < 1.0 && step >= least_friction_step) {
+      const CondensedState state = state_;
+      const Eigen::VectorXd jumps = jumps_, forces = forces_;
+      friction_share_ = std::min(1.0, reached + step);
+      if (settle(Rubbing::by_law, iterations)) {
+        reached = friction_share_;
+        step *= 2.0;
+        continue;
+      }
+      state_ = state;
+      jumps_ = jumps;
+      forces_ = forces;
+      step *= 0.5;
+    }
+    friction_share_ = 1.0;
+    return solved && reached == 1.0;
+  }
+
+  ContactLaw law_of(const CondensedPoint& point) const {
+    ContactLaw law = point.law;
+    law.friction *= friction_share_;
+    return law;
   }
 
   bool relax() {
@@ -119,7 +157,7 @@ class CondensedSolver {
 
   ContactLawValue law_at(std::size_t p) const {
     const CondensedPoint& point = problem_.points[p];
-    return contact_law(point.law, state_.statuses[p], multiplier_at(point), jump_at(point));
+    return contact_law(law_of(point), state_.statuses[p], multiplier_at(point), jump_at(point));
   }
 
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -319,7 +357,7 @@ class CondensedSolver {
     const double pressure = (point.law.penalised ? 0.0 : multiplier[0]) - point.law.augmentation * jump[0];
     if (now == ContactStatus::open) return pressure > status_tolerance * point.law.augmentation * scale_;
     if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
-    const double beyond = std::abs(shear_beyond_limit(point.law, multiplier, jump));
+    const double beyond = std::abs(shear_beyond_limit(law_of(point), multiplier, jump));
     return beyond > status_tolerance * point.law.friction * pressure_scale_;
   }
 
@@ -328,7 +366,7 @@ class CondensedSolver {
     const ContactStatus now = state_.statuses[p];
     if (point.rows == 0) return ContactStatus::open;
     const bool stays_closed = point.bilateral && now != ContactStatus::open;
-    const ContactStatus wanted = restricted(contact_status(point.law, stays_closed, multiplier_at(point), jump_at(point)), point);
+    const ContactStatus wanted = restricted(contact_status(law_of(point), stays_closed, multiplier_at(point), jump_at(point)), point);
     return wanted == now || is_meant(point, now, wanted) ? wanted : now;
   }
 
@@ -367,6 +405,7 @@ class CondensedSolver {
   int same_statuses_ = 0;
   bool one_at_a_time_ = false;
   Rubbing rubbing_ = Rubbing::by_law;
+  double friction_share_ = 1.0;
   std::set<std::vector<ContactStatus>> visited_;
 };
 
