@@ -1,6 +1,7 @@
 #include "solver/contact/relaxation.hpp"
 
 #include <numeric>
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -86,4 +87,42 @@ TEST_CASE("The condensed solution obeys the law of Coulomb") {
     if (jump.tail<2>().norm() > 1e-10 && force[0] > 0.0)
       CHECK(force.tail<2>().dot(jump.tail<2>()) == Approx(-0.4 * force[0] * jump.tail<2>().norm()).epsilon(1e-8));
   }
+}
+
+TEST_CASE("Friction grows from none where a status does not settle") {
+  // Normal forces move the points sideways, and friction is stronger than what causes it: cycles, for Newton's method and sweeps alike.
+  constexpr int count = 30, size = 2 * count;
+  std::minstd_rand numbers(7);
+  std::uniform_real_distribution<double> between(-1.0, 1.0);
+  int solved = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Eigen::MatrixXd factor(size, size);
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j) factor(i, j) = between(numbers);
+    const Eigen::MatrixXd matrix = factor * factor.transpose() / size + 0.002 * Eigen::MatrixXd::Identity(size, size);
+    SchurComplement schur(Coupled::identity(size), [matrix](Eigen::Ref<Eigen::MatrixXd> columns) { columns = matrix * columns; });
+    CondensedProblem problem;
+    problem.node_count = count;
+    problem.components = 2;
+    problem.free.resize(size);
+    problem.held = Eigen::VectorXd::Zero(size);
+    for (int p = 0; p < count; ++p) {
+      CondensedPoint point;
+      point.first_row = 2 * p;
+      point.rows = point.components = 2;
+      point.nodes[0] = p;
+      point.shape[0] = 1.0;
+      point.node_count = 1;
+      point.weight = 1.0;
+      point.law.friction = 3.0;
+      point.law.augmentation = point.law.friction_augmentation = 1.0;
+      problem.points.push_back(point);
+      problem.free.segment<2>(2 * p) << between(numbers) - 0.7, between(numbers);
+    }
+    CondensedState state;
+    state.multipliers = Eigen::VectorXd::Zero(size);
+    state.statuses.assign(count, ContactStatus::open);
+    solved += solve_condensed(schur, problem, state).verdict == CondensedVerdict::solved;
+  }
+  CHECK(solved == 40);
 }
