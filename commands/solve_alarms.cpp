@@ -21,6 +21,15 @@ std::string exact_formulation(const solver::ContactDefinition& contact) {
   return contact.formulation == solver::ContactFormulation::mixed ? "ALGO_CONT='STANDARD'" : "ALGO_CONT='CONTRAINTE'";
 }
 
+std::string how_to_follow(const solver::ContactDefinition& contact) {
+  switch (contact.geometry_update) {
+    case solver::GeometryUpdate::none: return "let the geometry be updated: REAC_GEOM='AUTOMATIQUE'";
+    case solver::GeometryUpdate::controlled: return "take more updates (NB_ITER_GEOM), or REAC_GEOM='AUTOMATIQUE'";
+    case solver::GeometryUpdate::automatic: break;
+  }
+  return "take smaller steps: with ALGO_CONT='LAC' surfaces face each other through a step as they did when it began";
+}
+
 Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact, const solver::Mesh& mesh) {
   const bool is_mixed = contact.formulation == solver::ContactFormulation::mixed;
   const std::string penalty = is_mixed ? "COEF_PENA_CONT" : "E_N";
@@ -48,6 +57,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",
                           mesh.cell_name(doubt.cell), zone, doubt.length),
               "free its nodes along the normal, or take them out of the contact (SANS_GROUP_NO)"};
+    case solver::DoubtKind::stale_geometry:
+      return {"stale-geometry",
+              fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",
+                          zone, mesh.node_name(doubt.node), doubt.length, 100.0 * doubt.share),
+              how_to_follow(contact)};
     case solver::DoubtKind::sparse_points: break;
   }
   return {"coarse-slave",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/contact/definition.hpp"
+#include "solver/contact/pairing.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {
@@ -15,7 +16,8 @@ enum class DoubtKind : std::uint8_t {
   deep_penalty,   ///< they sink in by a good part of the size of the slave side
   soft_friction,  ///< points that stick creep by a good part of what they would slip without contact
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
-  sparse_points   ///< slave points are so far apart that master nodes between them can go through the slave side
+  sparse_points,  ///< slave points are so far apart that master nodes between them can go through the slave side
+  stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
 };
 
 struct ContactDoubt {
@@ -26,6 +28,7 @@ struct ContactDoubt {
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
+  int node = -1;         ///< slave node of a stale geometry
 };
 
 /// The deepest of each kind in each zone.
@@ -57,5 +60,19 @@ double wanted_penalty(double penalty, double share);
 /// zone; `gives_way`: whether a node can move: master surfaces that are held all over cannot go anywhere.
 void note_sparse_points(const ContactDefinition& definition, const Mesh& mesh, const std::vector<int>& point_counts,
                         const std::vector<std::vector<int>>& facets, const std::function<bool(int)>& gives_way, ContactDoubts& doubts);
+
+/// By how much a slave node stands off its place on the facet, along the pair's normal; negative where it has gone in.
+double gap_at(const ContactPair& pair, const Mesh& mesh, Positions positions);
+
+/// Slave nodes whose gap, as pairs `before` have it, is not that of pairs `now`, of the surfaces as they are. `pushed_back`: how far contact
+/// forces move the slave side, the measure of what counts.
+struct StaleGaps {
+  const std::vector<ContactPair>& before;
+  const std::vector<ContactPair>& now;
+  double pushed_back = 0.0;
+};
+
+/// Doubts of kind `stale_geometry`, of errors beyond `doubtful_share` of what contact pushes back.
+void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions, const StaleGaps& gaps, ContactDoubts& doubts);
 
 }  // namespace comma::solver

@@ -41,6 +41,13 @@ Eigen::VectorXd MixedContact::jumps_without_contact(const Eigen::VectorXd& u) {
   return jumps(u) - reduced_rows_ * push;
 }
 
+double MixedContact::pushed_back() {
+  if (!schur_ || forces_.size() == 0) return 0.0;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
+  forces.head(forces_.size()) = forces_;
+  return schur_->times(forces).head(forces_.size()).cwiseAbs().maxCoeff();
+}
+
 void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {
   const ContactZone& definition = definition_.zones[static_cast<std::size_t>(zone)];
   double depth = 0.0;

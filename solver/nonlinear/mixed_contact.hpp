@@ -63,6 +63,8 @@ class MixedContact {
 
   /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
+  /// How far contact forces move the points, at most (a length).
+  double pushed_back();
 
   /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
   std::optional<ElementField> patch_state(const Eigen::VectorXd& u) const;

@@ -245,6 +245,10 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
   return compliance_times(row_multipliers_) - reduced_.inequalities.softness.cwiseProduct(row_multipliers_);
 }
 
+double NewtonSolver::pushed_back() {
+  return largest(push_of_active());
+}
+
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
   return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem, memory_);
 }

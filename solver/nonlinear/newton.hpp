@@ -56,6 +56,9 @@ class NewtonSolver {
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
+  /// How far contact forces move the conditions' nodes, at most (a length).
+  double pushed_back();
+
   int accepted_steps() const { return steps_; }
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }

@@ -71,6 +71,7 @@ class StaticAnalysis {
       newton_.accept_step();
       if (path_) path_->accept_step(now_.state.u);
       if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
+      note_geometry_left_behind(instant);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
       speed_ = (now_.state.u - start_) / (instant - from);
@@ -325,12 +326,30 @@ class StaticAnalysis {
     if (assembler_.has_memory()) step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
-  std::vector<Vector3d> positions() const {
+  std::vector<Vector3d> positions() const { return positions_at(now_.state.u); }
+
+  std::vector<Vector3d> positions_at(const Eigen::VectorXd& u) const {
     std::vector<Vector3d> result(static_cast<std::size_t>(mesh_.node_count()));
     for (int node = 0; node < mesh_.node_count(); ++node) {
-      result[node] = Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]) + displacement(node);
+      result[node] = Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]) + displacement(node, u);
     }
     return result;
+  }
+
+  /// Where the geometry is updated less than it asks for, or averages face each other as they did when the step began: whether the surfaces as they
+  /// are have the gaps that were solved for.
+  void note_geometry_left_behind(double instant) {
+    if (!problem_.contact || path_ || !now_.paired) return;
+    const bool averages = std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; });
+    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !averages) return;
+    const std::vector<Vector3d> now = positions();
+    try {
+      const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(averages ? start_ : now_.reference), instant) : now_.pairs;
+      const double pushed_back = mixed_ ? mixed_->pushed_back() : newton_.pushed_back();
+      note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
+    } catch (const Error&) {
+      // Surfaces that cannot be paired any more are no reason to lose a step that has converged.
+    }
   }
 
   Vector3d displacement(int node) const { return displacement(node, now_.state.u); }
@@ -516,13 +535,8 @@ class StaticAnalysis {
     if (after_step_) after_step_(result_);
   }
 
-  /// Along the pair's normal; negative where the node has gone into the facet.
-  double gap_now(const ContactPair& pair, const std::vector<Vector3d>& now) const {
-    Vector3d apart = now[static_cast<std::size_t>(pair.slave)];
-    const auto facet = mesh_.cell(pair.facet);
-    for (std::size_t a = 0; a < facet.size(); ++a) apart -= pair.weights[a] * now[static_cast<std::size_t>(facet[a])];
-    return apart.dot(pair.normal);
-  }
+  /// Of the surfaces themselves, without thicknesses.
+  double gap_now(const ContactPair& pair, const std::vector<Vector3d>& now) const { return gap_at(pair, mesh_, now) + pair.thickness; }
 
   /// The pairs of zones where contact is not enforced, by their number, as they stand now.
   std::map<std::size_t, ContactPair> watched_pairs(const std::vector<Vector3d>& now) const {

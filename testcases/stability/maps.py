@@ -133,6 +133,24 @@ def strip(waves: int) -> Mesh:
     return merged([("", body), ("", table)])
 
 
+THRESHOLD, SLOPE = 0.05, (1.0, 1.5)
+
+
+def block_before_threshold(_: object) -> Mesh:
+    """A block of 1/2 x 1/2 on a floor that rises by 1/20 between x = 1 and 1.5."""
+    block = build_mesh(Grid((4, 4), lambda p: (0.5 * p[0], 0.5 * p[1]), {"SLAVE": on(1, 0.0), "TOP": on(1, 1.0)}, {"LEADER": at(0.5, 1.0)}), "QUAD4")
+
+    def uneven(p: tuple[float, ...]) -> tuple[float, float]:
+        x = 6.0 * p[0] - 1.0
+        share = min(1.0, max(0.0, (x - SLOPE[0]) / (SLOPE[1] - SLOPE[0])))
+        return (x, THRESHOLD * share + 0.2 * (p[1] - 1.0))
+
+    floor = build_mesh(Grid((60, 1), uneven, {"MASTER": on(1, 1.0), "FLOOR_BASE": on(1, 0.0)}), "QUAD4")
+    floor.cell_groups["FLOOR"] = floor.cell_groups.pop("BODY")
+    floor.node_groups.clear()
+    return merged([("", block), ("", floor)])
+
+
 # --- the list -------------------------------------------------------------------------------------------------------------
 
 
@@ -170,6 +188,21 @@ def _friction() -> StabilityMap:
         "friction", "Friction coefficient (a block that slides)", "COULOMB", (0.0, 0.01, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), f.RUBBING, "sliding",
         "D_PLAN", flat_block, lambda series, value: usual(RUBBER, friction=value)(series, value),
         lambda series, value: {"friction": value, "steps": 10})
+
+
+def _threshold() -> StabilityMap:
+    updates = {"AUTOMATIQUE": {"REAC_GEOM": "AUTOMATIQUE"}, "CONTROLE 2": {"REAC_GEOM": "CONTROLE", "NB_ITER_GEOM": 2}, "SANS": {"REAC_GEOM": "SANS"}}
+    series = {f"{name}, AUTOMATIQUE": (name, "AUTOMATIQUE") for name in f.BETWEEN_BODIES_WITH_LAC}
+    series |= {f"{name}, {update}": (name, update) for name in ("CONTRAINTE", "CONTINUE AUTO") for update in ("CONTROLE 2", "SANS")}
+
+    def updated(which: str, value: object) -> Values:
+        name, update = series[which]
+        values = usual(RUBBER)(name, value)
+        return values | {"options": {**values["options"], **updates[update]}}
+
+    return StabilityMap(
+        "threshold", "Number of load steps (a block led over a threshold, the geometry being updated)", "steps", STEPS, tuple(series), SCENES + "threshold",
+        "D_PLAN", block_before_threshold, updated, lambda series, value: {"steps": value})
 
 
 STEPS = (1, 2, 3, 5, 10, 20, 50, 100)
@@ -246,5 +279,5 @@ def _waves() -> StabilityMap:
 def maps() -> dict[str, StabilityMap]:
     """All of them, by name."""
     listed = (_penalties(), _friction_penalties(), _stiffness(), _friction(), _steps(), _friction_steps(), _gaps(), _cells(), _blocked(), _bounds(),
-              _floating(), _waves())
+              _floating(), _waves(), _threshold())
     return {each.name: each for each in listed}

@@ -18,7 +18,7 @@ from run import Measurement, run_comma
 TIMEOUT = 60.0  # s, for one run
 
 # Alarms that say that the very answer of a cell may be wrong.
-TELLING = ("soft-penalty", "soft-friction-penalty", "held-overlap", "coarse-slave")
+TELLING = ("soft-penalty", "soft-friction-penalty", "held-overlap", "coarse-slave", "stale-geometry")
 UNSETTLED = ("no-convergence", "contact-cycling")
 
 
@@ -70,7 +70,8 @@ def run_map(comma: Path, of: StabilityMap, folder: Path, quick: bool) -> list[Ma
             faces = len(mesh.cell_groups["SLAVE"])
             meshed = value
         for series in of.series:
-            cut = faces if series in FORMULATIONS and FORMULATIONS[series].cuts_faces else 0
+            formulation = FORMULATIONS.get(series.split(",")[0])
+            cut = faces if formulation and formulation.cuts_faces else 0
             measured = run_comma(comma, of.case(series, value, slave_nodes + cut), unknowns, folder, TIMEOUT)
             cells.append(MapCell(series, value, measured, judge(of, value, measured)))
             _tell(of, cells[-1])

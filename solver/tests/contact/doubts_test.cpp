@@ -41,6 +41,39 @@ struct Sides {
 
 }  // namespace
 
+TEST_CASE("Surfaces that have moved on since they were paired are told of by what their gaps are off") {
+  // A slave node that slides over two edges, the second of which rises by a tenth of its length.
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.1, 0.0}, {0.5, 0.0, 0.0}, {0.5, 1.0, 0.0}};
+  ContactZone zone;
+  zone.master_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{1, 0}), mesh.add_cell(CellType::seg2, std::vector<int>{2, 1})};
+  zone.slave_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{3, 4})};
+  ContactDefinition definition;
+  definition.zones.push_back(zone);
+  const auto places = [&](double slide) {
+    std::vector<Eigen::Vector3d> result;
+    for (const auto& node : mesh.nodes) result.emplace_back(node[0], node[1], node[2]);
+    result[3][0] += slide;
+    return result;
+  };
+  const auto told = [&](double slide, double pushed_back) {
+    const auto before = pair_surfaces(definition, mesh, places(0.0)), now = pair_surfaces(definition, mesh, places(slide));
+    ContactDoubts doubts;
+    note_stale_geometry(definition, mesh, places(slide), {before, now, pushed_back}, doubts);
+    return doubts.all();
+  };
+  CHECK(told(0.0, 0.0).empty());
+  CHECK(told(0.4, 0.0).empty());  // on the same edge
+  const auto risen = told(1.0, 0.02);
+  REQUIRE(risen.size() == 1);
+  CHECK(risen.front().kind == DoubtKind::stale_geometry);
+  CHECK(risen.front().node == 3);
+  CHECK(risen.front().length == Approx(0.05 / std::sqrt(1.01)));  // half way up the slope
+  CHECK(risen.front().share == 1.0);
+  CHECK(told(1.0, 6.0).empty());  // less than a hundredth of what contact pushes back
+}
+
 TEST_CASE("The penalty that is proposed leaves no more than its goal, and is no more than ten times too large") {
   const double stiffness = 3.0e7;  // of the bodies, in series with the penalty
   for (double penalty = 1.0e-6 * stiffness; penalty < 100.0 * stiffness; penalty *= 7.0) {
