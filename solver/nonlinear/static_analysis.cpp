@@ -203,7 +203,7 @@ class StaticAnalysis {
     } else if (!result_.steps.empty()) {
       take_last_step();
     }
-    elimination_.measure_from(now_.state.u);
+    elimination_.measure_from(differential_reference());
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     assembler_.set_time(instant);
@@ -219,6 +219,13 @@ class StaticAnalysis {
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
+  }
+
+  /// What the conditions of differential loads count from.
+  Eigen::VectorXd differential_reference() const {
+    Eigen::VectorXd u = now_.state.u;
+    if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, u);
+    return u;
   }
 
   /// The body starts without stress even where its first temperature is not that of reference.

@@ -37,6 +37,7 @@ struct InitialState {
   std::optional<NodalField> displacement;
   std::optional<ElementField> stresses;   ///< as SIEF_ELGA
   std::optional<ElementField> variables;  ///< as VARI_ELGA
+  std::optional<NodalField> differential_reference;  ///< from which differential loads count; absent: from `displacement`
 };
 
 struct StaticProblem {
