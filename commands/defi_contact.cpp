@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/contact/half_thickness.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/mesh/orientation.hpp"
 
@@ -40,12 +42,50 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
                           zone.span_of("COEF_MULT"), "give as many functions to COEF_MULT as names to NOM_CMP");
   }
   condition.bound = field_function(zone.concept_of("COEF_IMPO"), zone.span_of("COEF_IMPO"));
+  if (zone.text("ALGO_CONT") == "PENALISATION") condition.penalty = zone.real("COEF_PENA");
   return condition;
 }
 
 solver::NormalSide normal_side(const std::string& word) {
   if (word == "ESCL") return solver::NormalSide::slave;
   return word == "MAIT_ESCL" ? solver::NormalSide::average : solver::NormalSide::master;
+}
+
+std::array<double, 3> vector_of(const Keywords& zone, const std::string& keyword) {
+  const auto values = zone.reals(keyword);
+  std::array<double, 3> vector{};
+  std::copy(values.begin(), values.end(), vector.begin());
+  if (std::ranges::any_of(vector, [](double each) { return each != 0.0; })) return vector;
+  throw DiagnosticError("zero-vector", keyword + " is no direction: all its components are 0", zone.span_of(keyword), "give a vector that is not null");
+}
+
+// VECT_MAIT and VECT_ESCL, with what they need.
+void take_normal(const Keywords& zone, const std::string& side, solver::NormalRule& rule, std::array<double, 3>& vector) {
+  const std::string keyword = "VECT_" + side;
+  if (!zone.has(keyword) || zone.text(keyword) == "AUTO") return;
+  const bool fixed = zone.text(keyword) == "FIXE";
+  rule = fixed ? solver::NormalRule::fixed : solver::NormalRule::along_y;
+  vector = vector_of(zone, side + (fixed ? "_FIXE" : "_VECT_Y"));
+}
+
+// DIST_POUTRE and DIST_COQUE: both surfaces lie off the cells by what their elements take up.
+void take_half_thickness(const Keywords& keywords, const solver::Model& model, solver::ContactZone& zone) {
+  const bool beams = keywords.text("DIST_POUTRE") == "OUI";
+  const bool plates = keywords.text("DIST_COQUE") == "OUI";
+  if (!beams && !plates) return;
+  const char* keyword = beams ? "DIST_POUTRE" : "DIST_COQUE";
+  if (!keywords.given("CARA_ELEM")) {
+    throw DiagnosticError("missing-keyword", std::string("DEFI_CONTACT: ") + keyword + " needs to know the sections", keywords.span_of(keyword), "give CARA_ELEM");
+  }
+  const auto& properties = *keywords.data<PropertiesConcept>("CARA_ELEM").properties;
+  for (const auto* cells : {&zone.master_cells, &zone.slave_cells}) {
+    if (beams) zone.half_thickness.merge(solver::beam_radii(model, properties, *cells));
+    if (plates) zone.half_thickness.merge(solver::plate_half_thicknesses(model, properties, *cells));
+  }
+  if (zone.half_thickness.empty()) {
+    throw DiagnosticError("missing-cells", std::string("DEFI_CONTACT: no cell of this zone is ") + (beams ? "a beam" : "a plate"), keywords.span_of(keyword),
+                          std::string("leave out ") + keyword + ", or give the thickness by DIST_MAIT and DIST_ESCL");
+  }
 }
 
 // A gap has a sign only if the normals point out of the bodies (U4.44.11, VERI_NORM).
@@ -63,16 +103,9 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   zone.master_cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_MAIT", "MAILLE_MAIT"});
   zone.slave_cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_ESCL", "MAILLE_ESCL"});
   if (keywords.has("NORMALE")) zone.normal_side = normal_side(keywords.text("NORMALE"));
-  if (keywords.has("VECT_MAIT") && keywords.text("VECT_MAIT") == "FIXE") {
-    zone.master_normal = solver::NormalRule::fixed;
-    const auto vector = keywords.reals("MAIT_FIXE");
-    std::copy(vector.begin(), vector.end(), zone.master_vector.begin());
-  }
-  if (keywords.has("VECT_MAIT") && keywords.text("VECT_MAIT") == "VECT_Y") {
-    zone.master_normal = solver::NormalRule::along_y;
-    const auto vector = keywords.reals("MAIT_VECT_Y");
-    std::copy(vector.begin(), vector.end(), zone.master_vector.begin());
-  }
+  take_normal(keywords, "MAIT", zone.master_normal, zone.master_vector);
+  take_normal(keywords, "ESCL", zone.slave_normal, zone.slave_vector);
+  if (keywords.text("TYPE_APPA") == "FIXE") zone.pairing_direction = vector_of(keywords, "DIRE_APPA");
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
@@ -106,7 +139,7 @@ void check_local_average(const Keywords& zone) {
     throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: ALGO_CONT='LAC' pairs segments of intersection", zone.span_of("APPARIEMENT"),
                           "write APPARIEMENT='MORTAR'");
   }
-  for (const char* keyword : {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "TOLE_PROJ_EXT", "INTEGRATION", "SANS_GROUP_NO",
+  for (const char* keyword : {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "DIST_POUTRE", "DIST_COQUE", "TOLE_PROJ_EXT", "INTEGRATION", "SANS_GROUP_NO",
                               "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"}) {
     if (!zone.given(keyword)) continue;
     throw DiagnosticError("unsupported", std::string("comma does not support ") + keyword + " with ALGO_CONT='LAC'", zone.span_of(keyword),
@@ -129,10 +162,7 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   const std::string adaptation = keywords.text("ADAPTATION");
-  if (zone.penalised && (adaptation == "ADAPT_COEF" || adaptation == "TOUT")) {
-    throw DiagnosticError("unsupported", "comma does not support ADAPTATION='" + adaptation + "' with ALGO_CONT='PENALISATION' yet",
-                          keywords.span_of("ADAPTATION"), "give the penalty itself (COEF_PENA_CONT)");
-  }
+  if (zone.penalised && (adaptation == "ADAPT_COEF" || adaptation == "TOUT")) zone.largest_depth = keywords.real("PENE_MAXI");
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
@@ -180,14 +210,20 @@ void check_one_algorithm(const Call& call) {
   }
 }
 
-// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest.
+// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest. Newton's method that stops at a
+// change r leaves r^2; updates one after the other converge linearly and go on until they change as little.
 void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
   constexpr int most_updates_by_newton = 100;
+  constexpr double rounding = 1e-11;
   definition.max_geometry_updates = most_updates_by_newton;
   definition.geometry_update = call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
+  if (!call.has("RESI_GEOM")) return;
+  const double change = call.real("RESI_GEOM");
+  definition.geometry_tolerance = call.text("ALGO_RESO_GEOM") == "NEWTON" ? std::max(rounding, change * change) : change;
 }
 
-solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
+solver::ContactDefinition contact(const Call& call, const solver::Model& model) {
+  const solver::Mesh& mesh = *model.mesh;
   solver::ContactDefinition definition;
   const bool is_mixed = call.text("FORMULATION") == "CONTINUE";
   if (is_mixed) definition.formulation = solver::ContactFormulation::mixed;
@@ -195,7 +231,6 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   set_geometry_update(call, definition);
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
-  if (call.has("RESI_GEOM")) definition.geometry_tolerance = call.real("RESI_GEOM");
   if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
   if (!is_mixed) {
@@ -204,6 +239,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Mesh& mesh) {
   }
   for (const Keywords& keywords : call.factors("ZONE")) {
     solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    take_half_thickness(keywords, model, zone);
     zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : discrete_zone(keywords);
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
@@ -224,7 +260,7 @@ Product defi_contact(const Call& call, Context&) {
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));
     product->conditions = std::move(conditions);
   } else {
-    product->conditions = contact(call, *model.mesh);
+    product->conditions = contact(call, model);
   }
   return product;
 }

@@ -48,6 +48,7 @@ void add_following(const Keywords& excitation, const solver::AppliedLoad& applie
 void take_loads(const Call& call, solver::StaticProblem& problem) {
   problem.loads.clear();
   problem.followers.clear();
+  problem.driven.clear();
   for (const Keywords& excitation : call.factors("EXCIT")) {
     solver::AppliedLoad applied;
     applied.load = excitation.data<LoadConcept>("CHARGE").load;
@@ -61,6 +62,10 @@ void take_loads(const Call& call, solver::StaticProblem& problem) {
       continue;
     }
     require_initial_places(excitation, *applied.load);
+    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "FIXE_PILO") {
+      problem.driven.push_back(std::move(applied));
+      continue;
+    }
     problem.loads.push_back(std::move(applied));
   }
 }

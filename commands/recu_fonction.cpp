@@ -134,7 +134,11 @@ Product recu_fonction(const Call& call, Context& context) {
   if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
   sort_points(call, function);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
-  if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");
+  for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_PARA_RESU", "PARA_Y"}) {
+    if (!call.given(name)) continue;
+    function.result = call.text(name);
+    break;
+  }
   read_shape(call, function);
   return std::make_shared<TabulatedConcept>(std::move(function));
 }

@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "commands/initial_state.hpp"
 #include "commands/observation.hpp"
+#include "commands/path_reading.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/selection.hpp"
 #include "commands/solve_alarms.hpp"
@@ -138,6 +139,11 @@ solver::LineSearch line_search(const Call& call) {
     throw DiagnosticError("exclusive-keywords", "STAT_NON_LINE: RECH_LINEAIRE does not go with CONTACT", search.span,
                           "the line search knows nothing of gaps: leave it out");
   }
+  const bool along_path = search.text("METHODE") == "PILOTAGE";
+  if (along_path != call.has("PILOTAGE")) {
+    throw DiagnosticError("contradictory-keywords", along_path ? "STAT_NON_LINE: RECH_LINEAIRE/METHODE='PILOTAGE' needs the keyword PILOTAGE" : "STAT_NON_LINE: with PILOTAGE the line search has a method of its own",
+                          search.span, along_path ? "write METHODE='CORDE' or 'MIXTE'" : "write METHODE='PILOTAGE'");
+  }
   solver::LineSearch options;
   options.bracketed = search.text("METHODE") == "MIXTE";
   options.tolerance = search.real("RESI_LINE_RELA");
@@ -158,9 +164,28 @@ void read_newton(const Keywords& newton, solver::NewtonOptions& options) {
   options.guessed = std::shared_ptr<const solver::Result>(handle->data, &guessed.result);
 }
 
-solver::NewtonOptions newton_options(const Call& call) {
+// Driven loads and what finds their intensity come together.
+void check_driven(const Call& call, const solver::StaticProblem& problem) {
+  if (problem.driven.empty() == !call.has("PILOTAGE")) return;
+  if (problem.driven.empty())
+    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: PILOTAGE seeks the intensity of a load, and no load is driven", call.factor("PILOTAGE").span,
+                          "give a load of EXCIT TYPE_CHARGE='FIXE_PILO'");
+  throw DiagnosticError("missing-keyword", "STAT_NON_LINE: a load has TYPE_CHARGE='FIXE_PILO', and nothing says how its intensity is found", call.span,
+                        "give PILOTAGE, or leave out TYPE_CHARGE");
+}
+
+void read_reference(const Keywords& convergence, solver::NewtonOptions& options) {
+  if (!convergence.given("RESI_REFE_RELA")) return;
+  options.referred_residual = convergence.real("RESI_REFE_RELA");
+  if (convergence.given("SIGM_REFE")) options.reference.stress = convergence.real("SIGM_REFE");
+  if (convergence.given("EFFORT_REFE")) options.reference.force = convergence.real("EFFORT_REFE");
+  if (convergence.given("MOMENT_REFE")) options.reference.moment = convergence.real("MOMENT_REFE");
+}
+
+solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh) {
   solver::NewtonOptions options;
   if (call.has("NEWTON")) read_newton(call.factor("NEWTON"), options);
+  if (call.has("PILOTAGE")) options.path = path_control(call, mesh);
   if (call.has("RECH_LINEAIRE")) options.line_search = line_search(call);
   if (call.has("CONVERGENCE")) {
     const Keywords& convergence = call.factor("CONVERGENCE");
@@ -168,7 +193,8 @@ solver::NewtonOptions newton_options(const Call& call) {
     const bool absolute = convergence.given("RESI_GLOB_MAXI");
     if (relative) options.relative_residual = convergence.real("RESI_GLOB_RELA");
     if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
-    if (absolute && !relative) options.relative_residual.reset();
+    read_reference(convergence, options);
+    if ((absolute || options.referred_residual) && !relative) options.relative_residual.reset();
     options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
     if (options.tangent.correction == solver::TangentKind::elastic && convergence.has("ITER_GLOB_ELAS"))
@@ -190,6 +216,9 @@ std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateCho
   if (initial.order) std::erase_if(product->result.steps, [&](const solver::ResultStep& step) { return step.order > *initial.order; });
   return product;
 }
+
+// Whether all steps converge or not.
+void settle_driven(ResultConcept* product) { settle_driven_loads(*product); }
 
 void show_header(const Call& call, const Context& context) {
   context.console.progress("STAT_NON_LINE " + call.result->name);
@@ -217,6 +246,7 @@ Product stat_non_line(const Call& call, Context& context) {
   auto product = call.reuse ? continued(call, initial) : std::make_shared<ResultConcept>();
   product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
+  check_driven(call, product->problem);
   const auto steps = steps_of(call.factor("INCREMENT"), initial.instant);
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
@@ -231,7 +261,11 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     archive.update(result);
   };
-  const auto doubts = solver::solve_static(product->problem, steps, newton_options(call), product->result, context.counters, live_table(context), after_step);
+  const auto solve = [&] {
+    const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
+    return solver::solve_static(product->problem, steps, newton_options(call, product->result.mesh()), product->result, context.counters, live_table(context), after_step);
+  };
+  const auto doubts = solve();
   warn_of_indefinite_stiffness(call, before, context);
   if (product->problem.contact) warn_of_contact(call, *product->problem.contact, doubts, context);
   return product;

@@ -39,7 +39,9 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
     if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
       // A node that another zone holds keeps what that zone says.
-      if (row[cont] != row[cont]) row[cont] = not_paired;
+      if (row[cont] == row[cont]) continue;
+      row[cont] = not_paired;
+      for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r}) row[force] = 0.0;
       continue;
     }
     row[cont] = status_of(contact);

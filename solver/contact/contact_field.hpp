@@ -26,7 +26,7 @@ struct NodeContact {
 /// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
 /// foot on the master surface. GLIX GLIY GLI: slip along two
 /// tangents and its size, with friction. What is not computed here stays absent: HN, and the percussions I IX IY IZ (dynamics). A
-/// node without a slave role carries nothing.
+/// node that is not paired, or excluded, has CONT and forces, which are zero. A node without a slave role carries nothing.
 NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions);
 
 /// The same without friction. `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the node is not paired.

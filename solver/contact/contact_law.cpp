@@ -13,6 +13,12 @@ double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const V
   return (law.penalised ? 0.0 : multiplier[0]) - law.augmentation * jump[0];
 }
 
+/// The pressure that limits shear is the multiplier itself, without the augmentation (R5.03.52): the gap vanishes in the mean alone
+/// where points lie between nodes.
+double limiting_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return std::max(0.0, law.penalised ? trial_pressure(law, multiplier, jump) : multiplier[0]);
+}
+
 Vector2d trial_shear(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
   const Vector2d slip = law.friction_augmentation * jump.tail<2>();
   if (law.friction_penalised) return slip;
@@ -33,7 +39,7 @@ Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, con
   } else if (status == ContactStatus::sliding && law.friction > 0.0 && trial.norm() > 0.0) {
     const double size = trial.norm();
     const Vector2d direction = trial / size;
-    const double limit = law.friction * std::max(0.0, pressure);
+    const double limit = law.friction * pressure;
     shear.value = limit * direction;
     shear.by_trial = limit / size * (Matrix2d::Identity() - direction * direction.transpose());
     shear.by_pressure = law.friction * direction;
@@ -47,10 +53,8 @@ void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multip
   value.traction.tail<2>() = -shear.value;
   value.traction_by_multiplier.bottomRightCorner<2, 2>() = -by_multiplier * shear.by_trial;
   value.traction_by_jump.bottomRightCorner<2, 2>() = -augmentation * shear.by_trial;
-  const auto normal_by_multiplier = value.traction_by_multiplier(0, 0);
-  const auto normal_by_jump = value.traction_by_jump(0, 0);
-  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -normal_by_multiplier * shear.by_pressure;
-  value.traction_by_jump.bottomLeftCorner<2, 1>() = -normal_by_jump * shear.by_pressure;
+  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -(law.penalised ? 0.0 : 1.0) * shear.by_pressure;
+  value.traction_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? law.augmentation : 0.0) * shear.by_pressure;
 
   value.residual.tail<2>() = (shear.value - multiplier.tail<2>()) / augmentation;
   value.residual_by_multiplier.bottomRows<2>() = -value.traction_by_multiplier.bottomRows<2>() / augmentation;
@@ -72,7 +76,7 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
   value.residual_by_jump(0, 0) = value.traction_by_jump(0, 0) / law.augmentation;
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
-  add_shear(law, shear_of(law, status, value.traction[0], trial_shear(law, multiplier, jump)), multiplier, value);
+  add_shear(law, shear_of(law, status, limiting_pressure(law, multiplier, jump), trial_shear(law, multiplier, jump)), multiplier, value);
   if (status == ContactStatus::sticking && !law.friction_penalised) value.residual.tail<2>() = jump.tail<2>();
   return value;
 }
@@ -85,7 +89,7 @@ ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d&
 }
 
 double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return trial_shear(law, multiplier, jump).norm() - law.friction * std::max(0.0, trial_pressure(law, multiplier, jump));
+  return trial_shear(law, multiplier, jump).norm() - law.friction * limiting_pressure(law, multiplier, jump);
 }
 
 }  // namespace comma::solver

@@ -33,7 +33,8 @@ struct ContactLawValue {
 
 /// The law of Alart and Curnier (Computer Methods in Applied Mechanics and Engineering 92, 1991; R5.03.52) with the status held:
 /// closed: pressure - augmentation * gap pushes, and the gap vanishes; open: the pressure vanishes. Shear: sticking, it is
-/// shear + friction_augmentation * slip, and the slip vanishes; sliding, it is cut down to friction * pressure.
+/// shear + friction_augmentation * slip, and the slip vanishes; sliding, it is cut down to friction * pressure, the pressure being the
+/// multiplier without the augmentation.
 ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
 /// The status that the law gives a point. `closed` points stay so.

@@ -7,6 +7,7 @@
 
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet_search.hpp"
+#include "solver/contact/half_thickness.hpp"
 #include "solver/contact/patch_points.hpp"
 
 namespace comma::solver {
@@ -95,7 +96,8 @@ class ZonePoints {
     point.foot = hit->projection.foot;
     const bool needs_own = zone_.normal_side != NormalSide::master;
     point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
-    point.thickness = thickness_at(zone_, here, point.foot, time_);
+    point.thickness = thickness_at(zone_, here, point.foot, time_) + half_thickness(zone_, mesh_, point.facet, point.master_shape) +
+                      half_thickness(zone_, mesh_, point.cell, point.shape);
   }
 
   /// A node of both surfaces cannot face the facets that it belongs to.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "solver/functions/function.hpp"
@@ -17,6 +18,7 @@ struct UnilateralCondition {
   std::vector<Component> components;
   std::vector<FieldFunction> coefficients;  ///< one a component
   FieldFunction bound;
+  double penalty = 0.0;  ///< positive: the bound gives way, and pushes back by this much a unit of what it is passed by; 0: it holds
 };
 
 /// How the inequalities of the discrete formulation are solved.
@@ -40,6 +42,7 @@ struct MixedZone {
   double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
   bool local_average = false;        ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
   bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
+  std::optional<double> largest_depth;  ///< PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;             ///< COULOMB
@@ -52,6 +55,13 @@ struct MixedZone {
 /// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').
 enum class PairingRule : std::uint8_t { facet, node };
 
+/// What a cell of a contact surface adds to either side of it (DIST_POUTRE, DIST_COQUE): the radius of a beam at its ends, half of
+/// the thickness of a plate.
+struct HalfThickness {
+  double first = 0.0;
+  double last = 0.0;
+};
+
 /// A pair of surfaces. Slave nodes may not enter master facets.
 struct ContactZone {
   std::vector<int> master_cells;
@@ -60,6 +70,9 @@ struct ContactZone {
   NormalSide normal_side = NormalSide::master;
   NormalRule master_normal = NormalRule::automatic;
   std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
+  NormalRule slave_normal = NormalRule::automatic;
+  std::array<double, 3> slave_vector{};    ///< the same of the slave surface (VECT_ESCL)
+  std::optional<std::array<double, 3>> pairing_direction;  ///< DIRE_APPA: slave points look for the master along it; absent: for the nearest place
   std::vector<int> excluded_slave_nodes;   ///< SANS_GROUP_NO
   double projection_tolerance = 0.5;       ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
   bool resolved = true;                    ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
@@ -67,6 +80,7 @@ struct ContactZone {
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
+  std::unordered_map<int, HalfThickness> half_thickness;  ///< of cells of both surfaces, what their elements add; those not named add nothing
   MixedZone mixed;                 ///< for zones that is_condensed() speaks of
 };
 

@@ -32,7 +32,7 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
       nodes_(node_boxes()) {
   if (!smooth) return;
   if (zone.master_normal == NormalRule::automatic) master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
-  if (zone.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions);
+  if (zone.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
 }
 
 std::vector<Box> FacetSearch::facet_boxes() const {
@@ -68,6 +68,8 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
   best.projection.distance = infinite;
   facets_.search(point, [&](int item) {
     consider(point, own, zone_.master_cells[item], best);
+    // Along a direction a facet that is far may be met where a near one is passed by.
+    if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinite;
     return best.projection.distance * (1.0 + tie_tolerance) + tie_tolerance;
   });
   if (best.facet < 0 || is_outside(best.projection)) return std::nullopt;
@@ -102,6 +104,11 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point,
   return std::nullopt;
 }
 
+std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType type, std::span<const Vector3d> places) const {
+  if (!zone_.pairing_direction) return project(point, type, places);
+  return project_along(Vector3d(zone_.pairing_direction->data()), point, type, places);
+}
+
 void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int facet, Hit& best) const {
   const auto cell = mesh_.cell(facet);
   if (share_a_node(own, cell)) return;
@@ -111,8 +118,13 @@ void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int 
     points[i] = positions_[cell[i]];
     box.extend(points[i]);
   }
-  const auto found = project(point, mesh_.cell_types[facet], std::span(points.data(), cell.size()));
+  const std::span<const Vector3d> places(points.data(), cell.size());
+  const auto found = projected(point, mesh_.cell_types[facet], places);
   if (!found) return;
+  if (zone_.pairing_direction && best.facet >= 0 && (found->outside > 0.0) != (best.projection.outside > 0.0)) {
+    if (found->outside == 0.0) best = {facet, *found};
+    return;
+  }
   const double tie = tie_tolerance * box.diagonal().norm();
   const double gain = best.projection.distance - found->distance;
   const bool is_nearer = gain > tie;
@@ -129,7 +141,7 @@ bool FacetSearch::is_outside(const Projection& projection) const {
 
 Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
   const Vector3d master = master_normals_.empty()
-                              ? master_normal(zone_, mesh_, hit.facet, hit.projection.xi, positions_)
+                              ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
                               : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
   return contact_normal(zone_.normal_side, master, slave_outward);
 }
@@ -142,7 +154,7 @@ double thickness_at(const ContactZone& zone, const Vector3d& slave, const Vector
 }
 
 Vector3d FacetSearch::slave_normal(int cell, const Eigen::Vector2d& xi) const {
-  return slave_normals_.empty() ? outward_normal(mesh_, cell, xi, positions_)
+  return slave_normals_.empty() ? surface_normal(slave_choice(zone_), mesh_, cell, xi, positions_)
                                 : interpolated_normal(mesh_, cell, xi, slave_normals_);
 }
 

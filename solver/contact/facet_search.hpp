@@ -31,7 +31,8 @@ class FacetSearch {
   bool too_far(const Eigen::Vector3d& point) const;
 
   /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the orthogonal
-  /// projection falls outside that facet by more than the zone's tolerance.
+  /// projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing direction: the nearest facet
+  /// among those that a line along it meets, else the one that it passes by the closest.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
@@ -46,6 +47,7 @@ class FacetSearch {
  private:
   std::vector<Box> facet_boxes() const;
   std::vector<Box> node_boxes() const;
+  std::optional<Projection> projected(const Eigen::Vector3d& point, CellType type, std::span<const Eigen::Vector3d> places) const;
   void consider(const Eigen::Vector3d& point, std::span<const int> own, int facet, Hit& best) const;
   bool is_outside(const Projection& projection) const;
 
@@ -59,7 +61,7 @@ class FacetSearch {
   std::unordered_map<int, Eigen::Vector3d> slave_normals_;   ///< likewise
 };
 
-/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT).
+/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT), beside what the elements there do.
 double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, const Eigen::Vector3d& foot, double time);
 
 }  // namespace comma::solver

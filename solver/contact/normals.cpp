@@ -40,7 +40,7 @@ bool is_line_in_space(const Mesh& mesh, int cell) { return mesh.dimension == 3 &
 void require_plane_or_surface(const Mesh& mesh, int cell) {
   if (!is_line_in_space(mesh, cell)) return;
   throw Error("unsupported", fmt::format("contact facet {} is a line in space: its normal is not defined", mesh.cell_name(cell)),
-              "give the master's normal (VECT_MAIT='FIXE'), or its second direction (VECT_MAIT='VECT_Y')");
+              "give its normal (VECT_MAIT='FIXE', VECT_ESCL='FIXE'), or its second direction (VECT_MAIT='VECT_Y', VECT_ESCL='VECT_Y')");
 }
 
 /// Across a given direction: of a line in space the cross product of its tangent and the direction, else the facet's own normal less its
@@ -64,15 +64,13 @@ Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, P
 
 }  // namespace
 
-std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions) {
+std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions, const NormalChoice& choice) {
   std::unordered_map<int, Vector3d> normals;
   for (const int cell : cells) {
-    require_plane_or_surface(mesh, cell);
     const CellType type = mesh.cell_types[cell];
-    const FacetPoints points = gather(mesh, cell, positions);
     const auto nodes = mesh.cell(cell);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Vector3d normal = facet_normal(type, points.span(), facet_node(type, static_cast<int>(i)));
+      const Vector3d normal = surface_normal(choice, mesh, cell, facet_node(type, static_cast<int>(i)), positions);
       normals.try_emplace(nodes[i], Vector3d::Zero()).first->second += normal;
     }
   }
@@ -102,15 +100,13 @@ Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d&
   return cleaned(normal.normalized());
 }
 
-Vector3d master_normal(const ContactZone& zone, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
-  switch (zone.master_normal) {
-    case NormalRule::fixed: {
-      const Vector3d given(zone.master_vector[0], zone.master_vector[1], zone.master_vector[2]);
-      if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of the master surface is null");
+Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
+  const Vector3d given(choice.vector[0], choice.vector[1], choice.vector[2]);
+  switch (choice.rule) {
+    case NormalRule::fixed:
+      if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of a contact surface is null");
       return cleaned(given.normalized());
-    }
-    case NormalRule::along_y:
-      return normal_across(mesh, facet, xi, positions, {zone.master_vector[0], zone.master_vector[1], zone.master_vector[2]});
+    case NormalRule::along_y: return normal_across(mesh, facet, xi, positions, given);
     case NormalRule::automatic: break;
   }
   return outward_normal(mesh, facet, xi, positions);

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "solver/contact/facet_search.hpp"
+#include "solver/contact/half_thickness.hpp"
 #include "solver/contact/straight_faces.hpp"
 
 namespace comma::solver {
@@ -16,11 +17,13 @@ class ZonePairing {
   ZonePairing(const ContactDefinition& definition, int index, const Mesh& mesh, Positions positions, double time)
       : zone_(definition.zones[static_cast<std::size_t>(index)]),
         index_(index),
+        mesh_(mesh),
         positions_(positions),
         time_(time),
         search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()) {
-    if (zone_.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions);
+    if (zone_.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions, slave_choice(zone_));
+    slave_sizes_ = nodal_half_thickness(zone_, mesh);
   }
 
   ContactPair pair(int slave) const {
@@ -39,7 +42,8 @@ class ZonePairing {
       result.foot = hit->projection.foot;
       const auto own = slave_normals_.find(slave);
       result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
-      result.thickness = thickness_at(zone_, at, result.foot, time_);
+      result.thickness = thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
+      if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;
     }
     return result;
   }
@@ -52,10 +56,12 @@ class ZonePairing {
 
   const ContactZone& zone_;
   int index_;
+  const Mesh& mesh_;
   Positions positions_;
   double time_;
   FacetSearch search_;
   std::unordered_set<int> excluded_;
+  std::unordered_map<int, double> slave_sizes_;  ///< of the nodes: what their elements add
   std::unordered_map<int, Vector3d> slave_normals_;
 };
 

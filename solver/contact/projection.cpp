@@ -15,6 +15,8 @@ constexpr int max_newton_iterations = 60;
 constexpr double step_tolerance = 1e-14;
 /// Beyond this a foot is far outside whatever tolerance a user gives, and only needs to be known as such.
 constexpr double far_outside = 50.0;
+/// A facet that is this thin, as a share of its size squared, is seen from its edge.
+constexpr double edge_on = 1e-9;
 
 struct Local {
   Vector3d offset;  ///< foot minus node
@@ -86,6 +88,28 @@ std::optional<Projection> project(const Vector3d& node, CellType type, std::span
   for (std::size_t i = 0; i < points.size(); ++i) projection.foot += shape.values[i] * points[i];
   projection.distance = (projection.foot - node).norm();
   return projection;
+}
+
+/// Seen along the direction, the place that is asked for is the foot of the node.
+std::optional<Projection> project_along(const Vector3d& direction, const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+  const Vector3d along = direction.normalized();
+  const auto seen = [&](const Vector3d& place) -> Vector3d { return place - along.dot(place) * along; };
+  std::array<Vector3d, max_facet_nodes> flat;
+  double size = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    flat[i] = seen(points[i]);
+    size = std::max(size, (points[i] - points[0]).norm());
+  }
+  const std::span<const Vector3d> view(flat.data(), points.size());
+  const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, view, facet_centre(type));
+  const double area = dimension(type) == 1 ? size * tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
+  if (!(area > edge_on * size * size)) return std::nullopt;
+  auto found = project(seen(node), type, view);
+  if (!found) return std::nullopt;
+  found->foot.setZero();
+  for (std::size_t i = 0; i < points.size(); ++i) found->foot += found->weights[i] * points[i];
+  found->distance = (found->foot - node).norm();
+  return found;
 }
 
 }  // namespace comma::solver

@@ -23,4 +23,9 @@ struct Projection {
 /// it may on a facet that is so bent or so far away that it has no foot.
 std::optional<Projection> project(const Eigen::Vector3d& node, CellType type, std::span<const Eigen::Vector3d> points);
 
+/// The place where a line through the node along `direction` meets the facet, brought back on the facet (U4.44.11, TYPE_APPA='FIXE').
+/// Empty where the line runs along the facet, or Newton does not converge.
+std::optional<Projection> project_along(const Eigen::Vector3d& direction, const Eigen::Vector3d& node, CellType type,
+                                        std::span<const Eigen::Vector3d> points);
+
 }  // namespace comma::solver

@@ -54,7 +54,8 @@ bool same_sense(std::span<const int> nodes, std::span<const int> facet_nodes, in
   return facet_nodes[static_cast<std::size_t>(next)] == nodes[1];
 }
 
-/// Turns a line or face cell round: its first node stays first on a face.
+/// Turns a line or face cell round. The first node of a quadrangle stays first; a triangle exchanges its first and its third, as Code_Aster does:
+/// its reference cell is not alike in all corners, and contact brings points that fall beside a face back within it.
 void reverse(std::span<int> nodes, CellType type) {
   const int corners = corner_count(type);
   if (dimension(type) == 1) {
@@ -62,8 +63,13 @@ void reverse(std::span<int> nodes, CellType type) {
     if (type == CellType::seg4) std::swap(nodes[2], nodes[3]);
     return;
   }
-  std::reverse(nodes.begin() + 1, nodes.begin() + corners);
   const bool quadratic = node_count(type) >= 2 * corners;
+  if (corners == 3) {
+    std::swap(nodes[0], nodes[2]);
+    if (quadratic) std::swap(nodes[3], nodes[4]);
+    return;
+  }
+  std::reverse(nodes.begin() + 1, nodes.begin() + corners);
   if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners);
 }
 

@@ -25,6 +25,9 @@ Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
   result.rows.setFromTriplets(entries.begin(), entries.end());
   result.bounds.resize(result.rows.rows());
   result.bounds << upper.bounds, lower.bounds;
+  result.softness = Eigen::VectorXd::Zero(result.rows.rows());
+  if (upper.softness.size()) result.softness.head(shift) = upper.softness;
+  if (lower.softness.size()) result.softness.tail(lower.rows.rows()) = lower.softness;
   return result;
 }
 
@@ -51,7 +54,7 @@ ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const Uni
 }
 
 bool same_rows(const ConditionSet& a, const ConditionSet& b) {
-  return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && same_matrix(a.full.rows, b.full.rows);
+  return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && a.full.softness == b.full.softness && same_matrix(a.full.rows, b.full.rows);
 }
 
 std::string describe(const ConditionSet& set, int row, const Mesh& mesh, const DofMap& dofs) {

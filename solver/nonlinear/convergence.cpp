@@ -5,7 +5,7 @@
 
 namespace comma::solver {
 
-ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding) const {
+ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred) const {
   Measure result;
   result.absolute = residual;
   const bool has_history = smallest_load_ > 0.0;
@@ -14,13 +14,13 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
   const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
   const bool passes_relative = is_rounding || (vanished ? residual <= vanished_limit : result.relative <= relative_limit());
-  if (!options_.absolute_residual) {
-    result.converged = passes_relative;
-    return result;
-  }
-  const bool passes_absolute = residual <= *options_.absolute_residual;
-  if (!options_.relative_residual) result.converged = passes_absolute;
-  else result.converged = options_.one_criterion ? passes_absolute || passes_relative : passes_absolute && passes_relative;
+  // One that is not given neither holds nor fails.
+  std::vector<bool> passed;
+  if (options_.absolute_residual) passed.push_back(residual <= *options_.absolute_residual);
+  if (options_.referred_residual) passed.push_back(is_rounding || referred <= *options_.referred_residual);
+  if (options_.relative_residual || passed.empty()) passed.push_back(passes_relative);
+  const auto holds = [](bool each) { return each; };
+  result.converged = options_.one_criterion ? std::ranges::any_of(passed, holds) : std::ranges::all_of(passed, holds);
   return result;
 }
 

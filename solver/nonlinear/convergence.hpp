@@ -9,7 +9,7 @@ namespace comma::solver {
 
 /// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
 /// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks
-/// |R| <= r. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
+/// |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
 /// the least loaded converged step would have been allowed. A residual that is all rounding also passes the relative test:
 /// a body that moves freely has no load but rounding to compare with.
 class ConvergenceCriterion {
@@ -23,7 +23,8 @@ class ConvergenceCriterion {
   };
 
   /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes of it.
-  Measure measure(double residual, double load, bool is_rounding) const;
+  /// `referred`: the largest share that a component of the residual has of its reference force, read where RESI_REFE_RELA is given.
+  Measure measure(double residual, double load, bool is_rounding, double referred = 0.0) const;
 
   /// Remembers the load of a converged step.
   void accept(double load);

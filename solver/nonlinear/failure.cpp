@@ -36,6 +36,14 @@ std::string remedy(std::span<const IterationReport> history, bool is_linear) {
 
 }  // namespace
 
+std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh) {
+  if (!residual.size()) return {};
+  Eigen::Index row = 0;
+  residual.cwiseAbs().maxCoeff(&row);
+  const int dof = elimination.kept()[static_cast<std::size_t>(row)];
+  return fmt::format("{} at {}", name_of(dofs.component_of(dof)), mesh.node_name(dofs.node_of(dof)));
+}
+
 void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
                           bool is_linear) {
   const IterationReport& last = history.back();

@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "solver/constraints/elimination.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
+
+/// "DY at N12": where a reduced residual is largest.
+std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh);
 
 /// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
 [[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,

@@ -32,6 +32,12 @@ constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
+/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and at least this much,
+/// so that a few rounds do.
+constexpr double raise_margin = 1.1;
+constexpr double least_raise = 2.0;
+/// Beyond, rounding of the gaps makes pressures.
+constexpr double most_raise = 1e12;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;
@@ -71,6 +77,7 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
       tangent_(tangent),
       counters_(counters),
       support_(std::move(support)),
+      stiffening_(definition.zones.size(), 1.0),
       reference_(Eigen::VectorXd::Zero(dofs.size())) {
   number_multipliers();
 }
@@ -136,6 +143,7 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   CondensedPoint result;
   result.weight = point.weight;
   result.law = law_of(zone);
+  if (zone.mixed.penalised) result.law.augmentation *= stiffening_[static_cast<std::size_t>(point.zone)];
   result.bilateral = zone.mixed.bilateral;
   if (point.node >= 0 && contains(zone.mixed.frictionless_nodes, point.node)) result.law.friction = 0.0;
   const bool one_direction = dimension_ == 2 || Eigen::Map<const Vector3d>(zone.mixed.frictionless_direction.data()).norm() > 0.0;
@@ -293,12 +301,22 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
 }
 
-/// Where points lie on nodes the solution does not depend on the augmentation; one as stiff as the bodies suits any unit of length.
+/// Multipliers that points between nodes take part of: there the law holds in the mean alone, and the augmentation is in the solution.
+std::vector<char> MixedContact::shared_multipliers() const {
+  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0);
+  for (const CondensedPoint& point : problem_.points)
+    for (int i = 0; i < point.node_count && point.node_count > 1; ++i) shared[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+  return shared;
+}
+
+/// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as stiff as the bodies
+/// suits any unit of length.
 void MixedContact::add_natural_augmentation() {
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  const std::vector<char> shared = shared_multipliers();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
-    if (points_[p].node < 0 || point.rows == 0) continue;
+    if (points_[p].node < 0 || point.rows == 0 || shared[static_cast<std::size_t>(point.nodes[0])]) continue;
     double stiffness = 0.0;
     for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
       stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
@@ -422,6 +440,32 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   forces = solution.forces;
   const double size = forces.size() ? forces.cwiseAbs().maxCoeff() : 0.0;
   return size > 0.0 ? most / size : most;
+}
+
+bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
+  const Eigen::VectorXd now = jumps(u);
+  std::vector<double> excess(definition_.zones.size(), 0.0);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const auto zone = static_cast<std::size_t>(points_[p].zone);
+    const MixedZone& mixed = definition_.zones[zone].mixed;
+    if (!mixed.penalised || !mixed.largest_depth || problem_.points[p].rows == 0) continue;
+    excess[zone] = std::max(excess[zone], -now[problem_.points[p].first_row] / *mixed.largest_depth);
+  }
+  bool raised = false;
+  for (std::size_t zone = 0; zone < excess.size(); ++zone) {
+    if (excess[zone] <= 1.0) continue;
+    stiffening_[zone] *= std::max(least_raise, raise_margin * excess[zone]);
+    if (stiffening_[zone] > most_raise)
+      throw Error("no-convergence", fmt::format("a contact penalty {:g} times the one given does not keep points from going deeper than allowed", most_raise),
+                  "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'");
+    raised = true;
+  }
+  if (!raised) return false;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
+    if (mixed.penalised) problem_.points[p].law.augmentation = mixed.augmentation * stiffening_[static_cast<std::size_t>(points_[p].zone)];
+  }
+  return true;
 }
 
 int MixedContact::closed_count() const {

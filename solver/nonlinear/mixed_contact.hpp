@@ -57,6 +57,10 @@ class MixedContact {
   double penetration(const Eigen::VectorXd& u) const;
   const std::vector<ContactPoint>& points() const { return points_; }
 
+  /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth); whether there were any. Throws Error
+  /// `no-convergence` where that does not help.
+  bool stiffen_penalties(const Eigen::VectorXd& u);
+
   /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
 
@@ -84,6 +88,7 @@ class MixedContact {
   CondensedPoint condensed(const ContactPoint& point) const;
   void choose_directions();
   Directions directions(const ContactPoint& point) const;
+  std::vector<char> shared_multipliers() const;
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
@@ -111,6 +116,7 @@ class MixedContact {
 
   std::map<Key, int> multiplier_numbers_;
   int dimension_ = 3;
+  std::vector<double> stiffening_;  ///< by which the penalty of each zone is raised, >= 1
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;

@@ -39,7 +39,7 @@ int count_changes(const std::vector<int>& a, const std::vector<int>& b) {
 
 NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                            const NewtonOptions& options, Counters& counters, TangentSystem& tangent,
-                           std::vector<int> support, const IterationObserver& observer)
+                           const ReferenceForces& reference, std::vector<int> support, const IterationObserver& observer)
     : mesh_(mesh),
       dofs_(dofs),
       assembler_(assembler),
@@ -50,6 +50,7 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       support_(std::move(support)),
       observer_(observer),
       criterion_(options),
+      reference_(reference),
       prediction_(options.tangent.prediction) {}
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
@@ -59,7 +60,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
   start(external, offset, state);
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
-    if (iteration > 1 && is_tangent_due(iteration) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
+    if (iteration > 1 && is_tangent_due(options_.tangent, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
     const Correction correction = correct(state, offset);
@@ -67,7 +68,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
       search(before, external, offset, state);
     else
       evaluate(state, external);
-    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state));
+    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_));
     history.push_back(report(time, iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -79,13 +80,6 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
   fail(time, history);
 }
 
-bool NewtonSolver::is_tangent_due(int iteration) const {
-  if (!tangent_.is_ready() || tangent_.is_constant()) return true;
-  const TangentPolicy& policy = options_.tangent;
-  if (iteration == 1) return policy.steps > 0 && steps_ % policy.steps == 0;
-  return policy.iterations > 0 && (iteration - 1) % policy.iterations == 0;
-}
-
 /// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the conditions on
 /// displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the elements beside them.
 void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
@@ -93,7 +87,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
-  if (is_tangent_due(1) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  if (is_tangent_due(options_.tangent, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   evaluate(state, external);
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
@@ -111,9 +105,10 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   if (!schur_) {
     schur_ = std::make_unique<SchurComplement>(
         reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_, slots);
+    schur_->soften(reduced_.inequalities.softness);
     schur_->use_whole([this](const RowMatrix& rows) { return tangent_.compliance(rows); });
   } else {
-    schur_->replace_rows(reduced_.inequalities.rows, slots);
+    schur_->replace_rows(reduced_.inequalities.rows, slots, reduced_.inequalities.softness);
   }
   row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
   active_.clear();
@@ -238,7 +233,7 @@ void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const 
     throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_);
 }
 
-/// S times the present multipliers.
+/// By how much the present multipliers push the rows back: S times them, less what soft rows give way.
 Eigen::VectorXd NewtonSolver::push_of_active() {
   Eigen::VectorXd held = Eigen::VectorXd::Zero(row_multipliers_.size());
   if (by_gradients()) {
@@ -246,7 +241,10 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
     return held;
   }
   schur_->require(active_);
-  for (const int row : active_) held += row_multipliers_[row] * schur_->column(row);
+  for (const int row : active_) {
+    held += row_multipliers_[row] * schur_->column(row);
+    held[row] -= row_multipliers_[row] * reduced_.inequalities.softness[row];
+  }
   return held;
 }
 
@@ -308,19 +306,11 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
   line.iteration = iteration;
   line.relative_residual = measure.relative;
   line.absolute_residual = measure.absolute;
-  line.worst = worst_place();
+  line.worst = worst_place(residual_, elimination_, dofs_, mesh_);
   line.active_conditions = mixed_ ? mixed_->closed_count() : static_cast<int>(active_.size());
   line.contact_changes = changes;
   line.penetration = penetration(state);
   return line;
-}
-
-std::string NewtonSolver::worst_place() const {
-  if (!residual_.size()) return {};
-  Eigen::Index row = 0;
-  residual_.cwiseAbs().maxCoeff(&row);
-  const int dof = elimination_.kept()[static_cast<std::size_t>(row)];
-  return fmt::format("{} at {}", name_of(dofs_.component_of(dof)), mesh_.node_name(dofs_.node_of(dof)));
 }
 
 void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {

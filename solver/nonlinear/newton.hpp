@@ -14,6 +14,7 @@
 #include "solver/nonlinear/condition_set.hpp"
 #include "solver/nonlinear/convergence.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
+#include "solver/nonlinear/reference_forces.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 #include "solver/unilateral/active_set.hpp"
@@ -39,8 +40,8 @@ class NewtonSolver {
  public:
   /// Keeps references to its arguments. `support`: the reduced unknowns that conditions can touch, rising.
   NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, std::vector<int> support,
-               const IterationObserver& observer);
+               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference,
+               std::vector<int> support, const IterationObserver& observer);
 
   /// Iterates to convergence at a time. `active_set_limit`: changes of the active set allowed in one iteration.
   /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
@@ -73,7 +74,6 @@ class NewtonSolver {
   };
 
   TangentKind kind_of(int iteration) const { return iteration == 1 ? prediction_ : options_.tangent.correction; }
-  bool is_tangent_due(int iteration) const;
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
@@ -94,7 +94,6 @@ class NewtonSolver {
   std::optional<double> penetration(const NewtonState& state) const;
   IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
                          const NewtonState& state) const;
-  std::string worst_place() const;
   [[noreturn]] void fail(double time, const std::vector<IterationReport>& history) const;
 
   const Mesh& mesh_;
@@ -107,6 +106,7 @@ class NewtonSolver {
   const std::vector<int> support_;
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
+  const ReferenceForces& reference_;
 
   const ContactDefinition* definition_ = nullptr;
   MixedContact* mixed_ = nullptr;

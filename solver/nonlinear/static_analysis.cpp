@@ -15,6 +15,7 @@
 #include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/newton.hpp"
+#include "solver/nonlinear/path_following.hpp"
 
 namespace comma::solver {
 namespace {
@@ -41,15 +42,17 @@ class StaticAnalysis {
         followers_(*problem.model, dofs_, problem.followers),
         elimination_(mesh_, dofs_, with_contact_relations()),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
+        reference_(*problem.model, dofs_, elimination_, options),
         contact_nodes_(nodes_of_contact()),
         observer_(observer),
-        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, support(), observer) {
+        newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
     if (problem.contact) newton_.use_algorithm(*problem.contact);
     if (!followers_.empty()) {
       tangent_.follow(followers_, !problem.contact && problem.unilateral.empty());
       newton_.follow(followers_);
     }
     require_symmetry();
+    if (options.path) follow_path();
     if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
@@ -66,12 +69,14 @@ class StaticAnalysis {
       const std::optional<int> iterations = try_step(instant, sequence);
       if (!iterations) continue;
       newton_.accept_step();
+      if (path_) path_->accept_step(now_.state.u);
       if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
       sequence.accept(*iterations);
+      if (path_ && path_->has_ended()) return;
     }
   }
 
@@ -157,11 +162,22 @@ class StaticAnalysis {
                 "leave out the unsymmetric element or the conditions");
   }
 
+  void follow_path() {
+    if (problem_.contact || !problem_.unilateral.empty() || !problem_.followers.empty())
+      throw Error("unsupported", "the intensity of loads is not sought together with contact, unilateral conditions or loads that follow",
+                  "leave out PILOTAGE, or the conditions");
+    path_ = std::make_unique<PathFollowing>(problem_, dofs_, assembler_, elimination_, options_, counters_, tangent_, reference_, observer_);
+  }
+
   bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
 
   /// The loads, and the relations that contact faces bring along.
   std::vector<AppliedLoad> with_contact_relations() const {
     std::vector<AppliedLoad> loads = problem_.loads;
+    for (AppliedLoad driven : problem_.driven) {
+      driven.multiplier = [this, own = driven.multiplier](double time) { return drive_ * (own ? own(time) : 1.0); };
+      loads.push_back(std::move(driven));
+    }
     if (!problem_.contact || problem_.contact->formulation == ContactFormulation::mixed) return loads;
     auto ties = std::make_shared<Load>();
     ties->relations = straight_edges(mesh_, dofs_, *problem_.contact);
@@ -208,6 +224,7 @@ class StaticAnalysis {
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     assembler_.set_time(instant);
     resume();
+    go_on_with_intensity();
     if (!result_.steps.empty()) return;
     result_.model = problem_.model;
     ResultStep step;
@@ -216,6 +233,7 @@ class StaticAnalysis {
     step.fields.emplace("SIEF_ELGA", initial_stresses());
     add_internal_variables(step);
     step.parameters["ITER_GLOB"] = 0.0;
+    if (path_) step.parameters["ETA_PILOTAGE"] = 0.0;
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
@@ -226,6 +244,13 @@ class StaticAnalysis {
     Eigen::VectorXd u = now_.state.u;
     if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, u);
     return u;
+  }
+
+  /// That of the last step, where the result goes on from one that had it.
+  void go_on_with_intensity() {
+    if (!path_ || result_.steps.empty()) return;
+    const auto& parameters = result_.steps.back().parameters;
+    if (const auto known = parameters.find("ETA_PILOTAGE"); known != parameters.end()) path_->set_intensity(known->second);
   }
 
   /// The body starts without stress even where its first temperature is not that of reference.
@@ -352,9 +377,25 @@ class StaticAnalysis {
     note_sparse_points(*problem_.contact, mesh_, counts, facets, gives_way, doubts_);
   }
 
+  /// What the intensity multiplies, and what it does not.
+  DrivenLoads driven_loads(double time) {
+    DrivenLoads loads;
+    loads.fixed = assembler_.external_forces(problem_.loads, time);
+    loads.driven = assembler_.external_forces(problem_.driven, time);
+    drive_ = 0.0;
+    loads.fixed_offset = elimination_.offset(time);
+    drive_ = 1.0;
+    loads.driven_offset = elimination_.offset(time) - loads.fixed_offset;
+    return loads;
+  }
+
   int solve_step(double time) {
     assembler_.set_time(time);
     followers_.set_time(time);
+    if (path_) {
+      start_ = now_.state.u;
+      return path_->solve(time, time - last_instant_, driven_loads(time), now_.state.reduced, now_.state.u);
+    }
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
@@ -372,7 +413,11 @@ class StaticAnalysis {
         resize_multipliers(next);
         now_.conditions = std::move(next);
         const int limit = active_set_limit();
-        const int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
+          if (observer_) observer_(event(time, "contact is deeper than allowed: its penalty is raised"));
+          done += newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        }
         iterations = is_weak ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
@@ -468,6 +513,7 @@ class StaticAnalysis {
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     add_patch_state(step);
     step.parameters["ITER_GLOB"] = iterations;
+    if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
     append(std::move(step));
   }
 
@@ -546,15 +592,18 @@ class StaticAnalysis {
   const NewtonOptions& options_;
   Result& result_;
   Counters& counters_;
+  double drive_ = 1.0;  ///< what multiplies driven conditions on displacements while offsets are taken
   DofMap dofs_;
   Assembler assembler_;
   FollowerForces followers_;
   Elimination elimination_;
   TangentSystem tangent_;
+  ReferenceForces reference_;
   std::vector<int> contact_nodes_;
   const IterationObserver& observer_;
   NewtonSolver newton_;
   std::unique_ptr<MixedContact> mixed_;
+  std::unique_ptr<PathFollowing> path_;
 
   Progress now_;
   ContactDoubts doubts_;

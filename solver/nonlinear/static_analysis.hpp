@@ -15,6 +15,7 @@
 #include "solver/materials/material.hpp"
 #include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
+#include "solver/nonlinear/path_control.hpp"
 #include "solver/nonlinear/step_sequence.hpp"
 
 namespace comma::solver {
@@ -46,6 +47,7 @@ struct StaticProblem {
   std::shared_ptr<const ElementProperties> properties;  ///< never null, may be empty
   std::vector<AppliedLoad> loads;      ///< on the initial geometry
   std::vector<AppliedLoad> followers;  ///< on the deformed one: see follower_forces.hpp
+  std::vector<AppliedLoad> driven;     ///< on the initial geometry, times the intensity that NewtonOptions::path finds
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
   std::shared_ptr<const BehaviourOfCells> behaviours;  ///< null: linear elasticity in small strains everywhere
@@ -82,9 +84,18 @@ enum class StepGuess : std::uint8_t {
   extrapolate  ///< where the displacements go if they keep their speed (EXTRAPOLE)
 };
 
+/// Stresses and resultants of the size that a user expects, of which reference forces are made (R5.03.01, RESI_REFE_RELA).
+struct ReferenceEfforts {
+  double stress = 0.0;  ///< SIGM_REFE, of continua
+  double force = 0.0;   ///< EFFORT_REFE, of bars, beams, springs and, a length, of plates
+  double moment = 0.0;  ///< MOMENT_REFE, of beams, springs and, a length, of plates
+};
+
 struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
+  std::optional<double> referred_residual;         ///< RESI_REFE_RELA: against forces that the reference efforts make
+  ReferenceEfforts reference;
   bool one_criterion = false;                      ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
@@ -93,6 +104,7 @@ struct NewtonOptions {
   std::optional<LineSearch> line_search;  ///< for problems without contact and unilateral conditions
   StepGuess guess = StepGuess::stay;
   std::shared_ptr<const Result> guessed;  ///< not null: instead, steps start from the displacements of this result at their instants, linear between its steps (DEPL_CALCULE)
+  std::optional<PathControl> path;  ///< the intensity of driven loads is an unknown
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };
 
@@ -117,7 +129,8 @@ using IterationObserver = std::function<void(const IterationReport&)>;
 using StepObserver = std::function<void(Result& result)>;
 
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
-/// `result`: DEPL, SIEF_ELGA, VARI_ELGA where a material has a memory, and CONT_NOEU with contact. Steps already appended stay when it throws.
+/// `result`: DEPL, SIEF_ELGA, VARI_ELGA where a material has a memory, CONT_NOEU with contact, and the parameter ETA_PILOTAGE where the
+/// intensity of loads is an unknown (whose last step is the one that reaches a bound). Steps already appended stay when it throws.
 /// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
 /// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
 /// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.

@@ -30,6 +30,12 @@ void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, Symmetri
 
 }  // namespace
 
+bool is_tangent_due(const TangentPolicy& policy, const TangentSystem& tangent, int iteration, int steps) {
+  if (!tangent.is_ready() || tangent.is_constant()) return true;
+  if (iteration == 1) return policy.steps > 0 && steps % policy.steps == 0;
+  return policy.iterations > 0 && (iteration - 1) % policy.iterations == 0;
+}
+
 TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler,
                              const Elimination& elimination, const NewtonOptions& options, Counters& counters)
     : model_(model),

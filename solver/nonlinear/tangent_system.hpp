@@ -17,6 +17,11 @@
 
 namespace comma::solver {
 
+class TangentSystem;
+
+/// Whether the stiffness is to be made again for an iteration (from 1) of the step after so many accepted ones.
+bool is_tangent_due(const TangentPolicy& policy, const TangentSystem& tangent, int iteration, int steps);
+
 /// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant. Where an element is
 /// unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
 class TangentSystem {

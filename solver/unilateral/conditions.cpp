@@ -44,6 +44,7 @@ Inequalities unilateral_rows(std::span<const UnilateralCondition> conditions, co
                              double time) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> bounds;
+  std::vector<double> softness;
   for (const UnilateralCondition& condition : conditions) {
     for (const int node : condition.nodes) {
       const int row = static_cast<int>(bounds.size());
@@ -52,12 +53,14 @@ Inequalities unilateral_rows(std::span<const UnilateralCondition> conditions, co
         entries.emplace_back(row, require_dof(dofs, mesh, node, condition.components[k]),
                              condition.coefficients[k](at, time));
       bounds.push_back(condition.bound(at, time));
+      softness.push_back(condition.penalty > 0.0 ? 1.0 / condition.penalty : 0.0);
     }
   }
   Inequalities result;
   result.rows.resize(static_cast<Eigen::Index>(bounds.size()), dofs.size());
   result.rows.setFromTriplets(entries.begin(), entries.end());
   result.bounds = Eigen::Map<const Eigen::VectorXd>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
+  result.softness = Eigen::Map<const Eigen::VectorXd>(softness.data(), static_cast<Eigen::Index>(softness.size()));
   return result;
 }
 
@@ -78,7 +81,7 @@ ReducedInequalities reduce(const Inequalities& full, const Elimination& eliminat
     }
     if (!empty) {
       reduced.origin.push_back(row);
-    } else if (bounds[row] < -feasibility_tolerance * term_size(full, row, offset)) {
+    } else if (full.softness_of(row) == 0.0 && bounds[row] < -feasibility_tolerance * term_size(full, row, offset)) {
       throw Error("contradictory-conditions",
                   fmt::format("imposed displacements violate {} by {:.6g}", describe(row), -bounds[row]),
                   "the node is held where the condition forbids it to be: change the imposed value or the condition");
@@ -88,7 +91,11 @@ ReducedInequalities reduce(const Inequalities& full, const Elimination& eliminat
   reduced.inequalities.rows.resize(count, elimination.reduced_size());
   reduced.inequalities.rows.setFromTriplets(entries.begin(), entries.end());
   reduced.inequalities.bounds.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) reduced.inequalities.bounds[i] = bounds[reduced.origin[i]];
+  reduced.inequalities.softness.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    reduced.inequalities.bounds[i] = bounds[reduced.origin[i]];
+    reduced.inequalities.softness[i] = full.softness_of(reduced.origin[i]);
+  }
   return reduced;
 }
 

@@ -9,10 +9,13 @@
 namespace comma::solver {
 
 /// Rows A u <= b over the free unknowns. The multipliers lambda >= 0 push back with the force -A^T lambda;
-/// lambda_i (b_i - A_i u) = 0.
+/// lambda_i (b_i - A_i u) = 0. A row with a softness s gives way instead: A_i u - b_i <= s_i lambda_i takes the place of A_i u <= b_i.
 struct Inequalities {
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows;
   Eigen::VectorXd bounds;
+  Eigen::VectorXd softness{};  ///< one a row, in units of A u over those of lambda; empty: all zero
+
+  double softness_of(Eigen::Index row) const { return softness.size() ? softness[row] : 0.0; }
 };
 
 }  // namespace comma::solver

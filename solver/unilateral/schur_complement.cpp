@@ -41,6 +41,11 @@ void SchurComplement::require(std::span<const int> indices) {
   solve_rows(missing);
 }
 
+void SchurComplement::store(int row, Eigen::VectorXd column) {
+  if (softness_.size()) column[row] += softness_[row];
+  columns_[row] = std::move(column);
+}
+
 void SchurComplement::solve_rows(const std::vector<int>& missing) {
   for (std::size_t first = 0; first < missing.size(); first += batch_size) {
     const std::size_t count = std::min<std::size_t>(batch_size, missing.size() - first);
@@ -50,7 +55,7 @@ void SchurComplement::solve_rows(const std::vector<int>& missing) {
         batch(it.col(), static_cast<Eigen::Index>(k)) = it.value();
     inverse_(batch);
     const Eigen::MatrixXd product = source_ * batch;
-    for (std::size_t k = 0; k < count; ++k) columns_[missing[first + k]] = product.col(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < count; ++k) store(missing[first + k], product.col(static_cast<Eigen::Index>(k)));
   }
 }
 
@@ -61,7 +66,7 @@ bool SchurComplement::solve_whole(const std::vector<int>& missing) {
   source_ = rows_;
   exact_ = true;
   ++version_;
-  for (int row = 0; row < size(); ++row) columns_[row] = whole.col(row);
+  for (int row = 0; row < size(); ++row) store(row, whole.col(row));
   return true;
 }
 
@@ -97,7 +102,7 @@ bool SchurComplement::build_from_compliance(const std::vector<int>& missing) {
     Eigen::VectorXd column = Eigen::VectorXd::Zero(rows_.rows());
     for (int other = 0; other < rows_.outerSize(); ++other)
       for (RowMatrix::InnerIterator it(rows_, other); it; ++it) column[other] += it.value() * response[places[it.col()]];
-    columns_[row] = std::move(column);
+    store(row, std::move(column));
   }
   return true;
 }
@@ -107,8 +112,9 @@ const Eigen::VectorXd& SchurComplement::column(int index) const {
   return columns_[index];
 }
 
-void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys) {
+void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen::VectorXd softness) {
   rows.makeCompressed();
+  softness_ = std::move(softness);
   if (same(rows_, rows) && keys_ == keys) return;
   rows_change_ = rows_change_ || rows_.rows() > 0;
   const bool same_keys = keys_ == keys && rows_.rows() == rows.rows();

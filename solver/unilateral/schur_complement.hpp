@@ -30,6 +30,10 @@ class SchurComplement {
   /// each row is about, all different, by which rows are known again when others take their place; empty: their numbers.
   SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support = {}, std::vector<int> keys = {});
 
+  /// What rows give way by a unit of their multiplier, which is added to their own entries of S from now on: one a row, always the same
+  /// for a key; empty: nothing. To be called before columns are asked for, and before other rows come.
+  void soften(Eigen::VectorXd softness) { softness_ = std::move(softness); }
+
   /// Another way to many columns.
   void use_whole(WholeCompliance whole) { whole_ = std::move(whole); }
 
@@ -44,7 +48,7 @@ class SchurComplement {
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
-  void replace_rows(RowMatrix rows, std::vector<int> keys = {});
+  void replace_rows(RowMatrix rows, std::vector<int> keys = {}, Eigen::VectorXd softness = {});
   /// After a new factorisation.
   void forget();
 
@@ -68,6 +72,7 @@ class SchurComplement {
   bool has_columns() const;
   void clear();
   bool take_over(const RowMatrix& rows, const std::vector<int>& keys);
+  void store(int row, Eigen::VectorXd column);
   void complete_columns(const std::vector<int>& added);
   void solve_rows(const std::vector<int>& missing);
   bool solve_whole(const std::vector<int>& missing);
@@ -80,6 +85,7 @@ class SchurComplement {
   ApplyInverse inverse_;
   WholeCompliance whole_;
   std::vector<Eigen::VectorXd> columns_;
+  Eigen::VectorXd softness_;
   std::vector<int> support_;
   std::vector<Eigen::VectorXd> compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
   bool rows_change_ = false;

@@ -37,6 +37,8 @@ TEST_CASE("Contact, open, not paired and foreign nodes") {
   CHECK(at(1, "RN") == 0.0);
   CHECK(at(2, "CONT") == -1.0);
   CHECK(std::isnan(at(2, "JEU")));
+  for (const char* force : {"RN", "RNX", "RTAY", "RTGZ", "R"}) CHECK(at(2, force) == 0.0);
+  CHECK(std::isnan(at(3, "RN")));
   CHECK(std::isnan(at(3, "CONT")));
 }
 

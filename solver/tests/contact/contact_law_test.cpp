@@ -71,6 +71,17 @@ TEST_CASE("A sliding point bears the limit of friction against the slip; a stick
   CHECK(sticking.residual.norm() == Approx(0.0).margin(1e-15));
 }
 
+TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; of the depth where a penalty presses") {
+  ContactLaw law;
+  law.friction = 0.5;
+  const Vector3d overlapping(-0.2, 0.3, 0.4);
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == Approx(5.0));
+  CHECK(contact_status(law, false, Vector3d(10, 4.9, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 5.1, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sliding);
+  law.penalised = true;
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == Approx(10.0));
+}
+
 TEST_CASE("Statuses: an overlap closes, a pull opens, a shear below the limit sticks") {
   ContactLaw law;
   law.friction = 0.5;

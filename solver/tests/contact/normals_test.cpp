@@ -39,12 +39,12 @@ TEST_CASE("A node's normal is the mean of its facets'") {
 TEST_CASE("A given master normal replaces the facet's, at unit length") {
   const Mesh mesh = corner();
   ContactZone zone;
-  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(1, 0, 0)).norm() < 1e-15);
+  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(1, 0, 0)).norm() < 1e-15);
   zone.master_normal = NormalRule::fixed;
   zone.master_vector = {0, 3, 4};
-  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0.6, 0.8)).norm() < 1e-15);
+  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0.6, 0.8)).norm() < 1e-15);
   zone.master_vector = {0, 0, 0};
-  CHECK_THROWS_AS(master_normal(zone, mesh, 1, {0, 0}, places(mesh)), Error);
+  CHECK_THROWS_AS(surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)), Error);
 }
 
 TEST_CASE("The contact direction runs from master to slave on whichever side it is taken") {
@@ -58,7 +58,7 @@ TEST_CASE("The contact direction runs from master to slave on whichever side it 
 TEST_CASE("A line in space needs a given normal") {
   Mesh mesh = corner();
   mesh.dimension = 3;
-  CHECK_THROWS_AS(master_normal(ContactZone{}, mesh, 0, {0, 0}, places(mesh)), Error);
+  CHECK_THROWS_AS(surface_normal(NormalChoice{}, mesh, 0, {0, 0}, places(mesh)), Error);
 }
 
 TEST_CASE("A normal across a given direction is square to it, on lines in space and on faces") {
@@ -69,10 +69,23 @@ TEST_CASE("A normal across a given direction is square to it, on lines in space 
   ContactZone zone;
   zone.master_normal = NormalRule::along_y;
   zone.master_vector = {0, 2, 0};
-  CHECK((master_normal(zone, mesh, 0, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
+  CHECK((surface_normal(master_choice(zone), mesh, 0, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
   // The face's own normal is (0, -1, 1) / sqrt(2).
-  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
+  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
   zone.master_vector = {1, 0, 0};
-  CHECK_THROWS_AS(master_normal(zone, mesh, 0, {0, 0}, places(mesh)), Error);
-  CHECK((master_normal(zone, mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, -std::sqrt(0.5), std::sqrt(0.5))).norm() < 1e-15);
+  CHECK_THROWS_AS(surface_normal(master_choice(zone), mesh, 0, {0, 0}, places(mesh)), Error);
+  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, -std::sqrt(0.5), std::sqrt(0.5))).norm() < 1e-15);
+}
+
+TEST_CASE("Normals at nodes follow the rule that is given for the surface") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
+  mesh.add_cell(CellType::seg2, std::vector<int>{0, 1});
+  mesh.add_cell(CellType::seg2, std::vector<int>{1, 2});
+  // Across z, a line along x has the normal -y and one along y has x: the mean of both at the corner.
+  const auto across = nodal_normals(mesh, std::vector<int>{0, 1}, places(mesh), {NormalRule::along_y, {0, 0, 1}});
+  CHECK((across.at(0) - Vector3d(0, -1, 0)).norm() < 1e-15);
+  CHECK((across.at(1) - Vector3d(std::sqrt(0.5), -std::sqrt(0.5), 0)).norm() < 1e-15);
+  const auto fixed = nodal_normals(mesh, std::vector<int>{0, 1}, places(mesh), {NormalRule::fixed, {0, 0, 2}});
+  for (const int node : {0, 1, 2}) CHECK((fixed.at(node) - Vector3d(0, 0, 1)).norm() < 1e-15);
 }

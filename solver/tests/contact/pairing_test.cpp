@@ -80,3 +80,24 @@ TEST_CASE("A slave node that belongs to a master facet is not paired with itself
   for (const ContactPair& pair : table.pair())
     if (pair.slave == 0) CHECK(pair.facet != 0);
 }
+
+TEST_CASE("With a pairing direction a slave node takes the facet that lies in it, not the nearest") {
+  Table table({{1.5, 1, 0}, {3.5, 1, 0}});
+  CHECK(table.pair()[0].facet == 0);
+  table.zone().pairing_direction = {1.0, -1.0, 0.0};
+  const auto pairs = table.pair();
+  CHECK(pairs[0].facet == 1);
+  CHECK((pairs[0].foot - Vector3d(2.5, 0, 0)).norm() < 1e-13);
+  CHECK((pairs[0].normal - Vector3d(0, 1, 0)).norm() == 0.0);  // gaps stay along the normal
+  CHECK(pairs[1].status == PairingStatus::paired);             // beyond the end by half of a half edge
+  CHECK((pairs[1].foot - Vector3d(4, 0, 0)).norm() == 0.0);
+}
+
+TEST_CASE("What elements add to both sides is taken off the gap") {
+  Table table({{1, 1, 0}, {3, 1, 0}});
+  table.zone().half_thickness[0] = {0.1, 0.3};  // the facet from x = 2 to x = 0
+  table.zone().half_thickness[table.zone().slave_cells[0]] = {0.05, 0.07};
+  const auto pairs = table.pair();
+  CHECK(pairs[0].thickness == Approx(0.2 + 0.05));
+  CHECK(pairs[1].thickness == Approx(0.07));
+}

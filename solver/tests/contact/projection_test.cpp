@@ -60,3 +60,22 @@ TEST_CASE("On warped and curved faces a lifted point comes back to where it was 
     }
   }
 }
+
+TEST_CASE("Along a direction a point meets a facet where the line through it does") {
+  const std::vector<Vector3d> segment = {{0, 0, 0}, {4, 0, 0}};
+  const auto slanted = project_along({1, 1, 0}, {0, -2, 0}, CellType::seg2, segment);
+  REQUIRE(slanted);
+  CHECK((slanted->foot - Vector3d(2, 0, 0)).norm() < 1e-13);
+  CHECK(slanted->distance == Approx(2 * std::sqrt(2.0)));
+  CHECK(slanted->outside == 0.0);
+  // A line that passes the facet by ends at its border; one along it meets it nowhere.
+  CHECK((project_along({1, 1, 0}, {3, -2, 0}, CellType::seg2, segment)->foot - Vector3d(4, 0, 0)).norm() == 0.0);
+  CHECK_FALSE(project_along({1, 0, 0}, {1, -2, 0}, CellType::seg2, segment));
+
+  const std::vector<Vector3d> warped = {{0, 0, 0}, {2, 0, 0.2}, {2, 2, -0.1}, {0, 2, 0.3}};
+  const Vector3d direction(0.3, -0.2, 1.0);
+  const Vector3d inside = 0.25 * 0.75 * (warped[0] + warped[2]) + 0.75 * 0.75 * warped[1] + 0.25 * 0.25 * warped[3];
+  const auto found = project_along(direction, inside + 1.7 * direction, CellType::quad4, warped);
+  REQUIRE(found);
+  CHECK((found->foot - inside).norm() < 1e-12);
+}

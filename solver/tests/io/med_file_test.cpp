@@ -102,6 +102,18 @@ TEST_CASE("a mesh with every cell type comes back from a MED file") {
   }
 }
 
+TEST_CASE("faces in the plane Z = 0 lie in two dimensions, whatever the file says of the space around") {
+  Mesh mesh = small_mesh();
+  mesh.dimension = 3;
+  CHECK(rewritten(mesh).dimension == 2);
+  mesh.nodes[0][2] = 1e-3;
+  CHECK(rewritten(mesh).dimension == 3);
+  Mesh frame;
+  frame.nodes = {{0, 0, 0}, {1, 0, 0}};
+  frame.add_cell(CellType::seg2, std::vector{0, 1});
+  CHECK(rewritten(frame).dimension == 3);
+}
+
 TEST_CASE("groups come back from a MED file") {
   const Mesh mesh = small_mesh();
   check_same(rewritten(mesh), mesh);

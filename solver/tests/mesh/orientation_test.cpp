@@ -156,6 +156,17 @@ TEST_CASE("a solid whose nodes run inside out gets its skin outside all the same
   CHECK(enclosed(mesh, skin).first == Approx(1.0));
 }
 
+TEST_CASE("a triangle that is turned exchanges its first corner and its third; the second corner stays where contact knows it") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  mesh.add_cell(CellType::tetra10, std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  const int linear = mesh.add_cell(CellType::tria3, std::vector{1, 2, 0});
+  const int quadratic = mesh.add_cell(CellType::tria6, std::vector{1, 2, 0, 5, 6, 4});
+  CHECK(orient_skin(mesh, std::vector{linear, quadratic}) == 2);
+  CHECK(std::ranges::equal(mesh.cell(linear), std::vector{0, 2, 1}));
+  CHECK(std::ranges::equal(mesh.cell(quadratic), std::vector{0, 2, 1, 6, 5, 4}));
+}
+
 TEST_CASE("a skin without one clear side is an error") {
   Mesh mesh = block(2, 1, 1);
   const int inside = mesh.add_cell(CellType::quad4, std::vector{1, 4, 10, 7});

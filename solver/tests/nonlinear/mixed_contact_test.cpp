@@ -1,10 +1,13 @@
 #include "solver/nonlinear/mixed_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "scene.hpp"
+#include "solver/contact/face_rule.hpp"
+#include "solver/contact/facet.hpp"
 #include "solver/error.hpp"
 
 using namespace comma::solver;
@@ -96,6 +99,26 @@ TEST_CASE("With a penalty the depth is the pressure over the coefficient") {
   // Two springs of E / h = 2e5 and one of 1e5 in series: a quarter, a quarter and a half of 0.02.
   CHECK(pressure(stack.scene, stack.upper.nodes[0][2]) == Approx(1000.0).epsilon(1e-9));
   CHECK(stack.scene.contact(stack.upper.nodes[0][2], "JEU") == Approx(-0.01).epsilon(1e-9));
+}
+
+TEST_CASE("A penalty that lets points too deep is raised until they are not, and otherwise left alone") {
+  const auto depth = [](std::optional<double> allowed) {
+    Stack stack(4, 4);
+    stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+    stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+    auto& mixed = stack.scene.problem.contact->zones.front().mixed;
+    mixed.penalised = true;
+    mixed.augmentation = 1e5;
+    mixed.largest_depth = allowed;
+    stack.scene.solve(2);
+    return stack.scene.displacement(stack.lower.nodes.back()[1], Component::dy) - stack.scene.displacement(stack.upper.nodes[0][1], Component::dy);
+  };
+  // In series: strain (0.02 - depth) / 2, pressure 1e5 (0.02 - depth) = 1e5 depth.
+  CHECK(depth(std::nullopt) == Approx(0.01).epsilon(1e-9));
+  CHECK(depth(0.02) == Approx(0.01).epsilon(1e-9));
+  const double raised = depth(1e-4);
+  CHECK(raised <= 1e-4);
+  CHECK(raised > 1e-5);
 }
 
 TEST_CASE("A pressed block sticks below the limit of friction and slides at it") {
@@ -231,4 +254,55 @@ TEST_CASE("A long contact that slides takes few solutions a step, whatever the f
     sums.push_back(sum);
   }
   CHECK(sums[0] == Approx(sums[1]).epsilon(1e-3));  // the weights of nodes differ at the ends
+}
+
+TEST_CASE("Between nodes the law of contact holds in the mean, with one augmentation for all points of a face") {
+  // Quadratic faces on springs above a rigid floor, loaded so that they touch in the middle alone. Each third point lies on a middle node.
+  Scene scene;
+  const auto floor = scene.block("g", {-1, -1}, {8, 1}, 1, 1, 2e5, 0.0);
+  for (const auto& row : floor.nodes) scene.impose(row, Component::dx, 0), scene.impose(row, Component::dy, 0);
+  constexpr int faces = 3;
+  std::vector<int> nodes, slave;
+  for (int i = 0; i <= 2 * faces; ++i) {
+    const double away = i - faces + 0.3;
+    nodes.push_back(scene.node("s" + std::to_string(i), i, 0.02));
+    scene.impose({nodes.back()}, Component::dx, 0);
+    scene.ground_spring("k" + std::to_string(i), nodes.back(), 0.0, 100.0);
+    scene.force(nodes.back(), Component::dy, away * away - 6.0);
+  }
+  for (int i = 0; i < faces; ++i) {
+    const std::size_t first = 2 * static_cast<std::size_t>(i);
+    slave.push_back(scene.cell("f" + std::to_string(i), CellType::seg3, {nodes[first], nodes[first + 2], nodes[first + 1]}, Formulation::plane_strain));
+  }
+  ContactZone& zone = scene.zone(floor.top, slave);
+  zone.master_normal = NormalRule::fixed;  // heights are gaps
+  zone.master_vector = {0, 1, 0};
+  zone.mixed.rule = ContactRule::gauss;
+  zone.mixed.augmentation = 40.0;
+  scene.problem.contact->formulation = ContactFormulation::mixed;
+  scene.solve(1);
+
+  std::vector<double> left(nodes.size(), 0.0), weights(nodes.size(), 0.0);
+  double closed = 0.0, open = 0.0;
+  for (const int face : slave) {
+    const auto own = scene.mesh->cell(face);
+    for (const FacePoint& at : face_rule(CellType::seg3, ContactRule::gauss, 0)) {
+      const auto shape = facet_shape(CellType::seg3, at.xi).values;
+      double multiplier = 0.0, gap = 0.0;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        multiplier += shape[i] * pressure(scene, own[i]);
+        gap += shape[i] * (scene.mesh->nodes[own[i]][1] + scene.displacement(own[i], Component::dy));
+      }
+      const double trial = multiplier - zone.mixed.augmentation * gap;
+      (trial > 0.0 ? closed : open) += at.weight;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        const auto known = static_cast<std::size_t>(std::ranges::find(nodes, own[i]) - nodes.begin());
+        left[known] += at.weight * shape[i] * (std::max(0.0, trial) - multiplier);
+        weights[known] += at.weight * std::abs(shape[i] * multiplier);
+      }
+    }
+  }
+  CHECK(closed > 1.0);
+  CHECK(open > 1.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) CHECK(std::abs(left[i]) <= 1e-9 * weights[i]);
 }

@@ -88,6 +88,19 @@ TEST_CASE("A spring that closes a gap: closed form") {
     CHECK(scene.displacement(left, Component::dx) == Approx(gap).epsilon(1e-14));
     CHECK(push - scene.internal_force(left, Component::dx) == Approx(push - k * gap).epsilon(1e-13));
   }
+  SECTION("soft stop") {
+    scene.problem.unilateral[0].penalty = s;
+    scene.solve(2);
+    const double expected = (push + s * gap) / (k + s);
+    for (const int step : {1, 2}) CHECK(scene.displacement(left, Component::dx, step) == Approx(expected).epsilon(1e-13));
+    CHECK(push - scene.internal_force(left, Component::dx) == Approx(s * (expected - gap)).epsilon(1e-12));
+  }
+  SECTION("soft stop that the node is pushed beyond") {
+    scene.problem.unilateral[0].penalty = s;
+    scene.impose({left}, Component::dx, 2 * gap);
+    CHECK_NOTHROW(scene.solve(1));
+    CHECK(scene.displacement(left, Component::dx) == Approx(2 * gap));
+  }
   SECTION("out of reach") {
     scene.problem.unilateral[0].bound = constant(0.6);
     scene.solve(1);

@@ -1,0 +1,82 @@
+#include "solver/contact/half_thickness.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+bool is_beam(Formulation formulation) {
+  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+}
+
+template <class Sections>
+const auto& section_of(const Sections& sections, const Mesh& mesh, int cell) {
+  const auto found = sections.find(cell);
+  if (found != sections.end()) return found->second;
+  throw Error("missing-section", fmt::format("the element on cell {} has no section, which contact is to add to its surface", mesh.cell_name(cell)),
+              "give it one in AFFE_CARA_ELEM");
+}
+
+double radius_of(const BeamSection& section, const Mesh& mesh, int cell) {
+  if (section.shape == SectionShape::circle) return section.reach_y;
+  throw Error("unsupported", fmt::format("the section of the beam on cell {} is no circle: how far its surface lies from its axis depends on the side",
+                                         mesh.cell_name(cell)),
+              "give the distance itself (DIST_MAIT, DIST_ESCL)");
+}
+
+}  // namespace
+
+std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const ElementProperties& properties, std::span<const int> cells) {
+  std::unordered_map<int, HalfThickness> radii;
+  const Mesh& mesh = *model.mesh;
+  for (const int cell : cells) {
+    if (!is_beam(model.formulations[static_cast<std::size_t>(cell)])) continue;
+    const BeamSection& section = section_of(properties.sections, mesh, cell);
+    const double first = radius_of(section, mesh, cell);
+    radii[cell] = {first, section.end ? radius_of(*section.end, mesh, cell) : first};
+  }
+  return radii;
+}
+
+std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model, const ElementProperties& properties, std::span<const int> cells) {
+  std::unordered_map<int, HalfThickness> halves;
+  for (const int cell : cells) {
+    if (!is_plate(model.formulations[static_cast<std::size_t>(cell)])) continue;
+    const double half = 0.5 * section_of(properties.plates, *model.mesh, cell).thickness;
+    halves[cell] = {half, half};
+  }
+  return halves;
+}
+
+double half_thickness(const ContactZone& zone, const Mesh& mesh, int cell, const std::array<double, max_facet_nodes>& shape) {
+  const auto found = zone.half_thickness.find(cell);
+  if (found == zone.half_thickness.end()) return 0.0;
+  const HalfThickness& own = found->second;
+  if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 1) return own.first;
+  // The middle node of a line has half of either end.
+  return (shape[0] + 0.5 * shape[2]) * own.first + (shape[1] + 0.5 * shape[2]) * own.last;
+}
+
+std::unordered_map<int, double> nodal_half_thickness(const ContactZone& zone, const Mesh& mesh) {
+  std::unordered_map<int, std::pair<double, int>> sums;
+  for (const int cell : zone.slave_cells) {
+    if (!zone.half_thickness.contains(cell)) continue;
+    const auto nodes = mesh.cell(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::array<double, max_facet_nodes> at_node{};
+      at_node[i] = 1.0;
+      auto& [sum, count] = sums[nodes[i]];
+      sum += half_thickness(zone, mesh, cell, at_node);
+      ++count;
+    }
+  }
+  std::unordered_map<int, double> means;
+  for (const auto& [node, sum] : sums) means.emplace(node, sum.first / sum.second);
+  return means;
+}
+
+}  // namespace comma::solver

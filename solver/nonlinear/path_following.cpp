@@ -1,0 +1,233 @@
+#include "solver/nonlinear/path_following.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/line_search.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+/// An intensity moves nothing where it moves the controlled displacements by less than this share of what it moves at most.
+constexpr double no_influence = 1e-12;
+/// Intensities that differ by less than this share are one.
+constexpr double same_intensity = 1e-12;
+
+double largest(const VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
+
+}  // namespace
+
+PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
+                             const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer)
+    : problem_(problem),
+      mesh_(*problem.model->mesh),
+      dofs_(dofs),
+      assembler_(assembler),
+      elimination_(elimination),
+      options_(options),
+      control_(*options.path),
+      counters_(counters),
+      tangent_(tangent),
+      observer_(observer),
+      criterion_(options),
+      reference_(reference) {
+  if (control_.measure != PathMeasure::elastic_prediction) number_controlled();
+}
+
+void PathFollowing::number_controlled() {
+  std::vector<int> nodes = control_.nodes;
+  const bool all = nodes.empty();
+  if (all)
+    for (int node = 0; node < mesh_.node_count(); ++node) nodes.push_back(node);
+  for (const int node : nodes)
+    for (const Component component : control_.components) {
+      controlled_nodes_ += component == control_.components.front() ? 1 : 0;
+      const int dof = dofs_.dof(node, component);
+      if (dof >= 0) controlled_.push_back(dof);
+      else if (!all)
+        throw Error("unknown-dof", fmt::format("node {} carries no {}, which the path is to control", mesh_.node_name(node), name_of(component)),
+                    "control a component that the node has");
+    }
+  if (controlled_.empty()) throw Error("unknown-dof", "no node carries a component that the path is to control", "name others");
+}
+
+int PathFollowing::solve(double time, double duration, const DrivenLoads& loads, VectorXd& q, VectorXd& u) {
+  time_ = time;
+  start_ = u;
+  intensity_ = accepted_;
+  ended_ = false;
+  if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
+  const double wanted = duration / control_.scale;
+  std::vector<IterationReport> history;
+  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
+    ++counters_.newton_iterations;
+    Correction change = correction(iteration, loads, q, u);
+    if (options_.line_search && iteration > 1) shorten(time, wanted, loads, u, change);
+    intensity_ = chosen(time, candidates(wanted, change, u), change, loads, u);
+    u += change.constant + intensity_ * change.linear;
+    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = u[elimination_.kept()[static_cast<std::size_t>(i)]];
+    u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
+    evaluate(intensity_, loads, u);
+    const auto measure = criterion_.measure(largest(residual_), load_, false, reference_.share(residual_));
+    history.push_back(report(time, iteration, measure));
+    if (observer_) observer_(history.back());
+    if (measure.converged) {
+      ended_ = intensity_ <= control_.least || intensity_ >= control_.most;
+      return iteration;
+    }
+    if (!std::isfinite(measure.absolute)) break;
+  }
+  throw_no_convergence(time, history, options_, tangent_.is_constant());
+}
+
+void PathFollowing::accept_step(const VectorXd& u) {
+  last_step_ = u - start_;
+  accepted_ = intensity_;
+  criterion_.accept(load_);
+  ++steps_;
+  if (!observer_) return;
+  IterationReport event;
+  event.instant = time_;
+  event.event = fmt::format("driven loads have the intensity {:.8g}{}", intensity_, ended_ ? ", the bound: the computation ends" : "");
+  observer_(event);
+}
+
+/// With what the conditions on displacements move as a correction from where the nodes are.
+PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenLoads& loads, const VectorXd& q, const VectorXd& u) {
+  const TangentKind kind = iteration == 1 ? options_.tangent.prediction : options_.tangent.correction;
+  if (is_tangent_due(options_.tangent, tangent_, iteration, steps_)) tangent_.refresh(u, kind);
+  const VectorXd moved = elimination_.transformation() * q + loads.fixed_offset - u;
+  const auto& t = elimination_.transformation();
+  Eigen::MatrixXd columns(elimination_.reduced_size(), 2);
+  columns.col(0) = t.transpose() * (loads.fixed - assembler_.internal_forces(u));
+  columns.col(1) = t.transpose() * loads.driven;
+  if (!moved.isZero(0.0)) columns.col(0) -= tangent_.reduced_forces(u, moved, kind);
+  if (!loads.driven_offset.isZero(0.0)) columns.col(1) -= tangent_.reduced_forces(u, loads.driven_offset, kind);
+  if (columns.size()) tangent_.solve(columns);
+  return {t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset};
+}
+
+/// Takes the share of the correction at which the residual does no more work on it; each share has an intensity of its own.
+void PathFollowing::shorten(double time, double wanted, const DrivenLoads& loads, const VectorXd& u, Correction& change) {
+  if (!loads.driven_offset.isZero(0.0))
+    throw Error("unsupported", "a line search along the path needs driven loads that are forces, not imposed displacements", "leave out RECH_LINEAIRE");
+  const Correction whole = change;
+  const auto direction = [&] {
+    VectorXd step(elimination_.reduced_size());
+    const VectorXd full = whole.constant + intensity_ * whole.linear;
+    for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = full[elimination_.kept()[static_cast<std::size_t>(i)]];
+    return step;
+  };
+  const auto work = [&](double share) {
+    change = {share * whole.constant, share * whole.linear};
+    intensity_ = chosen(time, candidates(wanted, change, u), change, loads, u);
+    evaluate(intensity_, loads, u + change.constant + intensity_ * change.linear);
+    return direction().dot(residual_);
+  };
+  const double start = direction().dot(residual_);
+  const double share = search_line(*options_.line_search, start, work);
+  change = {share * whole.constant, share * whole.linear};
+}
+
+VectorXd PathFollowing::controlled(const VectorXd& u) const {
+  VectorXd values(static_cast<Eigen::Index>(controlled_.size()));
+  for (std::size_t i = 0; i < controlled_.size(); ++i) values[static_cast<Eigen::Index>(i)] = u[controlled_[i]];
+  return values;
+}
+
+/// Intensities that give the increment of the step the measure that is wanted.
+std::vector<double> PathFollowing::candidates(double wanted, const Correction& change, const VectorXd& u) const {
+  const VectorXd constant = u - start_ + change.constant;
+  switch (control_.measure) {
+    case PathMeasure::displacement: return by_displacement(wanted, constant, change.linear);
+    case PathMeasure::arc_length: return by_arc_length(wanted, constant, change.linear);
+    case PathMeasure::elastic_prediction: return prediction_->intensities(wanted, constant, change.linear);
+  }
+  return {};
+}
+
+std::vector<double> PathFollowing::by_displacement(double wanted, const VectorXd& constant, const VectorXd& linear) const {
+  const double slope = controlled(linear).sum();
+  if (!(std::abs(slope) > no_influence * largest(linear))) return {};
+  return {(wanted - controlled(constant).sum()) / slope};
+}
+
+/// |a + x b|^2 / n = wanted^2, n the number of nodes.
+std::vector<double> PathFollowing::by_arc_length(double wanted, const VectorXd& constant, const VectorXd& linear) const {
+  const VectorXd a = controlled(constant);
+  const VectorXd b = controlled(linear);
+  const auto count = static_cast<double>(controlled_nodes_);
+  const double square = b.squaredNorm();
+  if (!(std::sqrt(square) > no_influence * largest(linear))) return {};
+  const double middle = -a.dot(b) / square;
+  const double apart = middle * middle - (a.squaredNorm() - count * wanted * wanted) / square;
+  if (apart < 0.0) return {};
+  return {middle - std::sqrt(apart), middle + std::sqrt(apart)};
+}
+
+double PathFollowing::bounded(double intensity) const {
+  return control_.stops_at_bound ? std::clamp(intensity, control_.least, control_.most) : intensity;
+}
+
+/// The best of the intensities found that the user admits.
+double PathFollowing::chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+  std::vector<double> admitted;
+  for (const double each : found) {
+    const double margin = same_intensity * std::max(std::abs(each), std::abs(accepted_));
+    const bool turns = (control_.grows && each < accepted_ - margin) || (control_.falls && each > accepted_ + margin);
+    if (!turns && each >= control_.least_sought && each <= control_.most_sought) admitted.push_back(bounded(each));
+  }
+  if (admitted.empty())
+    throw Error("no-convergence",
+                fmt::format("at t = {:.6g} {} gives the increment that the path is to have{}", time,
+                            found.empty() ? "no intensity of the driven loads" : "no admitted intensity of the driven loads",
+                            found.empty() ? "" : fmt::format(" ({:.6g}{} would)", found.front(), found.size() > 1 ? fmt::format(" or {:.6g}", found.back()) : "")),
+                "take shorter steps, or a larger COEF_MULT, or control another displacement");
+  const VectorXd before = u - start_ + change.constant;
+  // The better, the smaller.
+  const auto cost = [&](double intensity) {
+    const VectorXd increment = before + intensity * change.linear;
+    if (control_.choice == PathChoice::smallest_angle && last_step_.size() && !last_step_.isZero(0.0))
+      return -increment.dot(last_step_) / std::max(increment.norm(), std::numeric_limits<double>::min());
+    if (control_.choice != PathChoice::smallest_residual) return increment.norm();
+    evaluate(intensity, loads, u + change.constant + intensity * change.linear);
+    return largest(residual_);
+  };
+  double best = admitted.back();
+  double least = cost(best);
+  for (std::size_t i = 0; i + 1 < admitted.size(); ++i) {
+    const double own = cost(admitted[i]);
+    if (own < least * (least > 0.0 ? 1.0 - same_intensity : 1.0 + same_intensity)) {
+      best = admitted[i];
+      least = own;
+    }
+  }
+  return best;
+}
+
+void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const VectorXd& u) {
+  const VectorXd forces = loads.fixed + intensity * loads.driven;
+  const VectorXd unbalanced = forces - assembler_.internal_forces(u);
+  residual_ = elimination_.transformation().transpose() * unbalanced;
+  load_ = std::max(largest(forces), largest(unbalanced));
+}
+
+IterationReport PathFollowing::report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const {
+  IterationReport line;
+  line.instant = time;
+  line.iteration = iteration;
+  line.relative_residual = measure.relative;
+  line.absolute_residual = measure.absolute;
+  line.worst = worst_place(residual_, elimination_, dofs_, mesh_);
+  return line;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,94 @@
+// Newton's iterations of one step whose load intensity is an unknown (R5.03.80).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
+#include "solver/nonlinear/convergence.hpp"
+#include "solver/nonlinear/elastic_prediction.hpp"
+#include "solver/nonlinear/reference_forces.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
+#include "solver/nonlinear/tangent_system.hpp"
+
+namespace comma::solver {
+
+/// What stays the same and what the intensity multiplies, at the end of a step.
+struct DrivenLoads {
+  Eigen::VectorXd fixed;          ///< forces over all degrees of freedom
+  Eigen::VectorXd driven;
+  Eigen::VectorXd fixed_offset;   ///< g of u = T q + g
+  Eigen::VectorXd driven_offset;
+};
+
+/// An iteration solves K d = R + intensity F for the correction d, which is d0 + intensity d1 with two right-hand sides and one factor; the
+/// measure of the whole increment then gives the intensity (Batoz and Dhatt, International Journal for Numerical Methods in Engineering
+/// 14, 1979; Crisfield, Computers and Structures 13, 1981). Without contact and unilateral conditions.
+class PathFollowing {
+ public:
+  /// Keeps references to its arguments. Throws Error `unknown-dof` where a controlled node lacks a component.
+  PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
+                const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer);
+
+  /// Takes q and u from the beginning of a step to its end, `duration` later in time. Returns the number of iterations. Throws Error
+  /// `no-convergence`, also where no intensity gives the measure asked for, and what the tangent throws.
+  int solve(double time, double duration, const DrivenLoads& loads, Eigen::VectorXd& q, Eigen::VectorXd& u);
+
+  /// The step is accepted at u.
+  void accept_step(const Eigen::VectorXd& u);
+  double intensity() const { return intensity_; }
+  void set_intensity(double value) { intensity_ = accepted_ = value; }
+  /// Whether the last step has reached a bound of the intensity.
+  bool has_ended() const { return ended_; }
+
+ private:
+  /// Correction of u: constant + intensity * linear.
+  struct Correction {
+    Eigen::VectorXd constant;
+    Eigen::VectorXd linear;
+  };
+
+  void number_controlled();
+  Correction correction(int iteration, const DrivenLoads& loads, const Eigen::VectorXd& q, const Eigen::VectorXd& u);
+  void shorten(double time, double wanted, const DrivenLoads& loads, const Eigen::VectorXd& u, Correction& change);
+  std::vector<double> candidates(double wanted, const Correction& change, const Eigen::VectorXd& u) const;
+  std::vector<double> by_displacement(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
+  std::vector<double> by_arc_length(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
+  Eigen::VectorXd controlled(const Eigen::VectorXd& u) const;
+  double chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  double bounded(double intensity) const;
+  void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const;
+
+  const StaticProblem& problem_;
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const Assembler& assembler_;
+  const Elimination& elimination_;
+  const NewtonOptions& options_;
+  const PathControl& control_;
+  Counters& counters_;
+  TangentSystem& tangent_;
+  const IterationObserver& observer_;
+  ConvergenceCriterion criterion_;
+  const ReferenceForces& reference_;
+  std::unique_ptr<ElasticPrediction> prediction_;
+  std::vector<int> controlled_;  ///< degrees of freedom
+  int controlled_nodes_ = 0;
+  double time_ = 0.0;
+  double intensity_ = 0.0;
+  double accepted_ = 0.0;      ///< intensity of the last accepted step
+  Eigen::VectorXd start_;      ///< u where the step begins
+  Eigen::VectorXd last_step_;  ///< increment of the last accepted step; empty before it
+  Eigen::VectorXd residual_;   ///< reduced
+  double load_ = 0.0;
+  int steps_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace comma::solver

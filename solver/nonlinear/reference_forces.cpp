@@ -1,0 +1,101 @@
+#include "solver/nonlinear/reference_forces.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/contact/extent.hpp"
+#include "solver/error.hpp"
+#include "solver/fields/continuum_points.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
+constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
+
+class Summation {
+ public:
+  Summation(const Model& model, const DofMap& dofs, const ReferenceEfforts& efforts)
+      : model_(model), mesh_(*model.mesh), dofs_(dofs), efforts_(efforts), points_(model), sums_(VectorXd::Zero(dofs.size())), counts_(VectorXd::Zero(dofs.size())) {}
+
+  VectorXd mean() {
+    for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
+      if (model_.formulations[static_cast<std::size_t>(cell)] == Formulation::none) continue;
+      if (points_.covers(cell)) add_continuum(cell);
+      else if (!model_.is_skin(cell)) add_structure(cell);
+    }
+    return sums_.array() / counts_.array().max(1.0);
+  }
+
+ private:
+  void require(double effort, int cell, const char* keyword) const {
+    if (effort > 0.0) return;
+    throw Error("missing-reference", fmt::format("RESI_REFE_RELA: the element on cell {} needs {}", mesh_.cell_name(cell), keyword), fmt::format("give {}", keyword));
+  }
+
+  void add(int node, Component component, double force) {
+    const int dof = dofs_.dof(node, component);
+    if (dof < 0) return;
+    sums_[dof] += force;
+    counts_[dof] += 1.0;
+  }
+
+  void add_continuum(int cell) {
+    require(efforts_.stress, cell, "SIGM_REFE");
+    const auto nodes = mesh_.cell(cell);
+    VectorXd forces = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+    for (const ContinuumSample& sample : points_.samples(cell)) {
+      const ContinuumPoint point = points_.locate(cell, sample);
+      forces += efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (const Component component : translations) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
+  }
+
+  /// Resultants of plates are forces and moments a length.
+  void add_structure(int cell) {
+    require(efforts_.force, cell, "EFFORT_REFE");
+    const auto nodes = mesh_.cell(cell);
+    const bool turns = std::ranges::any_of(rotations, [&](Component each) { return dofs_.dof(nodes[0], each) >= 0; });
+    if (turns) require(efforts_.moment, cell, "MOMENT_REFE");
+    const double length = is_plate(model_.formulations[static_cast<std::size_t>(cell)]) ? extent(mesh_, cell) : 1.0;
+    for (const int node : nodes) {
+      for (const Component component : translations) add(node, component, efforts_.force * length);
+      for (const Component component : rotations) add(node, component, efforts_.moment * length);
+    }
+  }
+
+  const Model& model_;
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const ReferenceEfforts& efforts_;
+  ContinuumPoints points_;
+  VectorXd sums_;
+  VectorXd counts_;
+};
+
+}  // namespace
+
+VectorXd reference_forces(const Model& model, const DofMap& dofs, const ReferenceEfforts& efforts) {
+  return Summation(model, dofs, efforts).mean();
+}
+
+ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options) {
+  if (!options.referred_residual) return;
+  const VectorXd all = reference_forces(model, dofs, options.reference);
+  reduced_.resize(elimination.reduced_size());
+  for (Eigen::Index i = 0; i < reduced_.size(); ++i) reduced_[i] = all[elimination.kept()[static_cast<std::size_t>(i)]];
+}
+
+double ReferenceForces::share(const VectorXd& residual) const {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < reduced_.size(); ++i)
+    if (reduced_[i] > 0.0) largest = std::max(largest, std::abs(residual[i]) / reduced_[i]);
+  return largest;
+}
+
+}  // namespace comma::solver

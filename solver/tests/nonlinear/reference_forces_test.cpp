@@ -1,0 +1,45 @@
+#include "solver/nonlinear/reference_forces.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scene.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/convergence.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+TEST_CASE("The reference force of a square's corner is the stress times half a side, once for each direction") {
+  Scene scene;
+  const auto block = scene.block("b", {0, 0}, {2, 2}, 1, 1, 1000.0, 0.0);
+  const DofMap dofs(*scene.problem.model);
+  ReferenceEfforts efforts;
+  efforts.stress = 7.0;
+  // The integral of |dN/dx| over the square is half of its height.
+  const Eigen::VectorXd forces = reference_forces(*scene.problem.model, dofs, efforts);
+  for (const auto& row : block.nodes)
+    for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == Approx(7.0 * (1.0 + 1.0)));
+}
+
+TEST_CASE("Structures take the resultants themselves, and an effort that lacks is named") {
+  Scene scene;
+  const int node = scene.node("A", 0, 0);
+  scene.ground_spring("k", node, 1.0, 1.0);
+  const DofMap dofs(*scene.problem.model);
+  ReferenceEfforts efforts;
+  CHECK_THROWS_WITH(reference_forces(*scene.problem.model, dofs, efforts), Catch::Contains("EFFORT_REFE"));
+  efforts.force = 3.0;
+  CHECK(reference_forces(*scene.problem.model, dofs, efforts)[dofs.dof(node, Component::dy)] == 3.0);
+}
+
+TEST_CASE("RESI_REFE_RELA alone, or with others") {
+  NewtonOptions options;
+  options.relative_residual.reset();
+  options.referred_residual = 1e-3;
+  CHECK(ConvergenceCriterion(options).measure(10.0, 1.0, false, 0.9e-3).converged);
+  CHECK_FALSE(ConvergenceCriterion(options).measure(1e-9, 1.0, false, 1.1e-3).converged);
+  options.relative_residual = 1e-6;
+  CHECK_FALSE(ConvergenceCriterion(options).measure(10.0, 1.0, false, 0.9e-3).converged);
+  options.one_criterion = true;
+  CHECK(ConvergenceCriterion(options).measure(10.0, 1.0, false, 0.9e-3).converged);
+}
