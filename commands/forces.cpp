@@ -16,6 +16,7 @@
 #include "solver/fields/field_algebra.hpp"
 #include "solver/loads/end_effect.hpp"
 #include "solver/loads/nodal_history.hpp"
+#include "solver/loads/plate_moments.hpp"
 
 namespace comma::commands {
 
@@ -137,12 +138,14 @@ bool is_surface(const LoadedModel& target, int cell) {
   return target.model.is_skin(cell);
 }
 
-// FORCE_COQUE: tractions along the axes of the mesh, or across the plate. PRES acts against the normal, F3 along it (U4.44.01).
+// FORCE_COQUE: tractions and moments along the axes of the mesh, or across the plate. PRES acts against the normal, F3 along it (U4.44.01).
 void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::DistributedForce> forces;
+  ByCell<solver::PlateMoment> moments;
   ByCell<solver::PressureLoad> pressures;
   for (const Keywords& occurrence : call.factors("FORCE_COQUE")) {
     const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
+    const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
     const bool pressed = occurrence.given("PRES"), pulled = occurrence.given("F3");
     const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX()) : amount_of(occurrence, "PRES");
     for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate", [&](int each) { return is_plate(target, each); })) {
@@ -153,10 +156,15 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
       }
       forces[cell].cell = cell;
       override_given(amounts, forces[cell].force, forces[cell].functions);
+      moments[cell].cell = cell;
+      override_given(turning, moments[cell].moment, moments[cell].functions);
     }
   }
   append(load.distributed_forces, std::move(forces));
   append(load.pressures, std::move(pressures));
+  for (const auto& [cell, moment] : moments) {
+    for (solver::NodalForce& force : solver::plate_moment_forces(target.mesh, moment)) load.nodal_forces.push_back(std::move(force));
+  }
 }
 
 void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {

@@ -77,7 +77,7 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
     }
     outer.push_back(static_cast<int>(inner.size()));
   }
-  contributions = {};
+  std::vector<Contribution>().swap(contributions);
   const std::vector<double> zeros(inner.size(), 0.0);
   product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(),
                                                inner.data(), zeros.data());
