@@ -85,6 +85,7 @@ class NewtonSolver {
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
+  bool by_compliance() const;
   Eigen::VectorXd push_of_active();
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
   ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);
