@@ -7,7 +7,9 @@
 #include <set>
 
 #include "solver/contact/frictionless.hpp"
+#include "solver/contact/nodal_step.hpp"
 #include "solver/contact/relaxation.hpp"
+#include "solver/linear/dense_solve.hpp"
 
 namespace comma::solver {
 namespace {
@@ -26,35 +28,13 @@ constexpr double rounding_share = 1e-13;
 /// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
 /// rounding of displacements.
 constexpr double rounding_scale = 1e-6;
-/// A pivot below this share of the largest leaves the solution to the least-squares method: the rows depend on each other.
-constexpr double singular_pivot = 1e-14;
 
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
-
-/// Rows and columns are first brought to the size of one: pressures and lengths differ by any number of decades.
-Eigen::VectorXd solve_scaled(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
-  constexpr double tiny = std::numeric_limits<double>::min();
-  const Eigen::VectorXd columns = matrix.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(tiny).cwiseInverse();
-  matrix = matrix * columns.asDiagonal();
-  const Eigen::VectorXd rows = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(tiny).cwiseInverse();
-  matrix = rows.asDiagonal() * matrix;
-  rhs = rows.asDiagonal() * rhs;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
-  const Eigen::VectorXd pivots = factor.matrixLU().diagonal().cwiseAbs();
-  Eigen::VectorXd solution;
-  if (pivots.minCoeff() > singular_pivot * pivots.maxCoeff()) {
-    solution = factor.solve(rhs);
-    solution += factor.solve(rhs - matrix * solution);
-  } else {
-    solution = matrix.completeOrthogonalDecomposition().solve(rhs);
-  }
-  return columns.asDiagonal() * solution;
-}
 
 class CondensedSolver {
  public:
   CondensedSolver(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held) {
+      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)) {
     assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
     assert(state.statuses.size() == problem.points.size());
   }
@@ -179,7 +159,7 @@ class CondensedSolver {
   /// One step of Newton's method for the jumps of closed points and springs and for the multipliers.
   void correct() {
     require_columns();
-    if (unknowns_ == 0) return;
+    if (unknowns_ == 0 || (is_nodal_ && correct_at_nodes())) return;
     matrix_ = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
     forces_.setZero();
     balance_ = Eigen::VectorXd::Zero(unknowns_);
@@ -188,16 +168,42 @@ class CondensedSolver {
       forces_[spring.row] += spring.stiffness * jumps_[spring.row];
       add_force_derivative(spring.row, row_unknowns_[spring.row], spring.stiffness);
     }
-    const Eigen::VectorXd balanced = balanced_jumps();
-    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) {
-      const int row = unknown_rows_[k];
-      matrix_(static_cast<Index>(k), static_cast<Index>(k)) += 1.0;
-      balance_[static_cast<Index>(k)] = jumps_[row] - balanced[row];
-    }
-    const Eigen::VectorXd step = solve_scaled(matrix_, balance_);
+    balance_.head(static_cast<Index>(unknown_rows_.size())) = unbalanced_jumps();
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) matrix_(static_cast<Index>(k), static_cast<Index>(k)) += 1.0;
+    const Eigen::VectorXd step = solve_dense(matrix_, balance_);
     for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= step[static_cast<Index>(k)];
     for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i)
       if (multiplier_unknowns_[i] >= 0) state_.multipliers[static_cast<Index>(i)] -= step[multiplier_unknowns_[i]];
+  }
+
+  /// The same with the multipliers eliminated point by point: half the unknowns. False where a law leaves its multiplier open.
+  bool correct_at_nodes() {
+    NodalStep step(unknown_rows_);
+    forces_.setZero();
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      const CondensedPoint& point = problem_.points[p];
+      if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+      const ContactLawValue value = law_at(p);
+      for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
+      if (!step.add_point(row_unknowns_[point.first_row], point, value)) return false;
+    }
+    for (const CondensedSpring& spring : problem_.springs) {
+      forces_[spring.row] += spring.stiffness * jumps_[spring.row];
+      step.add_spring(row_unknowns_[spring.row], spring.stiffness);
+    }
+    const Eigen::VectorXd jumps = step.solve(schur_, unbalanced_jumps());
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= jumps[static_cast<Index>(k)];
+    for (const NodalStep::Change& change : step.multiplier_changes())
+      for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
+    return true;
+  }
+
+  /// What jumps of unknown rows exceed those that go with the forces by.
+  Eigen::VectorXd unbalanced_jumps() {
+    const Eigen::VectorXd balanced = balanced_jumps();
+    Eigen::VectorXd result(static_cast<Index>(unknown_rows_.size()));
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) result[static_cast<Index>(k)] = jumps_[unknown_rows_[k]] - balanced[unknown_rows_[k]];
+    return result;
   }
 
   void add_point(std::size_t p) {
@@ -347,6 +353,7 @@ class CondensedSolver {
   const std::vector<ContactStatus> start_;
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
+  const bool is_nodal_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd balance_;
   std::vector<int> row_unknowns_;         ///< unknown of a row of the Schur complement, or -1

@@ -28,12 +28,7 @@ bool is_frictionless(const CondensedProblem& problem) {
 }
 
 ActiveSetProblem inequalities(SchurComplement& schur, const CondensedProblem& problem, const CondensedState& state) {
-  std::vector<int> holding;
-  for (Index row = 0; row < problem.held.size(); ++row)
-    if (problem.held[row] != 0.0) holding.push_back(static_cast<int>(row));
-  schur.require(holding);
-  Eigen::VectorXd held = Eigen::VectorXd::Zero(problem.held.size());
-  for (const int row : holding) held += problem.held[row] * schur.column(row);
+  const Eigen::VectorXd held = schur.times(problem.held);
   ActiveSetProblem result;
   result.excess = held - problem.free;
   result.scale = problem.free.cwiseAbs() + held.cwiseAbs();

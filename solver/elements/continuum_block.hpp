@@ -131,7 +131,7 @@ class ContinuumBlock : public ElementBlock {
       for (int g = 0; g < point_count(); ++g) {
         const Point point = locate(x, samples_[g]);
         const Strain stress = point.weight * imposed_stress(imposed, element, g, x, state);
-        for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(samples_[g], point, a).transpose() * stress).transpose();
+        add_forces(stress, samples_[g], point, force);
       }
       scatter_forces(force, dofs, forces);
     }
@@ -279,6 +279,15 @@ class ContinuumBlock : public ElementBlock {
     return row;
   }
 
+  /// B^T stress, a node a row.
+  static void add_forces(const Strain& stress, const Sample& sample, const Point& point, Coordinates& force) {
+    Eigen::Matrix<double, Dim, Dim> tensor;
+    if constexpr (Dim == 3) tensor << stress(0), stress(3), stress(4), stress(3), stress(1), stress(5), stress(4), stress(5), stress(2);
+    else tensor << stress(0), stress(3), stress(3), stress(1);
+    force.noalias() += point.gradients * tensor;
+    if constexpr (Axisymmetric) force.col(0) += sample.values * (stress(2) / point.radius);
+  }
+
   void element_stiffness(int element, const VariableState& state, Stiffness& k) const {
     const Coordinates x = coordinates(element);
     k.setZero();
@@ -345,7 +354,7 @@ class ContinuumBlock : public ElementBlock {
       const Point point = locate(x, sample);
       const Behaviour behaviour(*this, element, g, x, state);
       const Strain stress = point.weight * (*behaviour.law * (strain(u, sample, point) - behaviour.inelastic));
-      for (int a = 0; a < Nodes; ++a) force.row(a) += (strain_row(sample, point, a).transpose() * stress).transpose();
+      add_forces(stress, sample, point, force);
     }
     return force;
   }

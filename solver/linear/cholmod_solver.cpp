@@ -9,6 +9,7 @@
 #include "solver/error.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/shared_library.hpp"
+#include "solver/linear/supernodal_compliance.hpp"
 
 namespace comma::solver {
 
@@ -54,6 +55,19 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
   view.sorted = 1;
   view.packed = 1;
   return view;
+}
+
+int all_threads() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+SupernodalFactor view_of(const cholmod_factor& factor) {
+  return {static_cast<int>(factor.n),
+          static_cast<int>(factor.nsuper),
+          static_cast<const int*>(factor.super),
+          static_cast<const int*>(factor.pi),
+          static_cast<const int*>(factor.px),
+          static_cast<const int*>(factor.s),
+          static_cast<const double*>(factor.x),
+          static_cast<const int*>(factor.Perm)};
 }
 
 void read_supernodal_pivots(const cholmod_factor& factor, Eigen::VectorXd& pivots) {
@@ -110,6 +124,12 @@ class CholmodSolver final : public RefinedSolver {
 
   LinearMethod method() const override { return LinearMethod::cholmod; }
 
+  Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) const override {
+    if (!current_ || !current_->is_super) return {};
+    cholmod_.use_threads(all_threads());
+    return supernodal_compliance(view_of(*current_), BlasKernels(cholmod_.library), rows * factors().asDiagonal());
+  }
+
  protected:
   void analyse_pattern(const SymmetricMatrix& matrix) override {
     cholmod_.free_factor(&factor_, &common_);
@@ -120,8 +140,7 @@ class CholmodSolver final : public RefinedSolver {
 
   FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) override {
     int digits = options().singular_digits;
-    const int all = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    cholmod_.use_threads(operations_ > many_operations ? all : 1);
+    cholmod_.use_threads(operations_ > many_operations ? all_threads() : 1);
     current_ = factor_;
     if (!factorised(matrix, 0.0)) {
       if (!indefinite_factor_) indefinite_factor_ = symbolic_factor(matrix, CHOLMOD_SIMPLICIAL);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/bordered_compliance.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/shared_library.hpp"
 
@@ -58,6 +59,8 @@ class MumpsSolver final : public RefinedSolver {
   MumpsSolver& operator=(const MumpsSolver&) = delete;
 
   LinearMethod method() const override { return LinearMethod::mumps; }
+  Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) const override { return bordered_compliance(matrix(), rows); }
+  bool factorises_for_compliance() const override { return true; }
 
  protected:
   void analyse_pattern(const SymmetricMatrix& matrix) override {

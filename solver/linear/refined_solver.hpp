@@ -23,6 +23,8 @@ class RefinedSolver : public LinearSolver {
   virtual void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
 
   const LinearOptions& options() const { return options_; }
+  const SymmetricMatrix& matrix() const { return matrix_; }
+  const Eigen::VectorXd& factors() const { return factors_; }
 
  private:
   bool has_pattern_of(const SymmetricMatrix& matrix) const;

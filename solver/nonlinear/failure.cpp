@@ -49,7 +49,7 @@ void throw_no_convergence(double time, std::span<const IterationReport> history,
   const IterationReport& last = history.back();
   throw Error("no-convergence",
               fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}, largest residual {:.3e} ({}){}", time,
-                          history.size(), options.max_iterations, likely_cause(history, is_linear), last.absolute_residual,
+                          last.iteration, options.max_iterations, likely_cause(history, is_linear), last.absolute_residual,
                           last.worst, table(history)),
               remedy(history, is_linear));
 }

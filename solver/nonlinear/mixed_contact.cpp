@@ -433,8 +433,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const double most = change.size() ? change.cwiseAbs().maxCoeff() : 0.0;
   if (most > 0.0) {
     Eigen::MatrixXd push = schur_->rows().transpose() * change;
-    if (schur_->is_exact()) tangent_.solve(push);
-    else tangent_.solve_once(push);
+    tangent_.solve_once(push);
     corrected += push;
   }
   forces = solution.forces;

@@ -26,6 +26,8 @@ constexpr double rounding_share = 1e-14;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
 /// all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
+/// Conditions of which gradients take the compliance as a matrix: beyond (288 MB), they solve for each product instead.
+constexpr int most_dense_rows = 6000;
 
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
@@ -54,12 +56,12 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       prediction_(options.tangent.prediction) {}
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
-                        const ConditionSet& conditions, int active_set_limit, NewtonState& state) {
+                        const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(conditions, offset, state);
   start(external, offset, state);
   std::vector<IterationReport> history;
-  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
+  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations - earlier); ++iteration) {
     if (iteration > 1 && is_tangent_due(options_.tangent, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
@@ -69,7 +71,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     else
       evaluate(state, external);
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_));
-    history.push_back(report(time, iteration, measure, correction.changes, state));
+    history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
     if (measure.converged) {
       polish(state, external, offset);
@@ -140,7 +142,7 @@ bool NewtonSolver::is_rounding(const NewtonState& state) const {
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
   const Eigen::VectorXd before = state.reduced;
   Eigen::MatrixXd step = residual_;
-  if (step.size()) tangent_.solve(step);
+  if (step.size()) tangent_.solve_once(step);
   Correction correction;
   if (mixed_) {
     state.reduced = before + step;
@@ -181,7 +183,7 @@ void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
 /// of an earlier stiffness leaves something to the next round; where that does not shrink, the compliance is made anew.
 NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state) {
   const std::vector<int> before = active_;
-  if (by_gradients()) settle_conditions(state);
+  if (by_gradients() && !by_compliance()) settle_conditions(state);
   else settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);
@@ -205,7 +207,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
     for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += displacement * std::abs(it.value());
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
 
-  const bool is_exact = by_gradients() || schur_->is_exact();
+  const bool is_exact = !by_compliance() || schur_->is_exact();
   ActiveSetSolution solution = solve_conditions(problem);
   counters_.contact_iterations += solution.iterations;
   if (solution.verdict != ActiveSetVerdict::solved && !is_exact) return std::nullopt;
@@ -213,8 +215,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
   if (change.cwiseAbs().maxCoeff() > 0.0) {
     Eigen::MatrixXd push = rows.rows.transpose() * change;
-    if (is_exact) tangent_.solve(push);
-    else tangent_.solve_once(push);
+    tangent_.solve_once(push);
     state.reduced -= push;
   }
   row_multipliers_ = std::move(solution.multipliers);
@@ -233,19 +234,15 @@ void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const 
     throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_);
 }
 
+/// Whether the compliance of all rows is worth its memory: the active set needs it, for gradients it saves two solves an iteration.
+bool NewtonSolver::by_compliance() const {
+  return !by_gradients() || (tangent_.gives_compliance() && schur_->size() >= static_cast<int>(SchurComplement::many_columns) && schur_->size() <= most_dense_rows);
+}
+
 /// By how much the present multipliers push the rows back: S times them, less what soft rows give way.
 Eigen::VectorXd NewtonSolver::push_of_active() {
-  Eigen::VectorXd held = Eigen::VectorXd::Zero(row_multipliers_.size());
-  if (by_gradients()) {
-    if (!active_.empty()) held = compliance_times(row_multipliers_);
-    return held;
-  }
-  schur_->require(active_);
-  for (const int row : active_) {
-    held += row_multipliers_[row] * schur_->column(row);
-    held[row] -= row_multipliers_[row] * reduced_.inequalities.softness[row];
-  }
-  return held;
+  if (active_.empty()) return Eigen::VectorXd::Zero(row_multipliers_.size());
+  return compliance_times(row_multipliers_) - reduced_.inequalities.softness.cwiseProduct(row_multipliers_);
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
@@ -253,12 +250,12 @@ ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem
 }
 
 Eigen::VectorXd NewtonSolver::compliance_times(const Eigen::VectorXd& multipliers) {
+  if (by_compliance()) return schur_->times(multipliers);
   Eigen::MatrixXd push = reduced_.inequalities.rows.transpose() * multipliers;
   tangent_.solve_once(push);
   return reduced_.inequalities.rows * push;
 }
 
-/// Projected conjugate gradients take no column of the compliance, but a solve an iteration.
 ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& problem) {
   const auto& rows = reduced_.inequalities.rows;
   ProjectedGradientOptions options;

@@ -43,11 +43,12 @@ class NewtonSolver {
                const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference,
                std::vector<int> support, const IterationObserver& observer);
 
-  /// Iterates to convergence at a time. `active_set_limit`: changes of the active set allowed in one iteration.
+  /// Iterates to convergence at a time. `earlier`: iterations of the same step before, which count among those allowed, though one is
+  /// always. `active_set_limit`: changes of the active set allowed in one iteration.
   /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
   /// `singular-matrix`.
   int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
-            int active_set_limit, NewtonState& state);
+            int earlier, int active_set_limit, NewtonState& state);
 
   /// How inequalities are solved from now on; the definition must outlive the solver.
   void use_algorithm(const ContactDefinition& definition) { definition_ = &definition; }
@@ -84,6 +85,7 @@ class NewtonSolver {
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
+  bool by_compliance() const;
   Eigen::VectorXd push_of_active();
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
   ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);

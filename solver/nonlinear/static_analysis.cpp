@@ -436,13 +436,14 @@ class StaticAnalysis {
       if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
         now_.conditions = std::move(next);
-        const int limit = active_set_limit();
-        int done = newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+        // Between updates of the geometry the discrete formulation goes on counting, the mixed one begins again (ssnv504f, ssnv504j).
+        const int earlier = is_weak ? 0 : iterations;
+        const auto balance = [&] { return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state); };
+        iterations = earlier + balance();
         while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
           if (observer_) observer_(event(time, "contact is deeper than allowed: its penalty is raised"));
-          done += newton_.solve(time, external, offset, now_.conditions, limit, now_.state);
+          iterations += balance();
         }
-        iterations = is_weak ? done : iterations + done;  // of the last update of the geometry alone, as Code_Aster counts
       }
       if (!updates || geometry_settled(update, history)) return iterations;
       note_cycle(visited, history);

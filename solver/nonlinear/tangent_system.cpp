@@ -8,7 +8,6 @@
 #include "solver/constraints/rigid_motion.hpp"
 #include "solver/constraints/solid_unknowns.hpp"
 #include "solver/error.hpp"
-#include "solver/linear/bordered_compliance.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace comma::solver {
@@ -55,7 +54,6 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   if (is_known(kind) || elimination_.reduced_size() == 0) return false;
   version_ = assembler_.stiffness_version();
   kind_ = kind;
-  tangent_at_ = u;
   SymmetricMatrix reduced = assembled(u, kind);
   if (is_symmetric())
     factorise(std::move(reduced));
@@ -188,15 +186,14 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
 }
 
 Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
-  if (unsymmetric_ || elimination_.reduced_size() < large_solid) return {};
-  const SymmetricMatrix stiffness = assembled(tangent_at_, kind_);
+  if (!gives_compliance()) return {};
+  if (solver_->factorises_for_compliance()) ++counters_.factorisations;
   const Stopwatch stopwatch(counters_.factorising);
-  ++counters_.factorisations;
-  return bordered_compliance(stiffness, rows);
+  return solver_->compliance(rows);
 }
 
 void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
-  if (!has_factor()) {
+  if (unsymmetric_ || !has_factor()) {
     solve(columns);
     return;
   }

@@ -60,10 +60,12 @@ class TangentSystem {
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
-  /// The same for the compliance of conditions (LinearSolver::solve_once).
+  /// The same where iterations around it correct what is missing (LinearSolver::solve_once).
   void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
 
-  /// rows K^-1 rows^T (m x m) from one more factorisation, which takes the rows along; empty where column by column is as good.
+  /// Whether `compliance` gives one.
+  bool gives_compliance() const { return !unsymmetric_ && solver_ && elimination_.reduced_size() >= large_solid; }
+  /// rows K^-1 rows^T (m x m) at once (LinearSolver::compliance); empty where column by column is as good.
   Eigen::MatrixXd compliance(const RowMatrix& rows);
 
   /// Whether a factor stands behind the solutions, so that another one costs little.
@@ -100,7 +102,6 @@ class TangentSystem {
   std::unique_ptr<LinearSolver> solver_;
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
-  Eigen::VectorXd tangent_at_;  ///< u of the last factorisation
   int lost_digits_ = 0;
   bool factorised_ = false;
   TangentKind kind_ = TangentKind::tangent;  ///< which was factorised

@@ -112,6 +112,16 @@ const Eigen::VectorXd& SchurComplement::column(int index) const {
   return columns_[index];
 }
 
+Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
+  std::vector<int> taken;
+  for (int row = 0; row < size(); ++row)
+    if (x[row] != 0.0) taken.push_back(row);
+  require(taken);
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
+  for (const int row : taken) product += x[row] * columns_[row];
+  return product;
+}
+
 void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen::VectorXd softness) {
   rows.makeCompressed();
   softness_ = std::move(softness);

@@ -44,6 +44,8 @@ class SchurComplement {
   void require(std::span<const int> indices);
   /// Column of S (m); it must have been required.
   const Eigen::VectorXd& column(int index) const;
+  /// S x (m); columns of entries that are not zero are required.
+  Eigen::VectorXd times(const Eigen::VectorXd& x);
   bool known(int index) const { return columns_[index].size() != 0 || size() == 0; }
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing

@@ -173,6 +173,25 @@ TEST_CASE("Contact on meshes that match passes the patch test") {
   }
 }
 
+TEST_CASE("Iterations count on from one update of the geometry to the next in the discrete formulation, and begin again in the mixed one") {
+  for (const ContactFormulation formulation : {ContactFormulation::discrete, ContactFormulation::mixed}) {
+    Scene scene;
+    const auto lower = scene.block("l", {0, 0}, {6, 2}, 4, 2, 1000, 0.25);
+    const auto upper = scene.block("u", {0, 2}, {6, 2}, 5, 2, 1000, 0.25);
+    scene.impose(lower.nodes[0], Component::dy, 0);
+    scene.impose({lower.nodes[0][0], upper.nodes[2][0]}, Component::dx, 0);
+    scene.impose(upper.nodes[2], Component::dy, -0.4);
+    scene.zone(lower.top, upper.bottom);
+    scene.problem.contact->formulation = formulation;
+    scene.problem.contact->geometry_update = GeometryUpdate::controlled;
+    scene.problem.contact->controlled_updates = 3;
+    std::vector<int> numbers;
+    scene.solve(1, {}, [&](const IterationReport& report) { numbers.push_back(report.iteration); });
+    REQUIRE(numbers.size() == 3);  // linear bodies: one an update
+    CHECK(numbers.back() == (formulation == ContactFormulation::discrete ? 3 : 1));
+  }
+}
+
 TEST_CASE("Bodies that stay apart do not feel each other") {
   Scene scene;
   const auto lower = scene.block("l", {0, 0}, {1, 1}, 1, 1, 1000, 0.3);
