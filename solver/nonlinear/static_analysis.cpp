@@ -186,7 +186,7 @@ class StaticAnalysis {
     const auto as_they_are = [&](void*) { assembler_.extrapolate(std::nullopt); };
     const std::unique_ptr<void, decltype(as_they_are)> guard(this, as_they_are);
     assembler_.extrapolate(last_duration_ > 0.0 ? (time - last_instant_) / last_duration_ : 0.0);
-    return newton_.solve(time, external, offset, now_.conditions, 0, now_.state);
+    return newton_.solve(time, external, offset, now_.conditions, 0, 0, now_.state);
   }
 
   void follow_path() {
