@@ -12,9 +12,11 @@ using Eigen::Vector3d;
 
 /// A curved facet bulges out of the box of its nodes by less than this share of the box's diagonal.
 constexpr double bulge = 0.25;
-/// Two facets whose distances differ by less than this share of the facet's size are equally near: the one that the
-/// projection really hits wins, then the first.
-constexpr double tie_tolerance = 1e-10;
+/// Two facets whose distances differ by less than this share of coordinates, some roundings, are equally near: the first of the mesh wins, as
+/// with Code_Aster. Beside a ridge, whose facets bring a point back to places next to each other, more would pass over the nearest.
+constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
+/// Boxes this share farther than the nearest facet are looked into still: what is left out must not be as near.
+constexpr double search_margin = 1e-10;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 bool share_a_node(std::span<const int> a, std::span<const int> b) {
@@ -70,7 +72,7 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
     consider(point, own, zone_.master_cells[item], best);
     // Along a direction a facet that is far may be met where a near one is passed by.
     if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinite;
-    return best.projection.distance * (1.0 + tie_tolerance) + tie_tolerance;
+    return best.projection.distance * (1.0 + search_margin) + search_margin;
   });
   if (best.facet < 0 || is_outside(best.projection)) return std::nullopt;
   return best;
@@ -125,12 +127,9 @@ void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int 
     if (found->outside == 0.0) best = {facet, *found};
     return;
   }
-  const double tie = tie_tolerance * box.diagonal().norm();
+  const double tie = tie_tolerance * std::max(point.cwiseAbs().maxCoeff(), box.diagonal().norm());
   const double gain = best.projection.distance - found->distance;
-  const bool is_nearer = gain > tie;
-  const bool is_better_hit = std::abs(gain) <= tie && (found->outside < best.projection.outside ||
-                                                       (found->outside == best.projection.outside && facet < best.facet));
-  if (is_nearer || is_better_hit) best = {facet, *found};
+  if (gain > tie || (gain >= -tie && facet < best.facet)) best = {facet, *found};
 }
 
 bool FacetSearch::is_outside(const Projection& projection) const {

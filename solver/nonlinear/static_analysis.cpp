@@ -56,6 +56,7 @@ class StaticAnalysis {
     if (options.path) follow_path();
     if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
       throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
+    if (options.extrapolates_flow) require_extrapolation();
     if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
@@ -167,6 +168,15 @@ class StaticAnalysis {
                 "leave out the unsymmetric element or the conditions");
   }
 
+  /// Continua alone know how.
+  void require_extrapolation() const {
+    for (std::size_t cell = 0; problem_.behaviours && cell < problem_.behaviours->size(); ++cell) {
+      const Formulation formulation = problem_.model->formulations[cell];
+      if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || (*problem_.behaviours)[cell].relation == Relation::elastic) continue;
+      throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua alone", mesh_.cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
+    }
+  }
+
   void watch(const StepPlan& plan) {
     if (!plan.adaptation || !plan.adaptation->increment) return;
     watched_ = plan.adaptation->increment;
@@ -246,7 +256,7 @@ class StaticAnalysis {
     } else if (!result_.steps.empty()) {
       take_last_step();
     }
-    elimination_.measure_from(now_.state.u);
+    elimination_.measure_from(differential_reference());
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     assembler_.set_time(instant);
@@ -264,6 +274,13 @@ class StaticAnalysis {
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
+  }
+
+  /// What the conditions of differential loads count from.
+  Eigen::VectorXd differential_reference() const {
+    Eigen::VectorXd u = now_.state.u;
+    if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, u);
+    return u;
   }
 
   /// That of the last step, where the result goes on from one that had it.
@@ -329,11 +346,16 @@ class StaticAnalysis {
   void resume() {
     const auto address = [](const auto& field) { return field ? &*field : nullptr; };
     if (problem_.initial)
-      assembler_.resume(now_.state.u, address(problem_.initial->stresses), address(problem_.initial->variables));
+      assembler_.resume(now_.state.u, address(problem_.initial->stresses), of_memory(address(problem_.initial->variables)));
     else if (!result_.steps.empty())
-      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), field_of_last_step("VARI_ELGA"));
+      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
     else
       assembler_.resume(now_.state.u, nullptr, nullptr);
+  }
+
+  /// The one variable of elasticity is zero, and says nothing to a law with a memory.
+  static const ElementField* of_memory(const ElementField* variables) {
+    return variables != nullptr && variables->components.size() > 1 ? variables : nullptr;
   }
 
   ElementField initial_stresses() const {
@@ -349,7 +371,7 @@ class StaticAnalysis {
   }
 
   void add_internal_variables(ResultStep& step) const {
-    if (assembler_.has_memory()) step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
+    step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
   std::vector<Vector3d> positions() const {

@@ -74,6 +74,22 @@ TEST_CASE("Above a node that two facets share the choice does not depend on thei
   CHECK(table.pair()[0].facet == 0);
 }
 
+TEST_CASE("Above a ridge the first facet of the mesh is taken, however far outside the point falls") {
+  Table table({{2.01, 1, 0}, {1.99, 1, 0}, {9, 9, 0}});
+  table.mesh.nodes[0][1] = -0.9;  // the first facet falls off more steeply, so that points come down farther outside it
+  table.mesh.nodes[2][1] = -0.3;
+  CHECK(table.pair()[0].facet == 0);
+  CHECK(table.pair()[1].facet == 0);
+}
+
+TEST_CASE("Of two facets the nearer is taken, be it nearer by a millionth of a millionth") {
+  Table table({{2, 1, 0}, {9, 9, 0}});
+  table.mesh.nodes.push_back({2, 1e-12, 0});
+  const int tip = table.mesh.node_count() - 1;
+  table.zone().master_cells[1] = table.mesh.add_cell(CellType::seg2, std::vector<int>{2, tip});
+  CHECK(table.pair()[0].facet == table.zone().master_cells[1]);
+}
+
 TEST_CASE("A slave node that belongs to a master facet is not paired with itself") {
   Table table({{1, 1, 0}, {3, 1, 0}});
   table.zone().slave_cells = {table.mesh.add_cell(CellType::seg2, std::vector<int>{0, 3})};
