@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "commands/commands.hpp"
 #include "commands/function_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
 
@@ -23,7 +25,8 @@ struct VariableName {
 
 constexpr VariableName variables[] = {
     {"TEMP", Parameter::temperature, "TEMP"}, {"SECH", Parameter::drying, "TEMP"},     {"HYDR", Parameter::hydration, "HYDR_ELNO"},
-    {"NEUT1", Parameter::neutral_1, "NEUT"},  {"NEUT2", Parameter::neutral_2, "NEUT"}, {"NEUT3", Parameter::neutral_3, "NEUT"}};
+    {"NEUT1", Parameter::neutral_1, "NEUT"},  {"NEUT2", Parameter::neutral_2, "NEUT"}, {"NEUT3", Parameter::neutral_3, "NEUT"},
+    {"EPSA", Parameter::strain_xx, "EPSA_ELNO"}};
 
 std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
   std::vector<solver::VariableSnapshot> found;
@@ -34,6 +37,36 @@ std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, cons
   if (!found.empty()) return found;
   throw DiagnosticError("unknown-field", fmt::format("AFFE_VARC: {} holds no {}", assignment.concept_of("EVOL")->name, field),
                         assignment.span_of("EVOL"), "NOM_CHAM names the field of the result that holds the variable");
+}
+
+// EPSA: one variable for each component that the fields have.
+constexpr std::array<const char*, 6> strain_components = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+
+int component_in(const solver::Field& field, const char* name) {
+  return std::visit([&](const auto& any) { return any.component(name); }, field);
+}
+
+void add_strains(const solver::CommandVariable& whole, const Keywords& assignment, std::vector<solver::CommandVariable>& known) {
+  if (assignment.has("VALE_REF")) {
+    throw DiagnosticError("excluded-keyword", "AFFE_VARC: EPSA has no reference value: it is the strain itself", assignment.span_of("VALE_REF"), "leave out VALE_REF");
+  }
+  const std::size_t before = known.size();
+  for (std::size_t c = 0; c < strain_components.size(); ++c) {
+    const auto lacks = [&](const solver::VariableSnapshot& snapshot) { return component_in(*snapshot.field, strain_components[c]) < 0; };
+    if (std::ranges::all_of(whole.snapshots, lacks)) continue;
+    if (std::ranges::any_of(whole.snapshots, lacks)) {
+      throw DiagnosticError("unknown-component", fmt::format("AFFE_VARC: EPSA has {} at some instants and not at others", strain_components[c]), assignment.span);
+    }
+    solver::CommandVariable& one = known.emplace_back(whole);
+    one.variable = solver::strain_parameters[c];
+    for (solver::VariableSnapshot& snapshot : one.snapshots) {
+      const int component = component_in(*snapshot.field, strain_components[c]);
+      snapshot.field = std::make_shared<const solver::Field>(solver::with_components(*snapshot.field, {&component, 1}));
+    }
+  }
+  if (known.size() == before) {
+    throw DiagnosticError("unknown-component", "AFFE_VARC: the field for EPSA has none of the components EPXX, EPYY, EPZZ, EPXY, EPXZ, EPYZ", assignment.span);
+  }
 }
 
 solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
@@ -67,7 +100,14 @@ Product affe_materiau(const Call& call, Context&) {
     const auto& material = interpreter::data_of<MaterialConcept>(assignment.concepts("MATER").front(), "MATER").material;
     for (const int cell : selected_cells(assignment, mesh)) field->by_cell[cell] = material;
   }
-  for (const Keywords& assignment : call.factors("AFFE_VARC")) field->variables.push_back(command_variable(assignment, mesh));
+  for (const Keywords& assignment : call.factors("AFFE_VARC")) {
+    solver::CommandVariable variable = command_variable(assignment, mesh);
+    if (assignment.text("NOM_VARC") == "EPSA") {
+      add_strains(variable, assignment, field->variables);
+    } else {
+      field->variables.push_back(std::move(variable));
+    }
+  }
   auto product = std::make_shared<MaterialFieldConcept>();
   product->field = std::move(field);
   return product;

@@ -72,6 +72,9 @@ struct ResultConcept : ConceptData {
   solver::Result result;
   solver::StaticProblem problem;
   std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
+
+  /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have.
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
 /// A field of its own (CREA_CHAMP) and what it lies on; `model` is null for a field that knows its mesh alone.
@@ -87,7 +90,7 @@ struct TableConcept : ConceptData {
   Table table;
 
   Value subscript(const Value& key) const override;
-  /// EXTR_TABLE(): the table as text, for print.
+  /// EXTR_TABLE(): what extracted_table() gives.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 

@@ -132,7 +132,7 @@ solver::PowerHardening power_hardening(const Keywords& law) { return {law.real("
 
 solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
   const auto value = [&](const char* keyword, double otherwise = 0.0) { return law.has(keyword) ? law.real(keyword) : otherwise; };
-  return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0)};
+  return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0), value("EPSP_LUDERS")};
 }
 
 // Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01) as U4.43.01 has it.

@@ -1,5 +1,9 @@
 #include "commands/initial_state.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "commands/result_reading.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
@@ -35,6 +39,14 @@ const solver::ResultStep& step_of(const Keywords& keywords) {
   return result.steps.back();
 }
 
+const solver::ResultStep& step_of_order(const Keywords& keywords, const char* keyword) {
+  const auto& steps = keywords.data<ResultConcept>("EVOL_NOLI").result.steps;
+  const auto found = std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order == keywords.integer(keyword); });
+  if (found != steps.end()) return *found;
+  throw DiagnosticError("unknown-step", fmt::format("ETAT_INIT: {} has no step number {}", keywords.concept_of("EVOL_NOLI")->name, keywords.integer(keyword)),
+                        keywords.span_of(keyword), steps.empty() ? "" : fmt::format("it has those from {} to {}", steps.front().order, steps.back().order));
+}
+
 // Stresses and variables live at Gauss points.
 void bring_to_points(const interpreter::Call& call, std::optional<solver::ElementField>& field) {
   if (!field || field->support == solver::Support::gauss_point) return;
@@ -56,6 +68,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     choice.instant = step.instant;
     choice.order = step.order;
   }
+  if (keywords.has("NUME_DIDI")) take_held(step_of_order(keywords, "NUME_DIDI"), "DEPL", state->differential_reference);
   take_field(keywords, "DEPL", "at nodes", state->displacement);
   take_field(keywords, "SIGM", "on cells", state->stresses);
   take_field(keywords, "VARI", "on cells", state->variables);

@@ -82,6 +82,43 @@ void list_energies(Table& table, const Call& call, const char* keyword, const ch
   }
 }
 
+// --- indicators of the loading ---------------------------------------------------------------------------------------------
+
+// Code_Aster calls a whole model by its number among the concepts of the file, in eight hexadecimal digits (U4.81.22, LIEU).
+std::string internal_name(const interpreter::Concept& handle) { return fmt::format("{:08x}", handle.id); }
+
+std::string name_of_whole(const Call& call) {
+  if (call.has("MODELE")) return internal_name(*call.concept_of("MODELE"));
+  for (const auto& source : call.concept_of("RESULTAT")->reads_through)
+    if (source->type == "modele_sdaster") return internal_name(*source);
+  return "TOUT";
+}
+
+// Means over the volume of each part.
+void list_indicators(Table& table, const Call& call, const std::string& keyword) {
+  const auto& source = call.data<ResultConcept>("RESULTAT");
+  const solver::StaticProblem problem = problem_of_result(call, source);
+  solver::FieldComputation computation(problem, source.result);
+  const solver::ElementField volumes = solver::cell_volumes(*problem.model);
+  for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
+    const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
+    const auto densities = std::get<solver::ElementField>(computation.compute(keyword + "_ELGA", index));
+    const solver::ElementField integrals = solver::integrate_cells(*problem.model, densities);
+    for (const Keywords& occurrence : call.factors(keyword)) {
+      for (const Part& part : parts_of(call, occurrence, source.result.mesh())) {
+        const std::span<const int> cells(part.cells);
+        const double volume = solver::sum_over_cells(volumes, 0, cells);
+        if (volume == 0.0) throw DiagnosticError("no-element", fmt::format("POST_ELEM: no solid or plane element lies in {}", part.name), occurrence.span);
+        table.add_row({{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)},
+                       {"INST", chosen->instant},
+                       {"LIEU", part.kind == "TOUT" ? name_of_whole(call) : part.name},
+                       {"ENTITE", part.kind},
+                       {keyword, solver::sum_over_cells(integrals, 0, cells) / volume}});
+      }
+    }
+  }
+}
+
 // --- masses -----------------------------------------------------------------------------------------------------------------
 
 solver::StaticProblem named_problem(const Call& call) {
@@ -233,6 +270,8 @@ Product post_elem(const Call& call, Context&) {
   if (call.has("ENER_ELAS")) list_energies(table, call, "ENER_ELAS", "ENEL_ELEM");
   if (call.has("ENER_POT")) list_energies(table, call, "ENER_POT", "EPOT_ELEM");
   if (call.has("ENER_TOTALE")) list_energies(table, call, "ENER_TOTALE", "ETOT_ELEM");
+  for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
+    if (call.has(keyword)) list_indicators(table, call, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
   if (call.has("INTEGRALE")) list_integrals(table, call);
   if (call.has("MINMAX")) list_extremes(table, call);

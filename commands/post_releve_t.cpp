@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,17 +90,30 @@ solver::NodalField values_in_frame(const Keywords& action, const solver::Mesh& m
   }
 }
 
+struct Place {
+  std::vector<int> nodes, cells;
+};
+
 // Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give their nodes.
-Reading read(const Keywords& action, const FieldSource& source) {
+Place place_of(const Keywords& action, const solver::Mesh& mesh) {
   const bool by_nodes = names_a_place(action, node_places);
-  auto nodes = selected_nodes(action, source.mesh, by_nodes ? node_places : PlaceKeywords());
+  auto nodes = selected_nodes(action, mesh, by_nodes ? node_places : PlaceKeywords());
   if (!names_a_place(action)) {
-    throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA or MAILLE");
+    throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA, MAILLE or TOUT");
   }
-  const auto cells = selected_cells(action, source.mesh, cell_places);
-  solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
+  return {std::move(nodes), selected_cells(action, mesh, cell_places)};
+}
+
+Row head_of(const Keywords& action, const FieldSource& source) {
   Row head = {{"INTITULE", action.has("INTITULE") ? action.text("INTITULE") : ""}};
   head.insert(head.end(), source.columns.begin(), source.columns.end());
+  return head;
+}
+
+Reading read(const Keywords& action, const FieldSource& source) {
+  auto [nodes, cells] = place_of(action, source.mesh);
+  solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
+  Row head = head_of(action, source);
   // A resultant is turned as a whole.
   if (!action.has("RESULTANTE")) field = values_in_frame(action, source.mesh, nodes, field);
   return {std::move(head), source.mesh, std::move(nodes), std::move(field)};
@@ -109,23 +123,83 @@ std::vector<int> wanted_components(const Keywords& action, const solver::NodalFi
   return chosen_components(action, field.components);
 }
 
-// One row a node that carries any of the components, with the place, the curvilinear abscissa along the list of nodes and
-// the values (U4.81.21).
+// The place, the curvilinear abscissa along the list of nodes and the values (U4.81.21) where any of the components is carried.
+template <class ValueOf>
+void add_values(Table& table, const Reading& reading, std::size_t i, double along, Row row, const std::vector<std::string>& names,
+                const std::vector<int>& components, ValueOf&& value_of) {
+  const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
+  row.insert(row.begin() + 1, {"NOEUD", table_node(reading.mesh, reading.nodes[i])});
+  row.insert(row.end(), {{"ABSC_CURV", along}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
+  bool carried = false;
+  for (const int component : components) {
+    const double value = value_of(component);
+    carried |= !std::isnan(value);
+    row.emplace_back(names[component], std::isnan(value) ? Cell() : Cell(value));
+  }
+  if (carried) table.add_row(row);
+}
+
+// One row a node.
 void extract(Table& table, const Keywords& action, const Reading& reading) {
   const auto components = wanted_components(action, reading.field);
   const auto along = abscissas(reading);
   for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
-    Row row = reading.head;
-    row.insert(row.begin() + 1, {"NOEUD", table_node(reading.mesh, reading.nodes[i])});
-    row.insert(row.end(), {{"ABSC_CURV", along[i]}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
-    bool carried = false;
-    for (const int component : components) {
-      const double value = reading.field.at(reading.nodes[i], component);
-      carried |= !std::isnan(value);
-      row.emplace_back(reading.field.components[component], std::isnan(value) ? Cell() : Cell(value));
+    add_values(table, reading, i, along[i], reading.head, reading.field.components, components,
+               [&](int component) { return reading.field.at(reading.nodes[i], component); });
+  }
+}
+
+// What a node has from the cells around it is wanted as it is.
+const solver::ElementField& field_by_cells(const Keywords& action, const FieldSource& source) {
+  const auto* field = std::get_if<solver::ElementField>(&source.field);
+  if (field == nullptr || field->support != solver::Support::element_node) {
+    throw DiagnosticError("unsupported", "POST_RELEVE_T: MOYE_NOEUD='NON' is for fields at the nodes of cells (..._ELNO)", action.span_of("MOYE_NOEUD"),
+                          "leave out MOYE_NOEUD");
+  }
+  const bool plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX") && !action.has("RESULTANTE");
+  const auto operations = action.texts("OPERATION");
+  if (!plain || operations.size() != 1 || operations.front() != "EXTRACTION") {
+    throw DiagnosticError("unsupported", "POST_RELEVE_T: with MOYE_NOEUD='NON' comma extracts components in the axes of the mesh, and nothing else",
+                          action.span_of("MOYE_NOEUD"), "take the averages at nodes");
+  }
+  return *field;
+}
+
+// For each node the cells around it that count (all without `cells`), and its number in each.
+using Corners = std::vector<std::pair<int, int>>;
+std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementField& field, const std::vector<int>& cells, const std::vector<int>& nodes) {
+  std::vector<int> place(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
+  std::vector<Corners> around(nodes.size());
+  const auto add = [&](int cell) {
+    if (field.points(cell) == 0) return;
+    const auto own = mesh.cell(cell);
+    for (std::size_t a = 0; a < own.size(); ++a)
+      if (const int i = place[static_cast<std::size_t>(own[a])]; i >= 0) around[static_cast<std::size_t>(i)].emplace_back(cell, static_cast<int>(a));
+  };
+  if (cells.empty()) {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) add(cell);
+  } else {
+    std::ranges::for_each(cells, add);
+  }
+  return around;
+}
+
+// One row a node and cell around it.
+void extract_by_cells(Table& table, const Keywords& action, const FieldSource& source) {
+  const solver::ElementField& field = field_by_cells(action, source);
+  auto [nodes, cells] = place_of(action, source.mesh);
+  const Reading reading{head_of(action, source), source.mesh, std::move(nodes), {}};
+  const auto components = chosen_components(action, field.components);
+  const auto along = abscissas(reading);
+  const auto around = corners_at(source.mesh, field, cells, reading.nodes);
+  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
+    for (const auto& [cell, corner] : around[i]) {
+      Row row = reading.head;
+      row.insert(row.begin() + 1, {"MAILLE", table_cell(source.mesh, cell)});
+      add_values(table, reading, i, along[i], std::move(row), field.components, components,
+                 [&](int component) { return field.at(cell, corner, component); });
     }
-    if (carried) table.add_row(row);
   }
 }
 
@@ -229,8 +303,35 @@ void list_extremes(Table& table, const Keywords& action, const Reading& reading)
   }
 }
 
-void act(Table& table, const Keywords& action) {
+// A list of instants is one of computations as a rule; what the result lacks of it has no rows.
+void warn_of_missing_instants(const Keywords& action, Context& context) {
+  if (!action.has("RESULTAT") || !action.given("LIST_INST")) return;
+  const auto missing = missing_instants(action, action.data<ResultConcept>("RESULTAT").result);
+  if (missing.empty()) return;
+  constexpr std::size_t most_shown = 5;
+  const std::span<const double> shown(missing.data(), std::min(missing.size(), most_shown));
+  context.diagnostics.alarm("unknown-step",
+                            fmt::format("POST_RELEVE_T: {} has no step at {} of the instants of LIST_INST: {}{}", action.concept_of("RESULTAT")->name,
+                                        missing.size(), fmt::join(shown, ", "), missing.size() > most_shown ? " ..." : ""),
+                            action.span_of("LIST_INST"), "the table has rows for the others alone");
+}
+
+void check_line(const Keywords& action) {
+  const auto operations = action.texts("OPERATION");
+  if (!action.has("TOUT") || names_a_place(action, node_places) || names_a_place(action, cell_places)) return;
+  if (std::ranges::find(operations, "MOYENNE") == operations.end()) return;
+  throw DiagnosticError("excluded-keyword", "POST_RELEVE_T: MOYENNE goes along a line of nodes, which the whole model is not", action.span_of("TOUT"),
+                        "give GROUP_NO, or take MOYENNE_ARITH");
+}
+
+void act(Table& table, const Keywords& action, Context& context) {
+  check_line(action);
+  warn_of_missing_instants(action, context);
   for (const FieldSource& source : field_sources(action)) {
+    if (action.text("MOYE_NOEUD") == "NON") {
+      extract_by_cells(table, action, source);
+      continue;
+    }
     const Reading reading = read(action, source);
     for (const std::string& operation : action.texts("OPERATION")) {
       if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
@@ -244,9 +345,9 @@ void act(Table& table, const Keywords& action) {
 
 }  // namespace
 
-Product post_releve_t(const Call& call, Context&) {
+Product post_releve_t(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
-  for (const Keywords& action : call.factors("ACTION")) act(product->table, action);
+  for (const Keywords& action : call.factors("ACTION")) act(product->table, action, context);
   return product;
 }
 

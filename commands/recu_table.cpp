@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/result_tables.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -22,18 +23,6 @@ Cell parameter_of(const solver::ResultStep& step, const std::string& name) {
   return found == step.parameters.end() ? Cell() : Cell(found->second);
 }
 
-// One row a step that the computation went through.
-Table computation(const solver::Result& result) {
-  Table table;
-  for (const solver::ResultStep& step : result.steps) {
-    if (step.order == 0) continue;  // the initial state was not computed
-    std::vector<std::pair<std::string, Cell>> row = {{"NUME_ORDRE", std::int64_t{step.order}}, {"INST", step.instant}};
-    for (const auto& [name, value] : step.parameters) row.emplace_back(name, value);
-    table.add_row(row);
-  }
-  return table;
-}
-
 Table parameters(const Call& call, const solver::Result& result) {
   Table table;
   for (const solver::ResultStep& step : result.steps) {
@@ -46,8 +35,7 @@ Table parameters(const Call& call, const solver::Result& result) {
 
 Table named_table(const Call& call, const ResultConcept& data) {
   const std::string& name = call.text("NOM_TABLE");
-  if (name == "PARA_CALC") return computation(data.result);
-  if (name == "OBSERVATION" && data.observations) return *data.observations;
+  if (auto table = table_of_result(data, name)) return *std::move(table);
   throw DiagnosticError("unknown-table", fmt::format("RECU_TABLE: {} has no table {}", call.concept_of("CO")->name, name), call.span_of("NOM_TABLE"),
                         name == "OBSERVATION" ? "ask for it by OBSERVATION in STAT_NON_LINE" : "results have the tables PARA_CALC and OBSERVATION");
 }

@@ -88,6 +88,13 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   return steps;
 }
 
+std::vector<double> missing_instants(const Keywords& keywords, const solver::Result& result) {
+  std::vector<double> missing;
+  for (const double instant : keywords.data<ListConcept>("LIST_INST").values)
+    if (find_step(keywords, result, instant) == nullptr) missing.push_back(instant);
+  return missing;
+}
+
 const ResultStep& only_step(const Keywords& keywords, const solver::Result& result, const char* reason) {
   const auto steps = selected_steps(keywords, result);
   if (steps.size() == 1) return *steps.front();

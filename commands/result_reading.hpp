@@ -14,6 +14,9 @@ namespace comma::commands {
 /// Throws DiagnosticError `unknown-step` listing the steps there are.
 std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keywords& keywords, const solver::Result& result);
 
+/// The instants of LIST_INST at which the result has no step.
+std::vector<double> missing_instants(const interpreter::Keywords& keywords, const solver::Result& result);
+
 /// How far from `instant` a step may stand to be meant, by PRECISION and CRITERE (in TEST_... the second values of TOLE_MACHINE
 /// and CRITERE).
 double instant_reach(const interpreter::Keywords& keywords, double instant);

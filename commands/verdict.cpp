@@ -97,6 +97,16 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
   return verdicts;
 }
 
+namespace {
+
+/// assertEqual, assertAlmostEqual ..., assertIs, assertIsNone: their two values are the same where they hold.
+bool claims_equality(std::string_view method) {
+  return (method.ends_with("Equal") && !method.starts_with("assertNot") && !method.ends_with("LessEqual") && !method.ends_with("GreaterEqual")) ||
+         method == "assertIs" || method == "assertIsNone";
+}
+
+}  // namespace
+
 Verdict verdict_of(const interpreter::Assertion& assertion) {
   Verdict verdict;
   verdict.file = assertion.span ? assertion.span.file->path() : "";
@@ -105,8 +115,14 @@ Verdict verdict_of(const interpreter::Assertion& assertion) {
   verdict.label = assertion.message.empty() ? assertion.method : assertion.method + ": " + assertion.message;
   verdict.kind = "VALE_REFE";
   verdict.reference_type = "ASSERTION";
-  verdict.computed = tested_value(assertion.computed);
-  verdict.reference = tested_value(assertion.reference);
+  if (claims_equality(assertion.method)) {
+    verdict.computed = tested_value(assertion.computed);
+    verdict.reference = tested_value(assertion.reference);
+  } else {
+    // The figures of an entry agree where it holds: of another claim it is its truth that is tested.
+    verdict.computed = std::int64_t{assertion.holds ? 1 : 0};
+    verdict.reference = std::int64_t{1};
+  }
   verdict.relative = false;
   verdict.tolerance = assertion.tolerance;
   const bool numbers = assertion.computed.is_number() && assertion.reference.is_number();

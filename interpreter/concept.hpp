@@ -2,6 +2,7 @@
 // and which node of the command graph fills it; the commands layer derives from ConceptData and knows the rest.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -35,12 +36,16 @@ struct ConceptData {
                        const std::map<std::string, Value>& keywords) const;  ///< MA.getNumberOfNodes()
 };
 
+/// The id of a concept that is taken out of another while the file is evaluated (a table of a result): it has its data, and no node of
+/// the graph makes it.
+inline constexpr int detached_concept = std::numeric_limits<int>::min();
+
 /// A concept as the language handles it; every Value that refers to it shares this object. `data` is null until the
 /// graph node that produces it has run; a later command with reuse= changes `data` in place.
 struct Concept {
   std::string name;              ///< the variable it was first assigned to; "_7" for one that has no name
   std::string type;              ///< Code_Aster's type name: "maillage_sdaster", "evol_noli", ...
-  int id = 0;                    ///< dense, in order of creation
+  int id = 0;                    ///< dense, in order of creation; or detached_concept
   Span defined_at;               ///< the call that made it
   std::shared_ptr<ConceptData> data;
   std::vector<std::shared_ptr<Concept>> reads_through;  ///< reading this one reads those too (a model reads its mesh)

@@ -6,6 +6,7 @@
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/evaluator.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/operations.hpp"
 
 namespace comma::interpreter {
@@ -177,6 +178,11 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
       if (!method->handle->data) return Value::unknown();
       return method->handle->data->method(method->name, arguments.positional, keyword_map(arguments));
     });
+  }
+  if (const auto* method = callee.as_object<HostFunction>()) {
+    if (arguments.any_unknown()) return Value::unknown();
+    if (!arguments.named.empty()) raise(ErrorKind::type, fmt::format("{}() takes no keyword arguments", method->name));
+    return with_host([&] { return method->code(arguments.positional); });
   }
   if (callee.is_concept()) {
     if (arguments.any_unknown()) return Value::unknown();

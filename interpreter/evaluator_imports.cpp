@@ -5,6 +5,7 @@
 #include "interpreter/builtins.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/failure_messages.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/operations.hpp"
 
 namespace comma::interpreter {
@@ -95,6 +96,10 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
   if (object.is_concept()) {
     if (name == "name" || name == "nom") return Value(object.as_concept()->name);
     return Value(std::shared_ptr<Object>(std::make_shared<ConceptMethod>(object.as_concept(), name)));
+  }
+  if (const auto* foreign = object.as_object<HostObject>()) {
+    if (auto value = foreign->attribute(name)) return *value;
+    raise(ErrorKind::attribute, fmt::format("'{}' object has no attribute '{}'", object.type_name(), name), did_you_mean(name, foreign->attribute_names()));
   }
   if (auto value = data_attribute(object, name)) return *value;
   if (const Method method = find_method(object, name)) {

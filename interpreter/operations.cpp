@@ -6,6 +6,7 @@
 
 #include "interpreter/array.hpp"
 #include "interpreter/format.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/utf8.hpp"
 
 namespace comma::interpreter {
@@ -157,6 +158,7 @@ std::optional<std::int64_t> length_of(const Value& value) {
   if (const auto* range = value.as_object<RangeObject>()) return range->size();
   if (const auto* view = value.as_object<DictView>()) return static_cast<std::int64_t>(view->dict->size());
   if (const auto* array = value.as_object<ArrayObject>()) return static_cast<std::int64_t>(array->shape[0]);
+  if (const auto* foreign = value.as_object<HostObject>()) return foreign->length();
   return std::nullopt;
 }
 

@@ -51,14 +51,20 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
   const std::vector<int> starts = count_by_column(pattern, by_rows);
   std::vector<Contribution> contributions(starts.back());
   std::vector<int> next(starts.begin(), starts.end() - 1);
+  bool all_ones = true;
   for_each_contribution(pattern, by_rows, [&](int row, int column, int source, double weight) {
     contributions[next[column]++] = {row, source, weight};
+    all_ones = all_ones && weight == 1.0;
   });
 
   const int columns = static_cast<int>(transformation.cols());
   std::vector<int> outer = {0};
   std::vector<int> inner;
-  bool all_ones = true;
+  // Memory that grows by doubling is written twice.
+  inner.reserve(contributions.size());
+  targets_.reserve(contributions.size());
+  sources_.reserve(contributions.size());
+  if (!all_ones) weights_.reserve(contributions.size());
   for (int column = 0; column < columns; ++column) {
     const auto first = contributions.begin() + starts[column];
     const auto last = contributions.begin() + starts[column + 1];
@@ -67,12 +73,11 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
       if (entry == first || entry->row != (entry - 1)->row) inner.push_back(entry->row);
       targets_.push_back(static_cast<int>(inner.size()) - 1);
       sources_.push_back(entry->source);
-      weights_.push_back(entry->weight);
-      all_ones = all_ones && entry->weight == 1.0;
+      if (!all_ones) weights_.push_back(entry->weight);
     }
     outer.push_back(static_cast<int>(inner.size()));
   }
-  if (all_ones) weights_ = {};
+  std::vector<Contribution>().swap(contributions);
   const std::vector<double> zeros(inner.size(), 0.0);
   product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(),
                                                inner.data(), zeros.data());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "solver/constraints/selection.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -111,6 +112,7 @@ void Elimination::set_transformation(const GaussJordan& reduction, int full_size
   }
   transformation_.resize(full_size, static_cast<int>(kept_.size()));
   transformation_.setFromTriplets(entries.begin(), entries.end());
+  selected_ = selected_unknowns(transformation_);
   offsets_.resize(full_size, static_cast<int>(conditions_.size()));
   offsets_.setFromTriplets(offsets.begin(), offsets.end());
 }
@@ -176,7 +178,8 @@ void Elimination::contradict(const SparseRow& dependency, const Eigen::VectorXd&
               "remove one of them, or give them values that agree");
 }
 
-SymmetricMatrix Elimination::reduce(const SymmetricMatrix& stiffness) const {
+SymmetricMatrix Elimination::reduce(SymmetricMatrix stiffness) const {
+  if (!selected_.empty()) return select_unknowns(std::move(stiffness), selected_);
   if (!plan_ || !plan_->fits(stiffness)) plan_ = std::make_unique<Congruence>(stiffness, transformation_);
   return plan_->apply(stiffness);
 }

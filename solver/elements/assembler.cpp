@@ -11,6 +11,7 @@
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
 #include "solver/elements/imposed_strains.hpp"
+#include "solver/elements/inelastic_bar.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
@@ -40,8 +41,10 @@ CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
-  if (input.behaviour_of(cells.front()).relation != Relation::elastic)
-    throw Error("unsupported", fmt::format("cell {}: springs, bars, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
+  const bool flows = input.behaviour_of(cells.front()).relation != Relation::elastic;
+  if (flows && (formulation == Formulation::bar || formulation == Formulation::bar_2d)) return make_inelastic_bar_block(input, std::move(cells));
+  if (flows)
+    throw Error("unsupported", fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
                 "give these cells RELATION='ELAS'");
   if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
   if (input.behaviour_of(cells.front()).kinematics != Kinematics::small)

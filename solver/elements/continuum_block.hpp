@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/element_batches.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/reference_element.hpp"
@@ -62,20 +63,16 @@ class ContinuumBlock : public ElementBlock {
 
   void add_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
-    Stiffness k;
-    for (int element = 0; element < map_.element_count(); ++element) {
-      element_stiffness(element, state, k);
-      map_.add(element, k.data(), column_starts, values);
-    }
+    for_each_in_batches<Stiffness>(
+        map_.element_count(), evaluates_no_function(state), [&](int element, Stiffness& k) { element_stiffness(element, state, k); },
+        [&](int element, const Stiffness& k) { map_.add(element, k.data(), column_starts, values); });
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    std::array<int, size> dofs;
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const Coordinates force = element_forces(element, relative_displacements(u, dofs), state);
-      scatter_forces(force, dofs, forces);
-    }
+    for_each_in_batches<Coordinates>(
+        map_.element_count(), evaluates_no_function(state),
+        [&](int element, Coordinates& force) { force = element_forces(element, relative_displacements(u, dofs_of(element)), state); },
+        [&](int element, const Coordinates& force) { scatter_forces(force, dofs_of(element), forces); });
   }
 
   std::span<const int> cells() const override { return cells_; }
@@ -166,7 +163,20 @@ class ContinuumBlock : public ElementBlock {
     bool constant;
     bool expands;
     Law law;
+
+    bool strained(const VariableState& state) const { return !state.empty() && (expands || state.gives_strains()); }
   };
+
+  std::array<int, size> dofs_of(int element) const {
+    std::array<int, size> dofs;
+    map_.dofs(element, dofs.data());
+    return dofs;
+  }
+
+  /// Whether no property is a function of the user's, which may not be evaluated on several threads at once.
+  bool evaluates_no_function(const VariableState& state) const {
+    return std::ranges::all_of(materials_, [&](const MaterialInUse& material) { return material.constant && !material.strained(state); });
+  }
 
   /// Hooke's law at one integration point, and the strain that command variables cause there.
   struct Behaviour {
@@ -177,10 +187,11 @@ class ContinuumBlock : public ElementBlock {
     Behaviour(const ContinuumBlock& block, int element, int g, const Coordinates& x, const VariableState& state) {
       const MaterialInUse& used = block.materials_[block.material_of_element_[element]];
       law = &used.law;
-      if (used.constant && (!used.expands || state.empty())) return;
+      const bool strained = used.strained(state);
+      if (used.constant && !strained) return;
       const MaterialPoint at = block.material_point(element, g, x, state);
       try {
-        if (used.expands) inelastic = inelastic_strain(used.material, at).template head<strains>();
+        if (strained) inelastic = inelastic_strain(used.material, at).template head<strains>();
         if (used.constant) return;
         own = make_law(used.material, block.formulation_, at);
       } catch (const Error& error) {

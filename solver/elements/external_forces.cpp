@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/cell_quadrature.hpp"
 #include "solver/elements/inertia_forces.hpp"
 #include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
@@ -25,6 +24,14 @@ void check_pressure(const Model& model, const PressureLoad& load) {
     throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
                                            mesh.cell_name(load.cell)));
   }
+}
+
+double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample& sample, const Point& at, double time) {
+  if (!load.pressure_at_nodes) return load.pressure_function ? load.pressure_function(at, time) : load.pressure;
+  const auto nodes = mesh.cell(load.cell);
+  double pressure = 0.0;
+  for (std::size_t a = 0; a < nodes.size(); ++a) pressure += sample.values[static_cast<Eigen::Index>(a)] * load.pressure_at_nodes(nodes[a], time);
+  return pressure;
 }
 
 namespace {
@@ -83,9 +90,9 @@ class CellIntegrator {
   void add(const PressureLoad& load, double factor) {
     check_pressure(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
-    integrate(load.cell, CellRole::skin, [&](const CellPoint& point) -> Eigen::Vector3d {
+    integrate(load.cell, CellRole::skin, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
       const Point at = to_point(point.at);
-      const double pressure = load.pressure_function ? load.pressure_function(at, time_) : load.pressure;
+      const double pressure = pressure_at(load, mesh_, sample, at, time_);
       const double shear = load.shear_function ? load.shear_function(at, time_) : load.shear;
       return factor * (shear * point.tangents.col(0) - pressure * point.normal(cell_dimension));
     });
@@ -95,7 +102,7 @@ class CellIntegrator {
     check_distributed_force(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
     const CellRole role = input_.model.is_skin(load.cell) ? CellRole::skin : CellRole::body;
-    integrate(load.cell, role, [&](const CellPoint& point) -> Eigen::Vector3d {
+    integrate(load.cell, role, [&](const CellPoint& point, const CellSample&) -> Eigen::Vector3d {
       return factor * point.measure(cell_dimension) * values_at(load.force, load.functions, to_point(point.at), time_);
     });
   }
@@ -109,7 +116,7 @@ class CellIntegrator {
   }
 
  private:
-  /// `density`: force for a unit of reference measure at a point.
+  /// `density`(point, sample): force for a unit of reference measure at a point.
   template <class F>
   void integrate(int cell, CellRole role, F&& density) {
     const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
@@ -117,7 +124,7 @@ class CellIntegrator {
     NodeColumns nodal = NodeColumns::Zero(3, places.cols());
     for (const CellSample& sample : samples_.of(mesh_.cell_types[cell], role)) {
       const CellPoint point = locate(places, sample);
-      const Eigen::Vector3d force = (axisymmetric ? point.at[0] : 1.0) * sample.weight * density(point);
+      const Eigen::Vector3d force = (axisymmetric ? point.at[0] : 1.0) * sample.weight * density(point, sample);
       nodal += force.lazyProduct(sample.values.transpose());
     }
     for (Eigen::Index a = 0; a < nodal.cols(); ++a) add_to_node(mesh_.cell(cell)[a], nodal.col(a));

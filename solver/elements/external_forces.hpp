@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "solver/elements/cell_quadrature.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
@@ -22,6 +23,9 @@ struct ForceInput {
 /// Throws Error `not-a-skin` for a pressure on a cell that is neither a skin cell of a continuum nor a plate, `unsupported` for shear on a
 /// face.
 void check_pressure(const Model& model, const PressureLoad& load);
+
+/// The pressure of a load (without its multiplier) at a sample of its cell, which lies at `at`, the place that functions are given.
+double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample& sample, const Point& at, double time);
 
 /// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,
 /// pressures, distributed forces, forces on beams, gravity and rotation. Initial strains act inside elements: see

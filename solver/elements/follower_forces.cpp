@@ -83,9 +83,10 @@ void FollowerForces::each_point(const Eigen::VectorXd& u, Visit&& visit) const {
   }
 }
 
-FollowerForces::Traction FollowerForces::traction(const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) const {
+FollowerForces::Traction FollowerForces::traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial, const CellPoint& now) const {
   Traction traction;
-  traction.pressure = factor * value_of(load.pressure, load.pressure_function, initial, now, time_);
+  const bool deformed = is_of_deformed_place(load.pressure_function);
+  traction.pressure = factor * pressure_at(load, *model_.mesh, sample, to_point(deformed ? now.at : initial.at), time_);
   traction.shear = factor * value_of(load.shear, load.shear_function, initial, now, time_);
   traction.force = traction.shear * now.tangents.col(0) - traction.pressure * now.normal(dimension(model_.mesh->cell_types[load.cell]));
   return traction;
@@ -95,7 +96,7 @@ Eigen::VectorXd FollowerForces::at(const Eigen::VectorXd& u) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
     const double radius = is_axisymmetric(model_.formulations[load.cell]) ? now.at[0] : 1.0;
-    const Vector3d force = radius * sample.weight * traction(load, factor, initial, now).force;
+    const Vector3d force = radius * sample.weight * traction(load, sample, factor, initial, now).force;
     const auto nodes = model_.mesh->cell(load.cell);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       for (int c = 0; c < 3; ++c) {
@@ -130,7 +131,7 @@ Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) co
   each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
     const bool axisymmetric = is_axisymmetric(model_.formulations[load.cell]);
     const double radius = axisymmetric ? now.at[0] : 1.0;
-    const Traction acting = traction(load, factor, initial, now);
+    const Traction acting = traction(load, sample, factor, initial, now);
     const Vector3d normal = now.normal(dimension(model_.mesh->cell_types[load.cell]));
     const Vector3d gradient = pressure_gradient(load, factor, now);
     const auto nodes = model_.mesh->cell(load.cell);

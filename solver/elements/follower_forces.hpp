@@ -35,7 +35,7 @@ class FollowerForces {
   struct Traction;
   template <class Visit>
   void each_point(const Eigen::VectorXd& u, Visit&& visit) const;
-  Traction traction(const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) const;
+  Traction traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial, const CellPoint& now) const;
   Eigen::Vector3d pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const;
 
   const Model& model_;

@@ -45,13 +45,13 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_forces(u, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       return respond(element, g, x, gradient, state, &PointLaw::respond).stress;
     });
   }
 
-  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
-    add_forces(u, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
       const Vector6d stress = padded(reported.data() + (element * this->point_count() + g) * strains);
       return law_.is_large() ? second_stress_of(gradient, stress) : stress;
     });
@@ -179,9 +179,10 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const PlasticMaterial& material = block.plastic_materials_[static_cast<std::size_t>(block.plastic_material_of_element_[static_cast<std::size_t>(element)])];
       const auto& elastic = block.materials_[block.material_of_element_[element]];
       plastic = &material.point;
-      if (material.constant && (!elastic.expands || state.empty())) return;
+      const bool strained = elastic.strained(state);
+      if (material.constant && !strained) return;
       const MaterialPoint at = block.material_point(element, g, x, state);
-      if (elastic.expands) inelastic = inelastic_strain(elastic.material, at);
+      if (strained) inelastic = inelastic_strain(elastic.material, at);
       if (material.constant) return;
       own = plastic_point(*material.elasticity, *material.plasticity, block.law_.relation(), at);
       plastic = &own;
@@ -260,31 +261,35 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   /// `stress_at`(element, g, coordinates, H): the stress whose work on the strain is that of the forces.
   template <class StressAt>
-  void add_forces(const Eigen::VectorXd& u, ForceSum forces, StressAt&& stress_at) const {
-    std::array<int, size> dofs;
-    for (int element = 0; element < this->map_.element_count(); ++element) {
-      this->map_.dofs(element, dofs.data());
-      const Displacements displacements = Base::relative_displacements(u, dofs);
-      const Coordinates x = this->coordinates(element);
-      Coordinates force = Coordinates::Zero();
-      for (int g = 0; g < this->point_count(); ++g) {
-        const Point point = Base::locate(x, this->samples_[g]);
-        const Eigen::Matrix3d gradient = gradient_of_displacement(displacements, g, point);
-        const Strain stress = point.weight * stress_at(element, g, x, gradient).template head<strains>();
-        for (int a = 0; a < Nodes; ++a) force.row(a) += (row(gradient, g, point, a).transpose() * stress).transpose();
-      }
-      Base::scatter_forces(force, dofs, forces);
+  void add_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, StressAt&& stress_at) const {
+    for_each_in_batches<Coordinates>(
+        this->map_.element_count(), may_be_concurrent(state), [&](int element, Coordinates& force) { force = forces_of(element, u, stress_at); },
+        [&](int element, const Coordinates& force) { Base::scatter_forces(force, this->dofs_of(element), forces); });
+  }
+
+  template <class StressAt>
+  Coordinates forces_of(int element, const Eigen::VectorXd& u, const StressAt& stress_at) const {
+    const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
+    const Coordinates x = this->coordinates(element);
+    Coordinates force = Coordinates::Zero();
+    for (int g = 0; g < this->point_count(); ++g) {
+      const Point point = Base::locate(x, this->samples_[g]);
+      const Eigen::Matrix3d gradient = gradient_of_displacement(displacements, g, point);
+      const Strain stress = point.weight * stress_at(element, g, x, gradient).template head<strains>();
+      for (int a = 0; a < Nodes; ++a) force.row(a) += (row(gradient, g, point, a).transpose() * stress).transpose();
     }
+    return force;
   }
 
   void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values, Respond how) const {
-    Stiffness k;
-    std::array<int, size> dofs;
-    for (int element = 0; element < this->map_.element_count(); ++element) {
-      this->map_.dofs(element, dofs.data());
-      tangent(element, Base::relative_displacements(u, dofs), state, how, k);
-      this->map_.add(element, k.data(), column_starts, values);
-    }
+    for_each_in_batches<Stiffness>(
+        this->map_.element_count(), may_be_concurrent(state),
+        [&](int element, Stiffness& k) { tangent(element, Base::relative_displacements(u, this->dofs_of(element)), state, how, k); },
+        [&](int element, const Stiffness& k) { this->map_.add(element, k.data(), column_starts, values); });
+  }
+
+  bool may_be_concurrent(const VariableState& state) const {
+    return this->evaluates_no_function(state) && std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
   void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {

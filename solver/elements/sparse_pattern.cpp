@@ -35,7 +35,7 @@ int dof_count(const DofMap& dofs, int node) { return dofs.first_dof(node + 1) - 
 
 }  // namespace
 
-SparsePattern::SparsePattern(const Mesh& mesh, std::span<const int> cells, const DofMap& dofs) {
+SparsePattern::SparsePattern(const Mesh& mesh, std::span<const int> cells, const DofMap& dofs) : dofs_(dofs) {
   const NodeCells around = cells_around_nodes(mesh, cells);
   std::vector<int> seen(mesh.nodes.size(), -1);
   neighbour_starts_.assign(1, 0);
@@ -63,14 +63,18 @@ SparsePattern::SparsePattern(const Mesh& mesh, std::span<const int> cells, const
       column_starts_.push_back(static_cast<int>(entries));
     }
   }
-  rows_.reserve(entries);
-  for (int node = 0; node < mesh.node_count(); ++node) {
-    for (int dof = dofs.first_dof(node); dof < dofs.first_dof(node + 1); ++dof) {
-      for (int row = dof; row < dofs.first_dof(node + 1); ++row) rows_.push_back(row);
-      for (int k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k) {
-        const int other = neighbours_[k];
-        for (int row = dofs.first_dof(other); row < dofs.first_dof(other + 1); ++row) rows_.push_back(row);
-      }
+}
+
+// Rows follow from the neighbours: a large matrix has no room for a second list of them.
+void SparsePattern::write_rows(int* row_of_entry) const {
+  const int nodes = static_cast<int>(neighbour_starts_.size()) - 1;
+  const auto write = [&](int first, int node) {
+    for (int row = first; row < dofs_.first_dof(node + 1); ++row) *row_of_entry++ = row;
+  };
+  for (int node = 0; node < nodes; ++node) {
+    for (int dof = dofs_.first_dof(node); dof < dofs_.first_dof(node + 1); ++dof) {
+      write(dof, node);
+      for (int k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k) write(dofs_.first_dof(neighbours_[k]), neighbours_[k]);
     }
   }
 }
@@ -80,8 +84,8 @@ SymmetricMatrix SparsePattern::zero_matrix() const {
   SymmetricMatrix matrix(size, size);
   matrix.resizeNonZeros(column_starts_.back());
   std::copy(column_starts_.begin(), column_starts_.end(), matrix.outerIndexPtr());
-  std::copy(rows_.begin(), rows_.end(), matrix.innerIndexPtr());
-  std::fill_n(matrix.valuePtr(), rows_.size(), 0.0);
+  write_rows(matrix.innerIndexPtr());
+  std::fill_n(matrix.valuePtr(), column_starts_.back(), 0.0);
   return matrix;
 }
 

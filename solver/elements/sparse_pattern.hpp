@@ -13,7 +13,7 @@ namespace comma::solver {
 /// components, and every row has its diagonal. Columns of a node share their rows, so one number places a pair of nodes.
 class SparsePattern {
  public:
-  /// `cells`: those that carry stiffness. Throws Error `too-large` when the entries cannot be counted in an int.
+  /// `cells`: those that carry stiffness. Keeps a reference to `dofs`. Throws Error `too-large` when the entries cannot be counted in an int.
   SparsePattern(const Mesh& mesh, std::span<const int> cells, const DofMap& dofs);
 
   /// A matrix of this pattern, all values 0.
@@ -25,11 +25,13 @@ class SparsePattern {
   int pair_offset(int row, int column) const;
 
  private:
+  void write_rows(int* row_of_entry) const;
+
+  const DofMap& dofs_;
   std::vector<int> neighbour_starts_;  // per node: coupled nodes of higher index, rising
   std::vector<int> neighbours_;
   std::vector<int> offsets_;
   std::vector<int> column_starts_;
-  std::vector<int> rows_;
 };
 
 /// Where like elements read displacements and add forces and stiffness.

@@ -1,41 +1,15 @@
 #include "solver/fields/energies.hpp"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/fields/tensor_reader.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
-constexpr std::array<std::string_view, 6> strain_names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
-
-/// Reads a tensor at points of a field; components that it lacks are 0.
-class TensorReader {
- public:
-  TensorReader(const ElementField& field, const std::array<std::string_view, 6>& names) : field_(field) {
-    for (int i = 0; i < 6; ++i) columns_[i] = field.component(names[i]);
-  }
-  bool has(int cell) const {
-    return columns_[0] >= 0 && field_.points(cell) > 0 && !std::isnan(field_.at(cell, 0, columns_[0]));
-  }
-  Vector6d at(int cell, int point) const {
-    Vector6d tensor;
-    for (int i = 0; i < 6; ++i) {
-      const double value = columns_[i] < 0 ? 0.0 : field_.at(cell, point, columns_[i]);
-      tensor[i] = std::isnan(value) ? 0.0 : value;
-    }
-    return tensor;
-  }
-
- private:
-  const ElementField& field_;
-  std::array<int, 6> columns_;
-};
 
 /// A scalar field on the points of a tensor field.
 template <class ValueAt>
@@ -59,7 +33,7 @@ void check_points(const Model& model, const ElementField& field, int cell, std::
 
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses) {
   ContinuumPoints points(input.model);
-  const TensorReader stress(stresses, stress_names);
+  const TensorReader stress(stresses, stress_components);
   return scalar_field(stresses, stress, [&](int cell, int g) {
     const auto& samples = points.samples(cell);
     check_points(input.model, stresses, cell, samples.size());
@@ -73,10 +47,10 @@ ElementField elastic_energy_density(const FieldInput& input, const ElementField&
 ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
                                   const ElementField* stresses_before, const ElementField* strains_before,
                                   const ElementField* previous) {
-  const TensorReader stress(stresses, stress_names);
-  const TensorReader strain(strains, strain_names);
-  const TensorReader stress_before(stresses_before ? *stresses_before : stresses, stress_names);
-  const TensorReader strain_before(strains_before ? *strains_before : strains, strain_names);
+  const TensorReader stress(stresses, stress_components);
+  const TensorReader strain(strains, strain_components);
+  const TensorReader stress_before(stresses_before ? *stresses_before : stresses, stress_components);
+  const TensorReader strain_before(strains_before ? *strains_before : strains, strain_components);
   return scalar_field(stresses, stress, [&](int cell, int point) {
     Vector6d mean = 0.5 * stress.at(cell, point);
     Vector6d change = strain.at(cell, point);

@@ -13,6 +13,7 @@
 #include "solver/fields/equivalent.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/loading_indicators.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/strains.hpp"
 #include "solver/fields/surface_stresses.hpp"
@@ -91,6 +92,9 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"ETOT_ELGA", &F::total_energy},
       {"ETOT_ELEM", &F::total_energy_of_cells},
       {"VARI_ELGA", &F::internal_variables},
+      {"DERA_ELGA", &F::unloading},
+      {"INDIC_SEUIL_ELGA", &F::yield_of_loading},
+      {"INDIC_ENER_ELGA", &F::energy_of_loading},
       {"FORC_NODA", &F::internal_forces},
       {"REAC_NODA", &F::reactions},
   };
@@ -299,6 +303,23 @@ Field FieldComputation::total_energy(std::size_t step) {
 
 Field FieldComputation::total_energy_of_cells(std::size_t step) {
   return integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+}
+
+Field FieldComputation::unloading(std::size_t step) {
+  const ElementField now = element_field("SIGM_ELGA", step);
+  const bool is_last = step + 1 == result_.steps.size();
+  ElementField indicators = local_indicators(now, is_last ? now : element_field("SIGM_ELGA", step + 1));
+  move_to(step);
+  if (is_last) std::ranges::fill(indicators.values, absent);
+  return indicators;
+}
+
+Field FieldComputation::yield_of_loading(std::size_t step) {
+  return yield_indicator(input(), {element_field("EPSP_ELGA", step), element_field("SIEF_ELGA", step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
+}
+
+Field FieldComputation::energy_of_loading(std::size_t step) {
+  return energy_indicator(input(), {element_field("EPSP_ELGA", step), element_field("SIEF_ELGA", step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 Field FieldComputation::internal_forces(std::size_t step) {

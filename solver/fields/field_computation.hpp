@@ -16,7 +16,8 @@
 namespace comma::solver {
 
 /// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPSP, DEGE; criteria
-/// SIEQ, EPEQ, EPMQ, EPGQ; energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
+/// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp);
+/// energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
 /// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
 /// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
 ///
@@ -66,6 +67,9 @@ class FieldComputation {
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
   Field internal_variables(std::size_t step);
+  Field unloading(std::size_t step);
+  Field yield_of_loading(std::size_t step);
+  Field energy_of_loading(std::size_t step);
   const Field& remembered(std::string_view name, std::size_t step) const;
   const ElementField* remembered_stresses(std::size_t step) const;
   Field internal_forces(std::size_t step);

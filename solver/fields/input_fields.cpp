@@ -24,8 +24,8 @@ void add(ElementField& field, int cell, std::span<const double> values) {
   }
 }
 
-void require_number(const FieldFunction& function, const char* what) {
-  if (!function) return;
+void require_number(bool is_function, const char* what) {
+  if (!is_function) return;
   throw Error("unsupported", std::string("the load has ") + what + " given by functions, which have no one value a cell",
               "take the fields of a load that is given by numbers");
 }
@@ -55,7 +55,7 @@ ElementField force_data(const Mesh& mesh, const Load& load, int cell_dimension) 
   ElementField field = empty_cell_field(mesh, "FORC_R", {"FX", "FY", "FZ"});
   for (const DistributedForce& force : load.distributed_forces) {
     if (dimension(mesh.cell_types[force.cell]) != cell_dimension) continue;
-    for (const FieldFunction& function : force.functions) require_number(function, "distributed forces");
+    for (const FieldFunction& function : force.functions) require_number(static_cast<bool>(function), "distributed forces");
     add(field, force.cell, force.force);
   }
   drop_empty_cells(field);
@@ -65,8 +65,8 @@ ElementField force_data(const Mesh& mesh, const Load& load, int cell_dimension) 
 ElementField pressure_data(const Mesh& mesh, const Load& load) {
   ElementField field = empty_cell_field(mesh, "PRES_R", {"PRES", "CISA"});
   for (const PressureLoad& pressure : load.pressures) {
-    require_number(pressure.pressure_function, "pressures");
-    require_number(pressure.shear_function, "shear tractions");
+    require_number(pressure.pressure_function || pressure.pressure_at_nodes, "pressures");
+    require_number(static_cast<bool>(pressure.shear_function), "shear tractions");
     add(field, pressure.cell, std::array{pressure.pressure, pressure.shear});
   }
   drop_empty_cells(field);

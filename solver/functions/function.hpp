@@ -30,6 +30,8 @@ struct TabulatedFunction {
 
 /// f(t).
 using TimeFunction = std::function<double(double time)>;
+/// f(node; t).
+using NodalFunction = std::function<double(int node, double time)>;
 /// f(x, y, z; t).
 using FieldFunction = std::function<double(const Point& at, double time)>;
 

@@ -43,6 +43,7 @@ struct PressureLoad {
   double shear = 0.0;
   FieldFunction pressure_function;  ///< when set, replaces `pressure`
   FieldFunction shear_function;
+  NodalFunction pressure_at_nodes = {};  ///< when set, replaces both pressures; interpolated by the shape functions of the cell
 };
 
 /// A force per unit of the cell's own measure, in global axes: per volume in a solid, per area in a plane body (of thickness 1) or

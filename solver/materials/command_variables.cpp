@@ -1,19 +1,15 @@
 #include "solver/materials/command_variables.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/functions/time_bracket.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-// Instants are sums of steps: one that misses a snapshot by rounding is that snapshot's.
-constexpr double same_instant = 1e-10;
 
 const std::vector<double>& values_of(const Field& field) {
   return std::visit([](const auto& f) -> const std::vector<double>& { return f.values; }, field);
@@ -58,28 +54,11 @@ Field blend(const Field& a, const Field& b, double share, Parameter variable) {
 }
 
 Field at_time(const CommandVariable& variable, double time) {
-  const auto& snapshots = variable.snapshots;
-  if (snapshots.size() == 1) return *snapshots.front().field;
-  const double first = snapshots.front().instant;
-  const double last = snapshots.back().instant;
-  const double margin = same_instant * std::max(std::abs(first), std::abs(last));
-  const bool before = time < first - margin;
-  const bool after = time > last + margin;
-  const Extension extension = before ? variable.left : variable.right;
-  if ((before || after) && extension == Extension::excluded) {
-    throw Error("out-of-function",
-                fmt::format("the command variable {} is asked for at time {}, but it is given from {} to {}",
-                            name_of(variable.variable), time, first, last),
-                fmt::format("extend it on the {}", before ? "left" : "right"));
-  }
-  const bool constant = extension == Extension::constant;
-  if (time <= first && (!before || constant)) return *snapshots.front().field;
-  if (time >= last && (!after || constant)) return *snapshots.back().field;
-  auto next = std::lower_bound(snapshots.begin() + 1, snapshots.end() - 1, time,
-                               [](const VariableSnapshot& s, double t) { return s.instant < t; });
-  const auto previous = next - 1;
-  const double share = (time - previous->instant) / (next->instant - previous->instant);
-  return blend(*previous->field, *next->field, share, variable.variable);
+  std::vector<double> instants;
+  for (const VariableSnapshot& snapshot : variable.snapshots) instants.push_back(snapshot.instant);
+  const auto [first, share] = time_bracket(instants, time, variable.left, variable.right, fmt::format("the command variable {}", name_of(variable.variable)));
+  const Field& before = *variable.snapshots[first].field;
+  return share == 0.0 ? before : blend(before, *variable.snapshots[first + 1].field, share, variable.variable);
 }
 
 double interpolate(std::span<const double> shape, auto&& value_at) {
@@ -93,6 +72,7 @@ double interpolate(std::span<const double> shape, auto&& value_at) {
 VariableState::VariableState(const Mesh& mesh, std::span<const CommandVariable> variables, double time) : time_(time) {
   for (const CommandVariable& variable : variables) {
     check(mesh, variable);
+    gives_strains_ = gives_strains_ || std::ranges::find(strain_parameters, variable.variable) != strain_parameters.end();
     const int index = static_cast<int>(entries_.size());
     entries_.push_back({variable.variable, variable.reference, at_time(variable, time)});
     std::vector<int>& entry_of_cell = entry_of_cell_[static_cast<std::size_t>(variable.variable)];

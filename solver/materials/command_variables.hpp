@@ -39,6 +39,8 @@ class VariableState {
 
   double time() const { return time_; }
   bool empty() const { return entries_.empty(); }
+  /// Whether any cell has a strain that is known beforehand.
+  bool gives_strains() const { return gives_strains_; }
 
   /// Fills in time and command variables at a point of a cell. `shape`: the shape functions at the point, one a node of
   /// the cell; `point`: its number among the Gauss points. Throws Error `incompatible-field` when a field at Gauss
@@ -55,6 +57,7 @@ class VariableState {
                int point) const;
 
   double time_ = 0.0;
+  bool gives_strains_ = false;
   std::vector<Entry> entries_;
   /// For each variable that occurs, the entry of each cell (-1: none).
   std::array<std::vector<int>, command_variable_count> entry_of_cell_;

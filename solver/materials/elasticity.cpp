@@ -66,6 +66,16 @@ Eigen::Vector3d own_expansion(const OrthotropicElasticity& material, const Mater
   return strain;
 }
 
+/// The strain that is known beforehand, with shear angles; zero where none is given.
+Vector6d given_strain(const MaterialPoint& at) {
+  Vector6d strain = Vector6d::Zero();
+  for (int i = 0; i < 6; ++i) {
+    const double component = at[strain_parameters[static_cast<std::size_t>(i)]];
+    if (!std::isnan(component)) strain[i] = i < 3 ? component : 2.0 * component;
+  }
+  return strain;
+}
+
 double shrinkage(const IsotropicElasticity& material, const MaterialPoint& at) {
   double strain = 0.0;
   const double drying = at[Parameter::drying];
@@ -79,6 +89,11 @@ double shrinkage(const IsotropicElasticity& material, const MaterialPoint& at) {
   if (!is_zero(material.hydration_shrinkage) && !std::isnan(hydration))
     strain -= material.hydration_shrinkage(at) * hydration;
   return strain;
+}
+
+/// The same along every direction.
+double expansion(const IsotropicElasticity& material, const MaterialPoint& at) {
+  return thermal_strain(material.expansion, material.definition_temperature, at) + shrinkage(material, at);
 }
 
 }  // namespace
@@ -232,18 +247,23 @@ double thermal_strain(const Property& expansion, double definition_temperature, 
 }
 
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at) {
-  return thermal_strain(material.expansion, material.definition_temperature, at) + shrinkage(material, at);
+  if (!given_strain(at).isZero(0.0)) {
+    throw Error("unsupported", "a strain that is known beforehand (EPSA) is given to a bar, beam or plate, but only solids and plane bodies take it up",
+                "give it to the cells of the continuum alone");
+  }
+  return expansion(material, at);
 }
 
 Vector6d inelastic_strain(const CellMaterial& material, const MaterialPoint& at) {
   Vector6d strain = Vector6d::Zero();
   if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity)) {
-    strain.head<3>().setConstant(inelastic_axial_strain(*isotropic, at));
-    return strain;
+    strain.head<3>().setConstant(expansion(*isotropic, at));
+  } else {
+    strain.head<3>() = own_expansion(std::get<OrthotropicElasticity>(*material.elasticity), at);
+    if (material.axes != nullptr) strain = (strain_rotation(material.axes->transpose()) * strain).eval();
   }
-  strain.head<3>() = own_expansion(std::get<OrthotropicElasticity>(*material.elasticity), at);
-  if (material.axes == nullptr) return strain;
-  return strain_rotation(material.axes->transpose()) * strain;
+  return strain + given_strain(at);
 }
+
 
 }  // namespace comma::solver

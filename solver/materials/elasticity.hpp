@@ -36,7 +36,7 @@ struct CellMaterial {
 
 /// Whether the stiffness is the same at all points and times.
 bool is_constant(const Elasticity& elasticity);
-/// Whether command variables strain the material at all.
+/// Whether temperature, drying or hydration strain the material at all.
 bool expands(const Elasticity& elasticity);
 double density(const Elasticity& elasticity, const MaterialPoint& at);
 
@@ -64,9 +64,9 @@ Matrix6d strain_rotation(const Eigen::Matrix3d& axes);
 double thermal_strain(const Property& expansion, double definition_temperature, const MaterialPoint& at);
 
 /// The strain that command variables cause in the unloaded material, in global axes (with shear angles): thermal
-/// expansion, drying K (C - C_r), hydration -B h (R7.01.12).
+/// expansion, drying K (C - C_r), hydration -B h (R7.01.12), and the strain that is known beforehand (U4.43.03, EPSA).
 Vector6d inelastic_strain(const CellMaterial& material, const MaterialPoint& at);
-/// The same along a bar or beam.
+/// The same along a bar or beam. Throws Error `unsupported` where a strain is known beforehand.
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at);
 
 }  // namespace comma::solver

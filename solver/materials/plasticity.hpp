@@ -31,7 +31,8 @@ struct PowerHardening {
   double exponent = 1.0;  ///< n
 };
 
-/// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m.
+/// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m, after a plateau of Lueders' bands: R(p) = R(plateau) for
+/// p below it (U4.43.01, ECRO_NL).
 struct NonlinearHardening {
   double initial = 0.0;   ///< R0
   double slope = 0.0;     ///< H
@@ -42,6 +43,7 @@ struct NonlinearHardening {
   double power_factor = 0.0;  ///< K
   double power_offset = 0.0;  ///< p0
   double power = 1.0;         ///< m
+  double plateau = 0.0;       ///< cumulated plastic strain at its end
 };
 
 /// The energy of Signorini (see hyperelastic.hpp).

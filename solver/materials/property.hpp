@@ -12,11 +12,31 @@
 
 namespace comma::solver {
 
-/// What properties may depend on. The first ones are command variables (U4.43.03, AFFE_VARC), which have a reference
-/// value.
-enum class Parameter : std::uint8_t { temperature, drying, hydration, neutral_1, neutral_2, neutral_3, time, x, y, z };
-inline constexpr int parameter_count = 10;
-inline constexpr int command_variable_count = 6;
+/// What properties may depend on. The first ones, up to the strains, are command variables (U4.43.03, AFFE_VARC), which have a
+/// reference value; the strains have none.
+enum class Parameter : std::uint8_t {
+  temperature,
+  drying,
+  hydration,
+  neutral_1,
+  neutral_2,
+  neutral_3,
+  strain_xx,  ///< of a strain without stress that is known beforehand, as tensor components in global axes
+  strain_yy,
+  strain_zz,
+  strain_xy,
+  strain_xz,
+  strain_yz,
+  time,
+  x,
+  y,
+  z
+};
+inline constexpr int parameter_count = 16;
+inline constexpr int command_variable_count = 12;
+/// The components of the strain that is known beforehand.
+inline constexpr std::array<Parameter, 6> strain_parameters = {Parameter::strain_xx, Parameter::strain_yy, Parameter::strain_zz,
+                                                               Parameter::strain_xy, Parameter::strain_xz, Parameter::strain_yz};
 
 /// "temperature" ... for messages.
 std::string_view name_of(Parameter parameter);

@@ -219,7 +219,7 @@ class StaticAnalysis {
     } else if (!result_.steps.empty()) {
       take_last_step();
     }
-    elimination_.measure_from(now_.state.u);
+    elimination_.measure_from(differential_reference());
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     assembler_.set_time(instant);
@@ -237,6 +237,13 @@ class StaticAnalysis {
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
+  }
+
+  /// What the conditions of differential loads count from.
+  Eigen::VectorXd differential_reference() const {
+    Eigen::VectorXd u = now_.state.u;
+    if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, u);
+    return u;
   }
 
   /// That of the last step, where the result goes on from one that had it.
@@ -302,11 +309,16 @@ class StaticAnalysis {
   void resume() {
     const auto address = [](const auto& field) { return field ? &*field : nullptr; };
     if (problem_.initial)
-      assembler_.resume(now_.state.u, address(problem_.initial->stresses), address(problem_.initial->variables));
+      assembler_.resume(now_.state.u, address(problem_.initial->stresses), of_memory(address(problem_.initial->variables)));
     else if (!result_.steps.empty())
-      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), field_of_last_step("VARI_ELGA"));
+      assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
     else
       assembler_.resume(now_.state.u, nullptr, nullptr);
+  }
+
+  /// The one variable of elasticity is zero, and says nothing to a law with a memory.
+  static const ElementField* of_memory(const ElementField* variables) {
+    return variables != nullptr && variables->components.size() > 1 ? variables : nullptr;
   }
 
   ElementField initial_stresses() const {
@@ -322,7 +334,7 @@ class StaticAnalysis {
   }
 
   void add_internal_variables(ResultStep& step) const {
-    if (assembler_.has_memory()) step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
+    step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
   std::vector<Vector3d> positions() const {

@@ -38,6 +38,7 @@ struct InitialState {
   std::optional<NodalField> displacement;
   std::optional<ElementField> stresses;   ///< as SIEF_ELGA
   std::optional<ElementField> variables;  ///< as VARI_ELGA
+  std::optional<NodalField> differential_reference;  ///< from which differential loads count; absent: from `displacement`
 };
 
 struct StaticProblem {
@@ -128,7 +129,7 @@ using IterationObserver = std::function<void(const IterationReport&)>;
 using StepObserver = std::function<void(Result& result)>;
 
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
-/// `result`: DEPL, SIEF_ELGA, VARI_ELGA where a material has a memory, CONT_NOEU with contact, and the parameter ETA_PILOTAGE where the
+/// `result`: DEPL, SIEF_ELGA, VARI_ELGA (one zero where materials have no memory), CONT_NOEU with contact, and the parameter ETA_PILOTAGE where the
 /// intensity of loads is an unknown (whose last step is the one that reaches a bound). Steps already appended stay when it throws.
 /// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
 /// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,

@@ -46,6 +46,7 @@ std::pair<double, double> on_power(const PowerCurve& curve, double p) {
 }
 
 std::pair<double, double> on_nonlinear(const NonlinearHardening& law, double p) {
+  if (p < law.plateau) return {on_nonlinear(law, law.plateau).first, 0.0};
   const double first = law.first * std::exp(-law.first_rate * p);
   const double second = law.second * std::exp(-law.second_rate * p);
   double value = law.initial + law.slope * p + (law.first - first) + (law.second - second);

@@ -20,6 +20,26 @@ Vector6d small_strain(const Eigen::Matrix3d& h) {
   return strain;
 }
 
+/// The same in all directions.
+bool is_spherical(const Vector6d& strain) {
+  return strain[0] == strain[1] && strain[1] == strain[2] && strain.tail<3>().isZero(0.0);
+}
+
+/// Whether the centre of the yield surface moves.
+bool moves(Relation relation) {
+  return relation == Relation::kinematic_linear || relation == Relation::mixed_linear || relation == Relation::mixed_traction;
+}
+
+/// As tensor components.
+Vector6d elastic_strain(const Vector6d& stress, const PlasticModuli& moduli) {
+  const double pressure = stress.head<3>().sum() / 3.0;
+  Vector6d strain = stress;
+  strain.head<3>().array() -= pressure;
+  strain /= 2.0 * moduli.shear;
+  strain.head<3>().array() += pressure / (3.0 * moduli.bulk);
+  return strain;
+}
+
 bool keeps_tensor(Kinematics kinematics) { return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative; }
 
 /// The energy behind the pressure of the multiplicative split, e being the thermal expansion.
@@ -58,7 +78,7 @@ PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(b
   }
   if (behaviour.kinematics != Kinematics::multiplicative) return;
   if (in_plane) throw Error("unsupported", "the multiplicative split of strains is not known in plane stress", "take DEFORMATION='GDEF_LOG'");
-  if (own_count() > 2) throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only", "take DEFORMATION='GDEF_LOG'");
+  if (moves(behaviour.relation)) throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only", "take DEFORMATION='GDEF_LOG'");
 }
 
 int PointLaw::own_count() const {
@@ -68,8 +88,14 @@ int PointLaw::own_count() const {
     case Relation::kinematic_linear: return tensor_size + 1;
     case Relation::mixed_linear:
     case Relation::mixed_traction: return 2 + tensor_size;
+    case Relation::isotropic_nonlinear: return keeps_plastic_strain() ? 2 + tensor_size : 2;
     default: return 2;
   }
+}
+
+// Code_Aster's VMIS_ISOT_NL alone shows it (U4.51.11); of the multiplicative split it is no sum of strains.
+bool PointLaw::keeps_plastic_strain() const {
+  return behaviour_.relation == Relation::isotropic_nonlinear && behaviour_.kinematics != Kinematics::multiplicative;
 }
 
 int PointLaw::variable_count() const {
@@ -117,6 +143,20 @@ void PointLaw::write(const PlasticState& state, PointResponse& response) const {
   }
 }
 
+void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state, PointResponse& response) const {
+  if (!keeps_plastic_strain()) return;
+  const Eigen::Map<const Vector6d> before(input.past.variables.data() + 2);
+  Eigen::Map<Vector6d> plastic(response.variables.data() + 2);
+  plastic = before;
+  if (!(state.p > input.past.variables[0])) return;
+  const PlasticModuli& first = input.past.moduli.shear != 0.0 ? input.past.moduli : input.constants;
+  Vector6d change = increment;
+  change.tail<3>() *= 0.5;
+  change -= elastic_strain(state.stress, input.constants) - elastic_strain(input.past.stress, first);
+  if (in_plane_) change[2] = -change[0] - change[1];
+  plastic += change;
+}
+
 PlasticResponse PointLaw::integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const {
   const PlasticState state = state_of(past);
   return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment) : integrate_von_mises(past.moduli, now, state, increment);
@@ -128,6 +168,7 @@ PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) 
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, stress, stress, {}};
   write(result.state, response);
+  write_plastic_strain(input, increment, result.state, response);
   return response;
 }
 
@@ -140,11 +181,16 @@ PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint&
   response.reported = cauchy_stress(input.gradient, response.stress);
   if (in_plane_) response.reported /= std::exp(strain_across(strain.strain(), t, input.inelastic, now));
   write(result.state, response);
+  write_plastic_strain(input, increment, result.state, response);
   Eigen::Map<Vector6d>(response.variables.data() + own_count()) = t;
   return response;
 }
 
 PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoint& now) const {
+  if (!is_spherical(input.inelastic)) {
+    throw Error("unsupported", "the multiplicative split of strains takes up an expansion alike in all directions alone, not this strain that is known beforehand",
+                "take DEFORMATION='GDEF_LOG'");
+  }
   const PlasticState past = state_of(input.past);
   const Eigen::Map<const Vector6d> compression(input.past.variables.data() + own_count());
   const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p, past.flowing};
@@ -217,10 +263,12 @@ PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) 
   PointResponse response{stress, result.tangent, cauchy_stress(input.gradient, stress), stress, {}};
   if (in_plane_) response.reported /= std::sqrt(1.0 + 2.0 * strain_across(strain, stress, input.inelastic, now));
   write(result.state, response);
+  write_plastic_strain(input, increment, result.state, response);
   return response;
 }
 
 PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now) const {
+  if (!input.inelastic.isZero(0.0)) throw Error("unsupported", "rubber takes up no strain of the command variables");
   const HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, input.gradient);
   return {result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
 }

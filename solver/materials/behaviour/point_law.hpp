@@ -51,7 +51,8 @@ class PointLaw {
   bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
   Relation relation() const { return behaviour_.relation; }
 
-  /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic hardening; the six of the back
+  /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic hardening, by saturating
+  /// exponentials the six plastic strains as well (not with the multiplicative split); the six of the back
   /// stress and the indicator of kinematic hardening; cumulated strain, indicator and back stress of both together; one zero of elasticity
   /// (U4.51.11). Logarithmic strains add the six components of their stress T, the multiplicative split those of (I - b) / 2.
   int variable_count() const;
@@ -72,6 +73,8 @@ class PointLaw {
   int own_count() const;
   PlasticState state_of(const PointPast& past) const;
   void write(const PlasticState& state, PointResponse& response) const;
+  bool keeps_plastic_strain() const;
+  void write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state, PointResponse& response) const;
   PlasticResponse integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const;
   Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
   PointResponse green(const PointInput& input, const PlasticPoint& now) const;

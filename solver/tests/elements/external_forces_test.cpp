@@ -238,3 +238,22 @@ TEST_CASE("a distributed force is refused where nothing can take it", "[loads]")
   const Body spring(mesh, std::vector{Formulation::spring_3d}, nullptr, springs);
   CHECK_THROWS_WITH(spring.assembler->external_forces(applied(load), 0.0), Catch::Contains("no part of a continuum"));
 }
+
+TEST_CASE("a pressure at nodes acts as the function that its cells interpolate", "[loads]") {
+  for (const CellType type : {CellType::quad4, CellType::hexa8, CellType::hexa20}) {
+    CAPTURE(name_of(type));
+    const Body body(with_skin(type, 0.0), continuum_of(type), elastic(2e11, 0.3));
+    const auto linear = [](const Point& at, double time) { return time * (3.0 + 2.0 * at[0] - at[1] + 0.5 * at[2]); };
+    const AppliedLoad by_function = pressure_on_skin(*body.model.mesh, linear);
+    auto load = std::make_shared<Load>(*by_function.load);
+    for (PressureLoad& pressure : load->pressures) {
+      pressure.pressure_function = {};
+      pressure.pressure_at_nodes = [&](int node, double time) { return linear(body.model.mesh->nodes[static_cast<std::size_t>(node)], time); };
+    }
+    const AppliedLoad at_nodes{load, {}};
+    const Eigen::VectorXd expected = body.assembler->external_forces(std::span(&by_function, 1), 2.0);
+    const Eigen::VectorXd found = body.assembler->external_forces(std::span(&at_nodes, 1), 2.0);
+    REQUIRE(expected.norm() > 1.0);
+    CHECK((found - expected).norm() <= 1e-13 * expected.norm());
+  }
+}

@@ -161,3 +161,20 @@ TEST_CASE("a property by a table names the variable that it misses", "[materials
   at[Parameter::temperature] = 25.0;
   CHECK(young(at) == Approx(1.75e11));
 }
+
+TEST_CASE("a strain that is known beforehand adds to what command variables cause, whatever the axes of the material") {
+  MaterialPoint at;
+  for (int i = 0; i < 6; ++i) at[strain_parameters[static_cast<std::size_t>(i)]] = 1e-3 * (i + 1);
+  Vector6d expected;
+  expected << 1e-3, 2e-3, 3e-3, 8e-3, 10e-3, 12e-3;  // shear angles are twice the components
+  const Elasticity steel = IsotropicElasticity{2e11, 0.3};
+  CHECK((inelastic_strain({&steel, nullptr}, at) - expected).norm() <= 1e-18);
+  OrthotropicElasticity wood;
+  wood.young = {1e10, 5e8, 4e8};
+  wood.poisson = {0.3, 0.3, 0.4};
+  wood.shear = {6e8, 6e8, 6e7};
+  const Elasticity turned = wood;
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  CHECK((inelastic_strain({&turned, &axes}, at) - expected).norm() <= 1e-18);
+  CHECK_THROWS_WITH(inelastic_axial_strain(std::get<IsotropicElasticity>(steel), at), Catch::Contains("known beforehand"));
+}

@@ -1,0 +1,109 @@
+#include "commands/extracted_table.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "interpreter/diagnostic.hpp"
+#include "interpreter/host_object.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::HostFunction;
+using interpreter::HostObject;
+using interpreter::Object;
+using interpreter::Value;
+
+Value value_of(const Cell& cell) {
+  return std::visit(
+      [](const auto& held) -> Value {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+          return Value();
+        } else {
+          return Value(held);
+        }
+      },
+      cell);
+}
+
+Value column_values(const Table& table, int column) {
+  std::vector<Value> values;
+  for (const auto& row : table.rows) values.push_back(value_of(row[static_cast<std::size_t>(column)]));
+  return Value::list(std::move(values));
+}
+
+Value as_object(std::shared_ptr<Object> object) { return Value(std::move(object)); }
+
+template <class Code>
+Value method(const char* name, Code&& code) {
+  return as_object(std::make_shared<HostFunction>(name, [name, code](const std::vector<Value>& arguments) {
+    if (!arguments.empty()) throw interpreter::DiagnosticError("type-error", std::string(name) + "() takes no arguments");
+    return code();
+  }));
+}
+
+struct ColumnObject : HostObject {
+  ColumnObject(std::shared_ptr<const Table> whole, int place) : table(std::move(whole)), column(place) {}
+  std::shared_ptr<const Table> table;
+  int column;
+
+  std::string type_name() const override { return "Column"; }
+  std::string repr() const override {
+    Table alone;
+    alone.columns = {table->columns[static_cast<std::size_t>(column)]};
+    for (const auto& row : table->rows) alone.rows.push_back({row[static_cast<std::size_t>(column)]});
+    return format_table(alone);
+  }
+  std::optional<Value> attribute(std::string_view name) const override {
+    if (name != "values") return std::nullopt;
+    return method("values", [whole = table, place = column] { return column_values(*whole, place); });
+  }
+  std::vector<std::string> attribute_names() const override { return {"values"}; }
+  std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(table->rows.size()); }
+};
+
+struct TableObject : HostObject {
+  explicit TableObject(const Table& of) : table(std::make_shared<const Table>(of)) {}
+  std::shared_ptr<const Table> table;
+
+  std::string type_name() const override { return "Table"; }
+  std::string repr() const override { return format_table(*table); }
+  std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(table->rows.size()); }
+
+  std::optional<Value> attribute(std::string_view name) const override {
+    if (const int column = table->column(name); column >= 0) return as_object(std::make_shared<ColumnObject>(table, column));
+    if (name == "values") return method("values", [whole = table] { return columns_of(*whole); });
+    if (name == "para") return Value::list({table->columns.begin(), table->columns.end()});
+    if (name == "rows") return rows();
+    return std::nullopt;
+  }
+  std::vector<std::string> attribute_names() const override {
+    std::vector<std::string> names = table->columns;
+    names.insert(names.end(), {"values", "para", "rows"});
+    return names;
+  }
+
+  static Value columns_of(const Table& table) {
+    std::vector<std::pair<std::string, Value>> columns;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) columns.emplace_back(table.columns[c], column_values(table, static_cast<int>(c)));
+    return Value::dict(std::move(columns));
+  }
+  Value rows() const {
+    std::vector<Value> rows;
+    for (const auto& row : table->rows) {
+      std::vector<std::pair<std::string, Value>> cells;
+      for (std::size_t c = 0; c < row.size(); ++c)
+        if (!std::holds_alternative<std::monostate>(row[c])) cells.emplace_back(table->columns[c], value_of(row[c]));
+      rows.push_back(Value::dict(std::move(cells)));
+    }
+    return Value::list(std::move(rows));
+  }
+};
+
+}  // namespace
+
+Value extracted_table(const Table& table) { return as_object(std::make_shared<TableObject>(table)); }
+
+}  // namespace comma::commands

@@ -1,0 +1,13 @@
+// What EXTR_TABLE() gives a command file: the columns of a table as Python's values (U1.03.02).
+#pragma once
+
+#include "commands/table.hpp"
+#include "interpreter/value.hpp"
+
+namespace comma::commands {
+
+/// An object with the columns as attributes (T.INST.values() is a list), values() (lists by column), para (the column names), rows (dicts
+/// without empty cells) and a length, its number of rows; printed as IMPR_TABLE does.
+interpreter::Value extracted_table(const Table& table);
+
+}  // namespace comma::commands

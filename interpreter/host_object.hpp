@@ -1,0 +1,36 @@
+// What concepts give a file besides numbers and concepts, such as the rows of a table: the commands say what lies behind its dots.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "interpreter/value.hpp"
+
+namespace comma::interpreter {
+
+struct HostObject : Object {
+  /// Nothing where there is none of this name.
+  virtual std::optional<Value> attribute(std::string_view name) const = 0;
+  /// All names, for hints.
+  virtual std::vector<std::string> attribute_names() const = 0;
+  /// What len() gives; nothing for an object without length.
+  virtual std::optional<std::int64_t> length() const { return std::nullopt; }
+};
+
+/// A method of such an object, without keywords. Its code may throw DiagnosticError.
+struct HostFunction : Object {
+  using Code = std::function<Value(const std::vector<Value>& arguments)>;
+
+  HostFunction(std::string word, Code what) : name(std::move(word)), code(std::move(what)) {}
+  std::string name;
+  Code code;
+  std::string type_name() const override { return "method"; }
+  std::string repr() const override { return "<method '" + name + "'>"; }
+  bool is_callable() const override { return true; }
+};
+
+}  // namespace comma::interpreter
