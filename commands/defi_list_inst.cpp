@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -45,6 +46,20 @@ std::optional<solver::StepCutting> cutting(const Call& call) {
   return result;
 }
 
+solver::WatchedIncrement watched_increment(const Call& call, const Keywords& given) {
+  solver::WatchedIncrement watched;
+  watched.field = given.text("NOM_CHAM");
+  watched.component = given.text("NOM_CMP");
+  watched.wanted = given.real("VALE_REF");
+  const char* place = given.given("GROUP_NO") ? "GROUP_NO" : given.given("GROUP_MA") ? "GROUP_MA" : nullptr;
+  if (place == nullptr) return watched;
+  if (!call.given("MODELE")) throw DiagnosticError("missing-keyword", std::string("DEFI_LIST_INST: ") + place + " needs to know of which mesh", given.span_of(place), "give MODELE");
+  const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
+  watched.nodes = selected_nodes(given, mesh);
+  watched.cells = selected_cells(given, mesh);
+  return watched;
+}
+
 // Of several ADAPTATION the last one counts; with EVENEMENT='AUCUN' steps keep the length of the first.
 solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
   solver::StepAdaptation rule;
@@ -54,6 +69,7 @@ solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
   for (const Keywords& given : call.factors("ADAPTATION")) {
     const std::string event = given.text("EVENEMENT");
     rule.wanted_iterations.reset();
+    rule.increment.reset();
     rule.growth = 0.0;
     if (event == "AUCUN") continue;
     if (event == "SEUIL") {
@@ -63,7 +79,9 @@ solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
       rule.in_a_row = 1;
       rule.few_iterations = std::numeric_limits<int>::max();
     }
-    if (given.text("MODE_CALCUL_TPLUS") == "ITER_NEWTON")
+    if (given.text("MODE_CALCUL_TPLUS") == "DELTA_GRANDEUR")
+      rule.increment = watched_increment(call, given);
+    else if (given.text("MODE_CALCUL_TPLUS") == "ITER_NEWTON")
       rule.wanted_iterations = static_cast<int>(given.integer("NB_ITER_NEWTON_REF"));
     else
       rule.growth = given.real("PCENT_AUGM") / 100.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/field_reading.hpp"
@@ -30,12 +31,27 @@ struct Part {
   std::vector<int> cells;
 };
 
+// The whole model goes by the number of its mesh among the concepts, eight hexadecimal digits, as Code_Aster writes it.
+std::string name_of_all(const Call& call) {
+  std::vector<interpreter::ConceptPtr> open;
+  for (const char* keyword : {"MODELE", "RESULTAT"})
+    if (call.has(keyword)) open.push_back(call.concept_of(keyword));
+  std::set<const interpreter::Concept*> seen;
+  while (!open.empty()) {
+    const interpreter::ConceptPtr known = open.back();
+    open.pop_back();
+    if (!seen.insert(known.get()).second) continue;
+    if (known->type == "maillage_sdaster") return fmt::format("{:08X}", known->id + 1);
+    open.insert(open.end(), known->reads_through.begin(), known->reads_through.end());
+  }
+  return "TOUT";
+}
+
 // TOUT, then one part a group, then one a cell.
 std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const solver::Mesh& mesh) {
   std::vector<Part> parts;
   if (occurrence.has("TOUT")) {
-    const std::string name = call.has("MODELE") ? call.concept_of("MODELE")->name : "TOUT";
-    parts.push_back({name, "TOUT", selected_cells(occurrence, mesh, {"TOUT", "", "", "", ""})});
+    parts.push_back({name_of_all(call), "TOUT", selected_cells(occurrence, mesh, {"TOUT", "", "", "", ""})});
   }
   selected_cells(occurrence, mesh);  // says which names do not exist
   for (const std::string& name : occurrence.texts("GROUP_MA")) parts.push_back({name, "GROUP_MA", mesh.cell_group(name)});

@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
     {"GDEF_LOG", solver::Kinematics::logarithmic},
     {"SIMO_MIEHE", solver::Kinematics::multiplicative},
+    {"PETIT_REAC", solver::Kinematics::updated},
 };
 
 solver::CellBehaviour behaviour_of(const Keywords& keywords) {
@@ -185,6 +186,7 @@ void read_reference(const Keywords& convergence, solver::NewtonOptions& options)
 solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh) {
   solver::NewtonOptions options;
   if (call.has("NEWTON")) read_newton(call.factor("NEWTON"), options);
+  options.extrapolates_flow = call.text("METHODE") == "IMPLEX";
   if (call.has("PILOTAGE")) options.path = path_control(call, mesh);
   if (call.has("RECH_LINEAIRE")) options.line_search = line_search(call);
   if (call.has("CONVERGENCE")) {

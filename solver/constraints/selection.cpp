@@ -17,11 +17,15 @@ std::vector<int> selected_unknowns(const Eigen::SparseMatrix<double>& transforma
   return unknowns;
 }
 
-SymmetricMatrix select_unknowns(SymmetricMatrix matrix, std::span<const int> unknowns) {
+// Eigen's sparse matrices change hands by swap alone: to move one would copy it.
+SymmetricMatrix select_unknowns(SymmetricMatrix&& matrix, std::span<const int> unknowns) {
   Eigen::Index kept = 0;
   for (const int unknown : unknowns) kept += unknown >= 0 ? 1 : 0;
-  if (kept == matrix.cols()) return matrix;
   SymmetricMatrix selected(kept, kept);
+  if (kept == matrix.cols()) {
+    selected.swap(matrix);
+    return selected;
+  }
   int* starts = selected.outerIndexPtr();
   int* rows = matrix.innerIndexPtr();
   double* values = matrix.valuePtr();

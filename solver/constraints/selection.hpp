@@ -12,8 +12,8 @@ namespace comma::solver {
 /// rise from row to row.
 std::vector<int> selected_unknowns(const Eigen::SparseMatrix<double>& transformation);
 
-/// The rows and columns of K (lower triangle, n x n) whose `unknowns` are not negative, in their order. Works in the memory of K: a large
+/// The rows and columns of K (lower triangle, n x n) whose `unknowns` are not negative, in their order. Takes the memory of K over: a large
 /// matrix costs no other.
-SymmetricMatrix select_unknowns(SymmetricMatrix matrix, std::span<const int> unknowns);
+SymmetricMatrix select_unknowns(SymmetricMatrix&& matrix, std::span<const int> unknowns);
 
 }  // namespace comma::solver

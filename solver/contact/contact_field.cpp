@@ -24,7 +24,7 @@ constexpr double overlapping = 3.0;
 double status_of(const NodeContact& contact) {
   if (contact.pair.status == PairingStatus::watched) return contact.gap < 0.0 ? overlapping : not_paired;
   if (contact.sticking) return sticking;
-  return contact.normal_force > 0.0 ? sliding : open;
+  return contact.closed || contact.normal_force > 0.0 ? sliding : open;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct NodeContact {
   ContactPair pair;
   double gap = absent;
   double normal_force = 0.0;  ///< positive in compression
+  bool closed = false;        ///< whether contact holds it, be it by a pull (MixedZone::bilateral)
   bool sticking = false;
   Eigen::Vector3d shear_force = Eigen::Vector3d::Zero();  ///< on the slave
   Eigen::Vector2d slip = Eigen::Vector2d::Constant(absent);  ///< along two tangents; absent without friction

@@ -33,7 +33,7 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
       facets_(facet_boxes()),
       nodes_(node_boxes()) {
   if (!smooth) return;
-  if (zone.master_normal == NormalRule::automatic) master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
+  if (zone.master_normal == NormalRule::automatic && zone.normal_side != NormalSide::slave) master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
   if (zone.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
 }
 
@@ -139,6 +139,7 @@ bool FacetSearch::is_outside(const Projection& projection) const {
 }
 
 Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
+  if (zone_.normal_side == NormalSide::slave) return contact_normal(NormalSide::slave, Vector3d::Zero(), slave_outward);
   const Vector3d master = master_normals_.empty()
                               ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
                               : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);

@@ -219,6 +219,10 @@ bool Assembler::has_memory() const {
   return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->has_memory(); });
 }
 
+void Assembler::extrapolate(std::optional<double> ratio) {
+  for (const auto& block : blocks_->list) block->extrapolate(ratio);
+}
+
 void Assembler::accept(const Eigen::VectorXd& u) {
   for (const auto& block : blocks_->list) block->accept(u, state_);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <Eigen/Dense>
@@ -62,6 +63,9 @@ class Assembler {
   /// Whether stresses depend on more than the displacements of the moment: then stiffness(), internal_forces() and the fields are those of
   /// a trial u, from where the last accept() or resume() put the step's beginning.
   bool has_memory() const;
+  /// From now on stiffness and internal forces are those of plastic strains that go on growing, `ratio` times as much as in the last step, and
+  /// linear in u; nothing: as they are. Throws Error `unsupported` when they are asked for where a law does not know how.
+  void extrapolate(std::optional<double> ratio);
   /// The step has converged at u, at the assembler's instant.
   void accept(const Eigen::VectorXd& u);
   /// A step begins at u, at the assembler's instant. `stresses`, `variables`: as stresses() and internal_variables() give them; null: zero.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -82,6 +83,9 @@ class ElementBlock {
   virtual void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double>) const {}
   /// A step has converged at u: the next begins there.
   virtual void accept(const Eigen::VectorXd&, const VariableState&) {}
+  /// From now on stiffness and internal forces are those of plastic strains that go on growing, `ratio` times as much as in the last step
+  /// (PointLaw::respond_extrapolated); nothing: as they are.
+  virtual void extrapolate(std::optional<double>) {}
   /// A step begins at u with stresses and variables laid out as above; zero where empty.
   virtual void resume(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>) {}
 

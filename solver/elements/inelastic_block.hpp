@@ -72,6 +72,8 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
+  void extrapolate(std::optional<double> ratio) override { extrapolation_ = ratio; }
+
   int variable_count() const override { return law_.variable_count(); }
   void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     double* target = out.data();
@@ -102,6 +104,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     visit(u, state, [&](std::size_t point, const Eigen::Matrix3d& gradient, const PointResponse& response) {
       past_[point].gradient = gradient;
       past_[point].stress = response.own;
+      past_[point].flow = law_.flow_between(past_[point].variables, response.variables);
       past_[point].variables = response.variables;
     });
     remember_materials(state);
@@ -116,6 +119,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       past.gradient = gradient;
       past.stress.setZero();
       past.variables.fill(0.0);
+      past.flow = 0.0;
       if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
       if (reported.empty() && variables.empty()) return;
       const Vector6d shown = reported.empty() ? Vector6d::Zero().eval() : padded(reported.data() + index * strains);
@@ -194,7 +198,8 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const VariableState& state, Respond how) const {
     return located(this->cells_[static_cast<std::size_t>(element)], [&] {
       const Constants constants(*this, element, g, x, state);
-      return (law_.*how)({gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
+      const PointInput input{gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]};
+      return extrapolation_ ? law_.respond_extrapolated(input, *extrapolation_) : (law_.*how)(input);
     });
   }
 
@@ -328,6 +333,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   PointLaw law_;
   std::vector<PointPast> past_;  ///< cells x points
+  std::optional<double> extrapolation_;
   std::vector<PlasticMaterial> plastic_materials_;
   std::vector<int> plastic_material_of_element_;
 };

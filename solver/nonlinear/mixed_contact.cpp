@@ -518,6 +518,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
     if (condensed.first_row >= 0) {
       contact.gap = now[condensed.first_row];
       contact.normal_force = forces_[condensed.first_row];
+      contact.closed = point.status == PairingStatus::paired && state_.statuses[p] != ContactStatus::open;
       contact.sticking = state_.statuses[p] == ContactStatus::sticking;
     }
     if (problem_.components > 1) contact.slip.setZero();

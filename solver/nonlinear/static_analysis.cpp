@@ -16,6 +16,7 @@
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
+#include "solver/nonlinear/watched_increment.hpp"
 
 namespace comma::solver {
 namespace {
@@ -53,6 +54,9 @@ class StaticAnalysis {
     }
     require_symmetry();
     if (options.path) follow_path();
+    if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
+      throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
+    if (options.extrapolates_flow) require_extrapolation();
     if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
@@ -62,6 +66,7 @@ class StaticAnalysis {
   void run(const StepPlan& plan) {
     if (plan.instants.empty()) return;
     start(plan.instants.front());
+    watch(plan);
     StepSequence sequence(plan);
     while (!sequence.finished()) {
       const double from = last_instant_;
@@ -76,7 +81,8 @@ class StaticAnalysis {
       assembler_.accept(now_.state.u);
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
-      sequence.accept(*iterations);
+      last_duration_ = instant - from;
+      sequence.accept(*iterations, watched_change());
       if (path_ && path_->has_ended()) return;
     }
   }
@@ -161,6 +167,37 @@ class StaticAnalysis {
     if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
     throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
                 "leave out the unsymmetric element or the conditions");
+  }
+
+  /// Continua alone know how.
+  void require_extrapolation() const {
+    for (std::size_t cell = 0; problem_.behaviours && cell < problem_.behaviours->size(); ++cell) {
+      const Formulation formulation = problem_.model->formulations[cell];
+      if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || (*problem_.behaviours)[cell].relation == Relation::elastic) continue;
+      throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua alone", mesh_.cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
+    }
+  }
+
+  void watch(const StepPlan& plan) {
+    if (!plan.adaptation || !plan.adaptation->increment) return;
+    watched_ = plan.adaptation->increment;
+    watched_before_ = watched_values(*watched_, result_.steps.back(), mesh_);
+  }
+
+  /// Of the watched field in the step that has just been archived; 0 where none is.
+  double watched_change() {
+    if (!watched_) return 0.0;
+    auto now = watched_values(*watched_, result_.steps.back(), mesh_);
+    std::swap(now, watched_before_);
+    return largest_change(now, watched_before_);
+  }
+
+  /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
+  int solve_extrapolated(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
+    const auto as_they_are = [&](void*) { assembler_.extrapolate(std::nullopt); };
+    const std::unique_ptr<void, decltype(as_they_are)> guard(this, as_they_are);
+    assembler_.extrapolate(last_duration_ > 0.0 ? (time - last_instant_) / last_duration_ : 0.0);
+    return newton_.solve(time, external, offset, now_.conditions, 0, 0, now_.state);
   }
 
   void follow_path() {
@@ -427,6 +464,10 @@ class StaticAnalysis {
     start_ = now_.state.u;
     guess(time, offset);
     const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;
+    if (options_.extrapolates_flow) {
+      now_.conditions = make_conditions({}, {}, mesh_, dofs_, time);
+      return solve_extrapolated(time, external, offset);
+    }
     int iterations = 0;
     GeometryHistory history;
     std::vector<ConditionSet> visited;
@@ -631,6 +672,9 @@ class StaticAnalysis {
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
   double last_instant_ = 0.0;
+  double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
+  std::optional<WatchedIncrement> watched_;
+  std::vector<double> watched_before_;
 };
 
 }  // namespace

@@ -104,6 +104,7 @@ struct NewtonOptions {
   std::optional<LineSearch> line_search;  ///< for problems without contact and unilateral conditions
   StepGuess guess = StepGuess::stay;
   std::shared_ptr<const Result> guessed;  ///< not null: instead, steps start from the displacements of this result at their instants, linear between its steps (DEPL_CALCULE)
+  bool extrapolates_flow = false;   ///< steps are linear, with plastic strains that go on growing as in the step before, which the law then puts right (IMPLEX, R5.03.81)
   std::optional<PathControl> path;  ///< the intensity of driven loads is an unknown
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };

@@ -32,7 +32,7 @@ double StepSequence::target() const {
   return plan_.adaptation && pending_.back().depth == 0 ? adapted_target() : pending_.back().instant;
 }
 
-void StepSequence::accept(int iterations) {
+void StepSequence::accept(int iterations, double increment) {
   const double reached = target();
   const double length = reached - now_;
   now_ = reached;
@@ -43,13 +43,15 @@ void StepSequence::accept(int iterations) {
     throw Error("too-many-steps", fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
                 "raise NB_PAS_MAXI or PAS_MINI");
   // A step cut short by an instant of the list says nothing about the length to take.
-  adapt(whole ? std::max(length_, length) : length, iterations);
+  adapt(whole && !plan_.adaptation->increment ? std::max(length_, length) : length, iterations, increment);
 }
 
-void StepSequence::adapt(double length, int iterations) {
+void StepSequence::adapt(double length, int iterations, double increment) {
   const StepAdaptation& rule = *plan_.adaptation;
   length_ = length;
-  if (rule.wanted_iterations) {
+  if (rule.increment) {
+    if (increment > 0.0) length_ *= rule.increment->wanted / increment;
+  } else if (rule.wanted_iterations) {
     length_ *= std::sqrt(static_cast<double>(*rule.wanted_iterations) / (iterations + 1));
   } else {
     easy_steps_ = iterations <= rule.few_iterations ? easy_steps_ + 1 : 0;

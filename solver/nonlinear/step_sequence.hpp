@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace comma::solver {
@@ -15,6 +16,15 @@ struct StepCutting {
   double shortest = 0.0;  ///< s, SUBD_PAS_MINI: no part may be shorter
 };
 
+/// A field whose change in a step is watched.
+struct WatchedIncrement {
+  std::string field;      ///< DEPL, SIEF_ELGA, VARI_ELGA
+  std::string component;
+  std::vector<int> nodes;  ///< empty: all
+  std::vector<int> cells;  ///< empty: all
+  double wanted = 0.0;     ///< VALE_REF: the largest change of a step that is aimed at
+};
+
 /// Steps between the instants of the list adapt to the number of Newton iterations (U4.34.03, ADAPTATION).
 struct StepAdaptation {
   double shortest = 0.0;                                   ///< s, PAS_MINI
@@ -24,6 +34,7 @@ struct StepAdaptation {
   int in_a_row = 2;        ///< NB_INCR_SEUIL: ... in so many steps one after the other ...
   double growth = 1.0;     ///< PCENT_AUGM: ... the next is longer by this share
   std::optional<int> wanted_iterations;  ///< NB_ITER_NEWTON_REF: instead, each step is longer by sqrt(wanted / (taken + 1))
+  std::optional<WatchedIncrement> increment;  ///< DELTA_GRANDEUR: instead, each step is longer by wanted / largest change in the last
 };
 
 struct StepPlan {
@@ -44,8 +55,8 @@ class StepSequence {
   bool finished() const { return pending_.empty(); }
   /// Where the next step goes to.
   double target() const;
-  /// It has converged, in so many iterations. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
-  void accept(int iterations);
+  /// It has converged, in so many iterations and with such a largest change of the watched field. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
+  void accept(int iterations, double increment = 0.0);
   /// It has failed: false when it may not be cut, else the next target is nearer.
   bool cut();
 
@@ -56,7 +67,7 @@ class StepSequence {
   };
 
   double adapted_target() const;
-  void adapt(double length, int iterations);
+  void adapt(double length, int iterations, double increment);
 
   StepPlan plan_;
   double now_;

@@ -172,6 +172,25 @@ PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) 
   return response;
 }
 
+/// The tangent leaves out how the geometry changes the strain itself, which is of the order of the stresses over the moduli.
+PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now) const {
+  const Eigen::Matrix3d back = deformation_gradient(input.gradient).inverse();
+  const Eigen::Matrix3d moved = (input.gradient - input.past.gradient) * back;
+  const PlasticResponse result = integrate(input.past, now, small_strain(moved) - (input.inelastic - input.past.inelastic));
+  const Vector6d& stress = result.state.stress;
+  PointResponse response{second_stress_of(input.gradient, stress), Matrix6d::Zero(), stress, stress, {}};
+  for (int k = 0; k < tensor_size; ++k) {
+    Vector6d strain = Vector6d::Unit(k);
+    strain.tail<3>() *= 0.5;
+    const Eigen::Matrix3d spatial = back.transpose() * tensor_of_stress(strain) * back;
+    Vector6d components = components_of_stress(spatial);
+    components.tail<3>() *= 2.0;
+    response.tangent.col(k) = second_stress_of(input.gradient, result.tangent * components);
+  }
+  write(result.state, response);
+  return response;
+}
+
 PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint& now) const {
   const LogarithmicStrain strain(input.gradient);
   const Vector6d increment = strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
@@ -211,6 +230,7 @@ PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint
     case Kinematics::green_lagrange: return green(input, now);
     case Kinematics::logarithmic: return logarithmic(input, now);
     case Kinematics::multiplicative: return multiplicative(input, now);
+    case Kinematics::updated: return updated(input, now);
     default: return small(input, now);
   }
 }
@@ -228,7 +248,8 @@ Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d
 
 Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const {
   switch (behaviour_.kinematics) {
-    case Kinematics::small: return reported;
+    case Kinematics::small:
+    case Kinematics::updated: return reported;
     case Kinematics::green_lagrange: return second_stress(past.gradient, reported, past);
     case Kinematics::logarithmic:
       if (has_variables) return Eigen::Map<const Vector6d>(past.variables.data() + own_count());
@@ -279,6 +300,32 @@ PointResponse PointLaw::respond_elastically(const PointInput& input) const {
   PlasticPoint elastic{input.constants, NoYield{}};
   elastic.hyperelasticity = input.constants.hyperelasticity;
   return respond_with(input, elastic);
+}
+
+double PointLaw::flow_between(const std::array<double, most_variables>& before, const std::array<double, most_variables>& after) const {
+  return own_count() == 2 ? after[0] - before[0] : 0.0;
+}
+
+/// A point that has flowed in the last step goes on along the normal that it has, by the tangent of the flow itself: C - 9 mu^2 / (3 mu + R') s s^T
+/// / s_eq^2 with the deviator s where the step begins.
+PointResponse PointLaw::respond_extrapolated(const PointInput& input, double ratio) const {
+  const bool is_known = behaviour_.relation == Relation::elastic || (own_count() == 2 && !in_plane_);
+  if (!is_known || is_large())
+    throw Error("unsupported", "METHODE='IMPLEX' extrapolates elasticity and isotropic hardening in small strains alone, and not in plane stress", "take METHODE='NEWTON'");
+  PointResponse response = respond_elastically(input);
+  if (behaviour_.relation == Relation::elastic || !(input.past.flow > 0.0)) return response;
+  Vector6d deviator = input.past.stress;
+  deviator.head<3>().array() -= deviator.head<3>().mean();
+  Vector6d normal = deviator;  // with shear angles
+  normal.tail<3>() *= 2.0;
+  const double shear = input.constants.shear;
+  const double slope = hardening(input.constants.curve, input.past.variables[0] + ratio * input.past.flow).second;
+  const double equivalent = std::sqrt(1.5 * deviator.dot(normal));
+  const Matrix6d kept = Matrix6d::Identity() - 4.5 * shear / ((3.0 * shear + slope) * equivalent * equivalent) * deviator * normal.transpose();
+  response.stress = input.past.stress + kept * (response.stress - input.past.stress);
+  response.tangent = kept * response.tangent;
+  response.reported = response.own = response.stress;
+  return response;
 }
 
 }  // namespace comma::solver

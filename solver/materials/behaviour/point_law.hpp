@@ -21,6 +21,7 @@ struct PointPast {
   Vector6d inelastic = Vector6d::Zero();               ///< strain of the command variables
   PlasticModuli moduli;
   std::array<double, most_variables> variables{};
+  double flow = 0.0;  ///< by how much the cumulated plastic strain grew in the last step
 };
 
 /// What there is now. `inelastic`, `constants`: of the command variables of the moment.
@@ -62,6 +63,13 @@ class PointLaw {
   /// The same as if nothing could flow from here on.
   PointResponse respond_elastically(const PointInput& input) const;
 
+  /// The same for a point that goes on as in the last step, flowing where it flowed, `ratio` times as much: linear in the strain (R5.03.81; after Oliver,
+  /// Huespe and Cante, Computer Methods in Applied Mechanics and Engineering 197, 2008). Throws Error `unsupported` but for elasticity and isotropic hardening in small strains,
+  /// without plane stress.
+  PointResponse respond_extrapolated(const PointInput& input, double ratio) const;
+  /// By how much the cumulated plastic strain has grown; 0 for laws without one.
+  double flow_between(const std::array<double, most_variables>& before, const std::array<double, most_variables>& after) const;
+
   /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress that results show.
   Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
 
@@ -80,6 +88,7 @@ class PointLaw {
   PointResponse green(const PointInput& input, const PlasticPoint& now) const;
   PointResponse rubber(const PointInput& input, const PlasticPoint& now) const;
   PointResponse small(const PointInput& input, const PlasticPoint& now) const;
+  PointResponse updated(const PointInput& input, const PlasticPoint& now) const;
   PointResponse logarithmic(const PointInput& input, const PlasticPoint& now) const;
   PointResponse multiplicative(const PointInput& input, const PlasticPoint& now) const;
 

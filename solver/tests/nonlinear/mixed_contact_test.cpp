@@ -209,7 +209,10 @@ TEST_CASE("A guided surface pulls where free contact would open") {
   stack.scene.problem.contact->zones.front().mixed.bilateral = true;
   stack.scene.impose(stack.upper.nodes.back(), Component::dy, 0.02);
   stack.scene.solve(1);
-  for (const int node : stack.upper.nodes[0]) CHECK(pressure(stack.scene, node) == Approx(-2000.0).epsilon(1e-9));
+  for (const int node : stack.upper.nodes[0]) {
+    CHECK(pressure(stack.scene, node) == Approx(-2000.0).epsilon(1e-9));
+    CHECK(stack.scene.contact(node, "CONT") == 2.0);  // it is held, though it pulls
+  }
 }
 
 TEST_CASE("Nodes paired with nodes transmit a uniform pressure on matching meshes") {

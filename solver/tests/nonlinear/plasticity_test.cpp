@@ -149,3 +149,48 @@ TEST_CASE("an elastic body starts from the stresses that it is given, and differ
   CHECK(body.at_first_point("SIEF_ELGA", "SIYY", 1) == Approx(4.0));
   CHECK(body.scene.counters.factorisations == 1);
 }
+
+TEST_CASE("on the updated geometry stresses add up from strains of the step over the length where it ends") {
+  Square body(0.1, {Kinematics::updated, Relation::elastic});
+  NewtonOptions options;
+  options.relative_residual = 1e-12;
+  options.max_iterations = 30;
+  body.scene.solve(3, options);
+  double strain = 0.0;
+  for (const int step : {1, 2, 3}) strain += 0.1 / (1.0 + 0.1 * step);
+  CHECK(body.at_first_point("SIEF_ELGA", "SIYY", 3) == Approx(young * strain).epsilon(1e-10));
+  CHECK(body.at_first_point("SIEF_ELGA", "SIXX", 3) == Approx(0.0).margin(1e-9));
+  // Without displacements across, that is nearly the logarithm in short steps.
+  Square fine(0.003, {Kinematics::updated, Relation::elastic});
+  fine.scene.solve(100, options);
+  CHECK(fine.at_first_point("SIEF_ELGA", "SIYY", 100) == Approx(young * std::log(1.3)).epsilon(2e-3));
+}
+
+TEST_CASE("steps that extrapolate the flow are linear, and their error is of the order of their length") {
+  const auto cumulated = [](int steps, bool extrapolates, long& iterations) {
+    Square square(0.02 / steps);
+    // A corner that is held makes the flow uneven.
+    square.scene.impose({square.block.nodes[2][2]}, Component::dx, 0.0);
+    NewtonOptions options;
+    options.relative_residual = 1e-9;
+    options.extrapolates_flow = extrapolates;
+    square.scene.solve(steps, options);
+    iterations = square.scene.counters.newton_iterations;
+    return square.at_first_point("VARI_ELGA", "V1", static_cast<std::size_t>(steps));
+  };
+  long iterations = 0;
+  const double exact = cumulated(160, false, iterations);
+  const double coarse = cumulated(40, true, iterations) - exact;
+  CHECK(iterations == 40);
+  const double fine = cumulated(80, true, iterations) - exact;
+  CHECK(std::abs(coarse) < 0.05 * exact);
+  CHECK(std::abs(fine) < 0.7 * std::abs(coarse));
+
+  Square elastic(0.004, {Kinematics::small, Relation::elastic});
+  NewtonOptions options;
+  options.extrapolates_flow = true;
+  elastic.scene.solve(1, options);
+  CHECK(elastic.at_first_point("SIEF_ELGA", "SIYY", 1) == Approx(4.0));
+  Square moving(0.01, {Kinematics::small, Relation::kinematic_linear});
+  CHECK_THROWS_WITH(moving.scene.solve(1, options), Catch::Contains("IMPLEX"));
+}

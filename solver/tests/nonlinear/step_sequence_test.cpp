@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/nonlinear/watched_increment.hpp"
 
 using namespace comma::solver;
 
@@ -72,4 +73,46 @@ TEST_CASE("steps aim at a number of iterations") {
   plan.adaptation = StepAdaptation{};
   plan.adaptation->wanted_iterations = 4;
   CHECK(walk(plan, 0, never) == std::vector<double>{1.0, 3.0, 7.0, 10.0});
+}
+
+TEST_CASE("steps adapt so that a watched field changes by as much as is wanted") {
+  StepPlan plan({0.0, 0.5, 2.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->increment = WatchedIncrement{"DEPL", "DX", {}, {}, 0.3};
+  StepSequence sequence(plan);
+  std::vector<double> reached;
+  // The field is t^2: from 0.1 on a step of length h aims at h * 0.3 / change for the next.
+  for (double now = 0.0; !sequence.finished();) {
+    const double target = sequence.target();
+    sequence.accept(1, target * target - now * now);
+    reached.push_back(now = target);
+  }
+  REQUIRE(reached.size() > 3);
+  CHECK(reached[0] == 0.5);
+  double before = 0.0, length = 0.5;
+  for (std::size_t k = 0; k + 2 < reached.size(); ++k) {
+    length *= 0.3 / (reached[k] * reached[k] - before * before);
+    CHECK(reached[k + 1] == Approx(reached[k] + length));
+    before = reached[k];
+  }
+  CHECK(reached.back() == 2.0);
+}
+
+TEST_CASE("the change of a field is the largest over the places that are watched") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  NodalField field{"DEPL_R", {"DX", "DY"}, {1.0, 9.0, 2.0, 9.0, 3.0, 9.0}};
+  ResultStep before, after;
+  before.fields.emplace("DEPL", field);
+  field.values[0] = 1.5;
+  field.values[4] = 1.0;
+  field.values[3] = -100.0;
+  after.fields.emplace("DEPL", field);
+  WatchedIncrement watched{"DEPL", "DX", {}, {}, 1.0};
+  const auto change = [&] { return largest_change(watched_values(watched, before, mesh), watched_values(watched, after, mesh)); };
+  CHECK(change() == 2.0);
+  watched.nodes = {0, 1};
+  CHECK(change() == 0.5);
+  watched.component = "DZ";
+  CHECK_THROWS_AS(change(), Error);
 }
