@@ -311,7 +311,7 @@ double PointLaw::flow_between(const std::array<double, most_variables>& before, 
 PointResponse PointLaw::respond_extrapolated(const PointInput& input, double ratio) const {
   const bool is_known = behaviour_.relation == Relation::elastic || (own_count() == 2 && !in_plane_);
   if (!is_known || is_large())
-    throw Error("unsupported", "METHODE='IMPLEX' extrapolates elasticity and isotropic hardening in small strains alone, and not in plane stress", "take METHODE='NEWTON'");
+    throw Error("unsupported", "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS in small strains alone, and not in plane stress", "take METHODE='NEWTON'");
   PointResponse response = respond_elastically(input);
   if (behaviour_.relation == Relation::elastic || !(input.past.flow > 0.0)) return response;
   Vector6d deviator = input.past.stress;
