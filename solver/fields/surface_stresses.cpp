@@ -115,22 +115,36 @@ Values resolve_on_edge(const Eigen::Matrix3d& stress, const Eigen::Vector3d& n) 
           along[1],  along[2],  t.dot(along), 0.0,           0.0,      0.0,      0.0,      t.dot(across)};
 }
 
-Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& normal) {
+Eigen::Vector3d first_edge(const Mesh& mesh, int face) {
+  const auto nodes = mesh.cell(face);
+  return Eigen::Vector3d(mesh.nodes[nodes[0]].data()) - Eigen::Vector3d(mesh.nodes[nodes[1]].data());
+}
+
+/// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first. A direction has no sign of its own; these are those that Code_Aster's
+/// figures have (docs/conformance.md): the second one is (b, value - a), as the first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the
+/// first axis, or away from the second where that is nearer.
+std::array<Eigen::Vector2d, 2> principal_directions(double a, double b, double c) {
+  const double half = 0.5 * (a - c);
+  const double root = std::hypot(half, b);
+  if (half < 0.0) {
+    const Eigen::Vector2d second = Eigen::Vector2d(b, root - half).normalized();
+    return {Eigen::Vector2d(second[1], -second[0]), second};
+  }
+  // The larger value less a, without cancellation.
+  const Eigen::Vector2d second = b == 0.0 ? Eigen::Vector2d::UnitX().eval() : Eigen::Vector2d(b, b * (b / (half + root))).normalized();
+  return {Eigen::Vector2d(second[0] > 0.0 ? second[1] : -second[1], -std::abs(second[0])), second};
+}
+
+/// `edge`: the first edge of the face, from its second node to its first.
+Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& normal, const Eigen::Vector3d& edge) {
   const Eigen::Vector3d traction = stress * normal;
   const double across = normal.dot(traction);
   const Eigen::Vector3d tangential = traction - across * normal;
-  // Two directions of the surface, and the principal values of the stress between them.
-  const Eigen::Vector3d s = normal.unitOrthogonal();
+  const Eigen::Vector3d s = (edge - normal.dot(edge) * normal).normalized();
   const Eigen::Vector3d t = normal.cross(s);
-  const double ss = s.dot(stress * s);
-  const double tt = t.dot(stress * t);
-  const double st = s.dot(stress * t);
-  const double angle = 0.5 * std::atan2(2 * st, ss - tt) + 0.5 * std::acos(-1.0);  // of the smaller value
-  Eigen::Vector3d first = std::cos(angle) * s + std::sin(angle) * t;
-  Eigen::Index largest = 0;
-  first.cwiseAbs().maxCoeff(&largest);
-  if (first[largest] > 0.0) first = -first;
-  const Eigen::Vector3d second = normal.cross(first);
+  const auto directions = principal_directions(s.dot(stress * s), s.dot(stress * t), t.dot(stress * t));
+  const Eigen::Vector3d first = directions[0][0] * s + directions[0][1] * t;
+  const Eigen::Vector3d second = directions[1][0] * s + directions[1][1] * t;
   const double smaller = first.dot(stress * first);
   const double larger = second.dot(stress * second);
   const Eigen::Vector3d n = across * normal;
@@ -165,7 +179,7 @@ ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, st
     const Eigen::Vector3d normal = normal_of(mesh, face, samples);
     const Eigen::Matrix3d stress = mean_stress(mesh, stresses, columns, cell, face);
     const Values values =
-        dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal);
+        dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal, first_edge(mesh, face));
     result.values.insert(result.values.end(), values.begin(), values.end());
     result.starts[face + 1] = 1;
   }

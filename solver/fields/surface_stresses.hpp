@@ -14,8 +14,8 @@ namespace comma::solver {
 ///
 /// Faces: SIG_NX SIG_NY SIG_NZ: (n . S n) n, and SIG_N = n . S n; SIG_TX SIG_TY SIG_TZ: S n - (n . S n) n. The stress
 /// within the surface has the principal values SIG_T1 <= SIG_T2, which times their directions are SIG_T1X ... SIG_T2Z;
-/// the largest component of the first direction is negative, and n, the first and the second direction are
-/// right-handed.
+/// signs of the directions follow from the axes s, along the first edge from the second node to the first, and t = n x s: the second direction leans towards
+/// t, or with the sign of the shear towards s where s is nearer; the first one towards s, or else away from t.
 ///
 /// Edges: SIG_NX ... = S n, SIG_N = n . S n, SIG_TX ... = SIG_T1X ... = S t, SIG_T1 = t . S t, SIG_TN = t . S n; the
 /// rest is 0.

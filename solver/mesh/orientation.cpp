@@ -54,8 +54,9 @@ bool same_sense(std::span<const int> nodes, std::span<const int> facet_nodes, in
   return facet_nodes[static_cast<std::size_t>(next)] == nodes[1];
 }
 
-/// Turns a line or face cell round. The first node of a quadrangle stays first; a triangle exchanges its first and its third, as Code_Aster does:
-/// its reference cell is not alike in all corners, and contact brings points that fall beside a face back within it.
+/// Turns a line or face cell round. The corners of a face are taken in the opposite order, the last one first, as Code_Aster does: the reference cell of a
+/// triangle is not alike in all corners, and contact brings points that fall beside a face back within it; the first edge gives principal directions in a
+/// skin their signs (surface_stresses.hpp).
 void reverse(std::span<int> nodes, CellType type) {
   const int corners = corner_count(type);
   if (dimension(type) == 1) {
@@ -64,13 +65,8 @@ void reverse(std::span<int> nodes, CellType type) {
     return;
   }
   const bool quadratic = node_count(type) >= 2 * corners;
-  if (corners == 3) {
-    std::swap(nodes[0], nodes[2]);
-    if (quadratic) std::swap(nodes[3], nodes[4]);
-    return;
-  }
-  std::reverse(nodes.begin() + 1, nodes.begin() + corners);
-  if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners);
+  std::reverse(nodes.begin(), nodes.begin() + corners);
+  if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners - 1);
 }
 
 std::vector<int> default_support(const Mesh& mesh, std::span<const int> skin) {

@@ -40,6 +40,31 @@ TEST_CASE("a uniform stress on a face: normal and tangential traction, principal
   CHECK(std::abs(value(skin, 1, "SIG_T2Y")) == Approx(200));
 }
 
+TEST_CASE("principal directions in a face take their signs from its first edge", "[fields]") {
+  // The first edge of the top goes along X: s is -X, and t = n x s is -Y.
+  const Mesh mesh = cube();
+  const auto skin_of = [&](double xx, double yy, double xy) {
+    ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 8, 8}, {}};
+    for (int i = 0; i < 8; ++i) stress.values.insert(stress.values.end(), {xx, yy, 0, xy, 0, 0});
+    return surface_stresses(mesh, stress, std::array{1});
+  };
+  for (const double shear : {-8.0, -1e-9, 0.0, 1e-9, 8.0}) {
+    const ElementField along_t = skin_of(3, 90, shear), along_s = skin_of(90, 3, shear);
+    CHECK(value(along_t, 1, "SIG_T1X") < 0.0);  // towards s
+    CHECK(value(along_t, 1, "SIG_T2Y") < 0.0);  // towards t
+    CHECK(value(along_s, 1, "SIG_T1Y") > 0.0);  // away from t
+    CHECK(value(along_s, 1, "SIG_T2X") * (shear < 0.0 ? -1.0 : 1.0) < 0.0);
+    for (const ElementField* skin : {&along_t, &along_s}) {
+      const auto part = [&](const char* x, const char* y) { return Eigen::Vector2d(value(*skin, 1, x), value(*skin, 1, y)); };
+      const Eigen::Vector2d first = part("SIG_T1X", "SIG_T1Y"), second = part("SIG_T2X", "SIG_T2Y");
+      CHECK(std::abs(first.dot(second)) < 1e-12 * first.norm() * second.norm());
+      CHECK(first.norm() == Approx(std::abs(value(*skin, 1, "SIG_T1"))));
+      // Both together are the stress again.
+      CHECK(first[0] * first[1] / value(*skin, 1, "SIG_T1") + second[0] * second[1] / value(*skin, 1, "SIG_T2") == Approx(shear).margin(1e-12));
+    }
+  }
+}
+
 TEST_CASE("a uniform stress on an edge of a plane body", "[fields]") {
   Mesh mesh;
   mesh.dimension = 2;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <random>
 
 #include "reference_cells.hpp"
@@ -165,6 +166,21 @@ TEST_CASE("a triangle that is turned exchanges its first corner and its third; t
   CHECK(orient_skin(mesh, std::vector{linear, quadratic}) == 2);
   CHECK(std::ranges::equal(mesh.cell(linear), std::vector{0, 2, 1}));
   CHECK(std::ranges::equal(mesh.cell(quadratic), std::vector{0, 2, 1, 6, 5, 4}));
+}
+
+TEST_CASE("a quadrangle that is turned takes its corners in the opposite order, the last one first") {
+  Mesh mesh;
+  for (const auto& at : tests::reference_nodes(CellType::hexa20)) mesh.nodes.push_back({at[0], at[1], at[2]});
+  std::vector<int> body(20);
+  std::iota(body.begin(), body.end(), 0);
+  mesh.add_cell(CellType::hexa20, body);
+  const BoundaryFacet& facet = boundary_facets(CellType::hexa20)[0];
+  const auto node = [&](int place) { return facet.nodes[static_cast<std::size_t>(place)]; };
+  const std::vector<int> outward = {node(0), node(1), node(2), node(3), node(4), node(5), node(6), node(7)};
+  const std::vector<int> inward = {node(3), node(2), node(1), node(0), node(6), node(5), node(4), node(7)};
+  const int face = mesh.add_cell(CellType::quad8, inward);
+  CHECK(orient_skin(mesh, std::vector{face}) == 1);
+  CHECK(std::ranges::equal(mesh.cell(face), outward));
 }
 
 TEST_CASE("a skin without one clear side is an error") {
