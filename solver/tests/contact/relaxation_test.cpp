@@ -9,6 +9,20 @@ using namespace comma::solver;
 
 namespace {
 
+/// Of weight one, alone on the node of its number.
+CondensedPoint point_on_node(int node, int rows, double friction) {
+  CondensedPoint point;
+  point.first_row = rows * node;
+  point.rows = point.components = rows;
+  point.nodes[0] = node;
+  point.shape[0] = 1.0;
+  point.node_count = 1;
+  point.weight = 1.0;
+  point.law.friction = friction;
+  point.law.augmentation = point.law.friction_augmentation = 1.0;
+  return point;
+}
+
 /// `count` points of three rows each, all on nodes of their own, coupled by a compliance that is dense and positive definite.
 struct Coupled {
   CondensedProblem problem;
@@ -21,16 +35,7 @@ struct Coupled {
     problem.free = Eigen::VectorXd::Zero(3 * count);
     problem.held = Eigen::VectorXd::Zero(3 * count);
     for (int p = 0; p < count; ++p) {
-      CondensedPoint point;
-      point.first_row = 3 * p;
-      point.rows = point.components = 3;
-      point.nodes[0] = p;
-      point.shape[0] = 1.0;
-      point.node_count = 1;
-      point.weight = 1.0;
-      point.law.friction = friction;
-      point.law.augmentation = point.law.friction_augmentation = 1.0;
-      problem.points.push_back(point);
+      problem.points.push_back(point_on_node(p, 3, friction));
       problem.free.segment<3>(3 * p) << -1.0 + 0.3 * p, 0.2 * p, 0.5;
     }
     state.multipliers = Eigen::VectorXd::Zero(3 * count);
@@ -107,16 +112,7 @@ TEST_CASE("Friction grows from none where a status does not settle") {
     problem.free.resize(size);
     problem.held = Eigen::VectorXd::Zero(size);
     for (int p = 0; p < count; ++p) {
-      CondensedPoint point;
-      point.first_row = 2 * p;
-      point.rows = point.components = 2;
-      point.nodes[0] = p;
-      point.shape[0] = 1.0;
-      point.node_count = 1;
-      point.weight = 1.0;
-      point.law.friction = 3.0;
-      point.law.augmentation = point.law.friction_augmentation = 1.0;
-      problem.points.push_back(point);
+      problem.points.push_back(point_on_node(p, 2, 3.0));
       problem.free.segment<2>(2 * p) << between(numbers) - 0.7, between(numbers);
     }
     CondensedState state;
