@@ -1,37 +1,14 @@
 // Plane and axisymmetric bodies, from the continuum template.
+#include "solver/elements/cell_choice.hpp"
 #include "solver/elements/large_strain_block.hpp"
 
 namespace comma::solver {
 
-namespace {
-
-template <int Dim, int Nodes, bool Axisymmetric>
-std::unique_ptr<ElementBlock> of_behaviour(const BlockInput& input, std::vector<int> cells) {
-  if (input.behaviour_of(cells.front()).kinematics == Kinematics::green_lagrange)
-    return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
-  return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
-}
-
-template <int Nodes>
-std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
-  if (is_axisymmetric(input.model.formulations[cells.front()])) {
-    return of_behaviour<2, Nodes, true>(input, std::move(cells));
-  }
-  return of_behaviour<2, Nodes, false>(input, std::move(cells));
-}
-
-}  // namespace
-
 std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vector<int> cells) {
-  switch (input.model.mesh->cell_types[cells.front()]) {
-    case CellType::tria3: return make<3>(input, std::move(cells));
-    case CellType::tria6: return make<6>(input, std::move(cells));
-    case CellType::tria7: return make<7>(input, std::move(cells));
-    case CellType::quad4: return make<4>(input, std::move(cells));
-    case CellType::quad8: return make<8>(input, std::move(cells));
-    case CellType::quad9: return make<9>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
-  }
+  return make_for_plane_cells(input, std::move(cells), []<int Nodes>(const BlockInput& of, std::vector<int> its) {
+    if (is_axisymmetric(of.model.formulations[its.front()])) return make_elastic_block<2, Nodes, true>(of, std::move(its));
+    return make_elastic_block<2, Nodes, false>(of, std::move(its));
+  });
 }
 
 }  // namespace comma::solver

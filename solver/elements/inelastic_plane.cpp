@@ -1,30 +1,14 @@
 // Plane and axisymmetric bodies whose material has a memory.
+#include "solver/elements/cell_choice.hpp"
 #include "solver/elements/inelastic_block.hpp"
 
 namespace comma::solver {
 
-namespace {
-
-template <int Nodes>
-std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
-  if (is_axisymmetric(input.model.formulations[cells.front()])) {
-    return std::make_unique<InelasticBlock<2, Nodes, true>>(input, std::move(cells));
-  }
-  return std::make_unique<InelasticBlock<2, Nodes, false>>(input, std::move(cells));
-}
-
-}  // namespace
-
 std::unique_ptr<ElementBlock> make_inelastic_plane_block(const BlockInput& input, std::vector<int> cells) {
-  switch (input.model.mesh->cell_types[cells.front()]) {
-    case CellType::tria3: return make<3>(input, std::move(cells));
-    case CellType::tria6: return make<6>(input, std::move(cells));
-    case CellType::tria7: return make<7>(input, std::move(cells));
-    case CellType::quad4: return make<4>(input, std::move(cells));
-    case CellType::quad8: return make<8>(input, std::move(cells));
-    case CellType::quad9: return make<9>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
-  }
+  return make_for_plane_cells(input, std::move(cells), []<int Nodes>(const BlockInput& of, std::vector<int> its) -> std::unique_ptr<ElementBlock> {
+    if (is_axisymmetric(of.model.formulations[its.front()])) return std::make_unique<InelasticBlock<2, Nodes, true>>(of, std::move(its));
+    return std::make_unique<InelasticBlock<2, Nodes, false>>(of, std::move(its));
+  });
 }
 
 }  // namespace comma::solver

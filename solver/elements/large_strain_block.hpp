@@ -186,4 +186,12 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 };
 
+/// An elastic block of continua, in small or large strains as the behaviour of its cells has it.
+template <int Dim, int Nodes, bool Axisymmetric>
+std::unique_ptr<ElementBlock> make_elastic_block(const BlockInput& input, std::vector<int> cells) {
+  if (input.behaviour_of(cells.front()).kinematics == Kinematics::green_lagrange)
+    return std::make_unique<LargeStrainBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
+  return std::make_unique<ContinuumBlock<Dim, Nodes, Axisymmetric>>(input, std::move(cells));
+}
+
 }  // namespace comma::solver

@@ -1,15 +1,14 @@
 // The numbers of controls are those of the "MUMPS 5.5.1 Users' guide", sections 3.18, 5 and 6.
 #include "solver/linear/bordered_compliance.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <thread>
 #include <vector>
 
 #include <dmumps_c.h>
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/blas_threads.hpp"
 #include "solver/linear/equilibration.hpp"
 #include "solver/linear/shared_library.hpp"
 
@@ -87,10 +86,10 @@ class SchurFactorisation {
     data_.size_schur = count;
     data_.listvar_schur = last.data();
     data_.schur = result.data();
-    void (*set_threads)(int) = library_.function_if_any<void(int)>("openblas_set_num_threads");
-    if (set_threads) set_threads(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    const BlasThreads threads(library_);
+    threads.use_all();
     run(job_analyse_and_factorise);
-    if (set_threads) set_threads(1);
+    threads.use(1);
     check();
     return result;
   }

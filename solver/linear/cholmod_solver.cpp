@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 
 #include <cholmod.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/blas_threads.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/shared_library.hpp"
 #include "solver/linear/supernodal_compliance.hpp"
@@ -32,12 +32,7 @@ struct Cholmod {
   decltype(&cholmod_solve) solve = library.function<decltype(cholmod_solve)>("cholmod_solve");
   decltype(&cholmod_free_factor) free_factor = library.function<decltype(cholmod_free_factor)>("cholmod_free_factor");
   decltype(&cholmod_free_dense) free_dense = library.function<decltype(cholmod_free_dense)>("cholmod_free_dense");
-  void (*set_threads)(int) = library.function_if_any<void(int)>("openblas_set_num_threads");
-
-  /// Of the BLAS below, where it lets itself be told.
-  void use_threads(int count) const {
-    if (set_threads) set_threads(count);
-  }
+  BlasThreads threads{library};
 };
 
 /// CHOLMOD's view of a lower triangle; it copies nothing and writes nothing.
@@ -56,8 +51,6 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
   view.packed = 1;
   return view;
 }
-
-int all_threads() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 SupernodalFactor view_of(const cholmod_factor& factor) {
   return {static_cast<int>(factor.n),
@@ -126,7 +119,7 @@ class CholmodSolver final : public RefinedSolver {
 
   Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) const override {
     if (!current_ || !current_->is_super) return {};
-    cholmod_.use_threads(all_threads());
+    cholmod_.threads.use_all();
     return supernodal_compliance(view_of(*current_), BlasKernels(cholmod_.library), rows * factors().asDiagonal());
   }
 
@@ -140,7 +133,8 @@ class CholmodSolver final : public RefinedSolver {
 
   FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) override {
     int digits = options().singular_digits;
-    cholmod_.use_threads(operations_ > many_operations ? all_threads() : 1);
+    if (operations_ > many_operations) cholmod_.threads.use_all();
+    else cholmod_.threads.use(1);
     current_ = factor_;
     if (!factorised(matrix, 0.0)) {
       if (!indefinite_factor_) indefinite_factor_ = symbolic_factor(matrix, CHOLMOD_SIMPLICIAL);
@@ -162,7 +156,7 @@ class CholmodSolver final : public RefinedSolver {
     view.x = rhs.data();
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
-    cholmod_.use_threads(1);
+    cholmod_.threads.use(1);
     cholmod_dense* solution = cholmod_.solve(CHOLMOD_A, current_, &view, &common_);
     check();
     rhs = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());

@@ -1,12 +1,11 @@
 #include "solver/linear/dense_solve.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "solver/linear/blas_threads.hpp"
 #include "solver/linear/shared_library.hpp"
 
 namespace comma::solver {
@@ -23,7 +22,7 @@ struct Lapack {
                      int* info);
   Factorise* factorise = library.function<Factorise>("dgetrf_");
   Solve* solve = library.function<Solve>("dgetrs_");
-  void (*set_threads)(int) = library.function_if_any<void(int)>("openblas_set_num_threads");
+  BlasThreads threads{library};
 };
 
 const Lapack& lapack() {
@@ -54,10 +53,9 @@ DenseLu::DenseLu(const Eigen::MatrixXd& matrix) {
   const int n = static_cast<int>(factors_.rows());
   interchanges_.resize(static_cast<std::size_t>(n));
   int info = 0;
-  const auto set_threads = lapack().set_threads;
-  if (set_threads) set_threads(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  lapack().threads.use_all();
   lapack().factorise(&n, &n, factors_.data(), &n, interchanges_.data(), &info);
-  if (set_threads) set_threads(1);
+  lapack().threads.use(1);
 }
 
 Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& b) const {

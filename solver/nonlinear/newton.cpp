@@ -183,7 +183,7 @@ void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
 /// of an earlier stiffness leaves something to the next round; where that does not shrink, the compliance is made anew.
 NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state) {
   const std::vector<int> before = active_;
-  if (by_gradients() && !by_compliance()) settle_conditions(state);
+  if (!by_compliance()) settle_conditions(state);
   else settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);

@@ -17,6 +17,7 @@
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
 #include "solver/nonlinear/watched_increment.hpp"
+#include "solver/on_exit.hpp"
 
 namespace comma::solver {
 namespace {
@@ -124,8 +125,7 @@ class StaticAnalysis {
     take_back(before);
     if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
     newton_.predict_with(TangentKind::elastic);
-    const auto as_before = [&](void*) { newton_.predict_with(options_.tangent.prediction); };
-    const std::unique_ptr<void, decltype(as_before)> guard(this, as_before);
+    const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
     return solve_and_check(instant);
   }
 
@@ -194,8 +194,7 @@ class StaticAnalysis {
 
   /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
   int solve_extrapolated(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
-    const auto as_they_are = [&](void*) { assembler_.extrapolate(std::nullopt); };
-    const std::unique_ptr<void, decltype(as_they_are)> guard(this, as_they_are);
+    const OnExit as_they_are([&] { assembler_.extrapolate(std::nullopt); });
     assembler_.extrapolate(last_duration_ > 0.0 ? (time - last_instant_) / last_duration_ : 0.0);
     return newton_.solve(time, external, offset, now_.conditions, 0, 0, now_.state);
   }

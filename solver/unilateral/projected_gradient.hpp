@@ -1,4 +1,4 @@
-// Multipliers of A u <= b by projected conjugate gradients: no columns of the Schur complement, two solves an iteration.
+// Multipliers of A u <= b by projected conjugate gradients: one or two products with the Schur complement an iteration.
 #pragma once
 
 #include <functional>

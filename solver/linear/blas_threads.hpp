@@ -1,0 +1,25 @@
+// How many threads the BLAS of a library that was loaded at run time works with.
+#pragma once
+
+#include <algorithm>
+#include <thread>
+
+#include "solver/linear/shared_library.hpp"
+
+namespace comma::solver {
+
+/// Where the BLAS does not let itself be told, nothing happens.
+class BlasThreads {
+ public:
+  explicit BlasThreads(const SharedLibrary& library) : set_(library.function_if_any<void(int)>("openblas_set_num_threads")) {}
+
+  void use(int count) const {
+    if (set_) set_(count);
+  }
+  void use_all() const { use(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))); }
+
+ private:
+  void (*set_)(int);
+};
+
+}  // namespace comma::solver
