@@ -42,12 +42,12 @@ class CondensedSolver {
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that fails, from those of points that stick to what they touch; then from what relaxation finds; at
-  /// last with friction that grows from none.
+  /// From the statuses given; where that leads away, from those of points that stick to what they touch; then from what relaxation
+  /// finds; then from the statuses given, however far that leads; at last with friction that grows from none.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
-    bool solved = settle(Rubbing::by_law, solution.iterations);
+    bool solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
     if (!solved) {
       restart(multipliers);
       solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
@@ -55,6 +55,10 @@ class CondensedSolver {
     if (!solved) {
       restart(multipliers);
       solved = relax() && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = settle(Rubbing::by_law, solution.iterations);
     }
     if (!solved) {
       restart(multipliers);
@@ -69,6 +73,8 @@ class CondensedSolver {
  private:
   /// What closed points do along the surface.
   enum class Rubbing : std::uint8_t { by_law, never_slides };
+  /// With friction, whether to stop where two iterations have brought what is left of the equations no nearer to zero.
+  enum class Patience : std::uint8_t { to_the_end, short_of_growth };
 
   void restart(const Eigen::VectorXd& multipliers) {
     state_.multipliers = multipliers;
@@ -114,10 +120,11 @@ class CondensedSolver {
   }
 
   /// Iterates until statuses stay and nothing is left of the equations; counts on.
-  bool settle(Rubbing rubbing, int& iterations) {
+  bool settle(Rubbing rubbing, int& iterations, Patience patience = Patience::to_the_end) {
     rubbing_ = rubbing;
     one_at_a_time_ = false;
     visited_.clear();
+    double last = 0.0, before_last = 0.0;
     for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
     for (int iteration = 0; iteration < problem_.max_iterations; ++iteration) {
       ++iterations;
@@ -127,7 +134,11 @@ class CondensedSolver {
       const bool settled = !update_statuses();
       if (settled && is_solved()) return true;
       if (!settled) same_statuses_ = 0;
-      if (one_at_a_time_ && problem_.components > 1 && rubbing_ == Rubbing::by_law) return false;  // with friction a cycle stays one
+      if (problem_.components == 1 || rubbing_ != Rubbing::by_law) continue;
+      if (one_at_a_time_) return false;  // with friction a cycle stays one
+      if (patience == Patience::short_of_growth && iteration >= 2 && residual_ > before_last) return false;
+      before_last = last;
+      last = residual_;
     }
     return false;
   }
