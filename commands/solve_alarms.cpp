@@ -62,12 +62,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",
                           zone, mesh.node_name(doubt.node), doubt.length, 100.0 * doubt.share),
               how_to_follow(contact)};
-    case solver::DoubtKind::sparse_points: break;
+    case solver::DoubtKind::passed_master: break;
   }
   return {"coarse-slave",
-          fmt::format("the slave points of zone {} lie {:.2g} times as far apart as the master facets are long: master nodes between them go "
-                      "through the slave side, and contact forces come out too small",
-                      zone, doubt.share),
+          fmt::format("master nodes of zone {} go through the slave side between its nodes, {:.3g} deep on the mean, {:.0f} % of what contact pushes "
+                      "back: forces come out too small or motions too large by about that share",
+                      zone, doubt.length, 100.0 * doubt.share),
           is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
                    : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'"};
 }

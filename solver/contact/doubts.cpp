@@ -13,14 +13,23 @@ namespace {
 /// Places are exact to this share of a facet's size.
 constexpr double rounding_of_place = 1e-10;
 
-double mean_size(const Mesh& mesh, const std::vector<int>& cells) {
-  double sum = 0.0;
-  for (const int cell : cells) sum += extent(mesh, cell);
-  return sum / static_cast<double>(cells.size());
-}
+/// How far outside a slave face, in its reference coordinates, a master node still faces it.
+constexpr double border = 1e-6;
 
-bool is_held(const Mesh& mesh, const std::vector<int>& cells, const std::function<bool(int)>& gives_way) {
-  return std::ranges::none_of(cells, [&](int cell) { return std::ranges::any_of(mesh.cell(cell), gives_way); });
+/// The same surfaces the other way round, master nodes facing slave faces.
+ContactDefinition turned(const ContactDefinition& definition, const ContactZone& zone) {
+  ContactDefinition result;
+  result.smooth_normals = definition.smooth_normals;
+  ContactZone& other = result.zones.emplace_back();
+  other.master_cells = zone.slave_cells;
+  other.slave_cells = zone.master_cells;
+  other.master_normal = zone.slave_normal;
+  other.master_vector = zone.slave_vector;
+  other.master_thickness = zone.slave_thickness;
+  other.slave_thickness = zone.master_thickness;
+  other.half_thickness = zone.half_thickness;
+  other.projection_tolerance = border;
+  return result;
 }
 
 }  // namespace
@@ -39,18 +48,49 @@ double wanted_penalty(double penalty, double share) {
   return std::pow(10.0, std::ceil(std::log10(penalty * share * (1.0 - penalty_goal) / (penalty_goal * stuck))));
 }
 
-void note_sparse_points(const ContactDefinition& definition, const Mesh& mesh, const std::vector<int>& point_counts,
-                        const std::vector<std::vector<int>>& facets, const std::function<bool(int)>& gives_way, ContactDoubts& doubts) {
-  for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
-    const std::vector<int>& slave = definition.zones[zone].slave_cells;
-    // Local averages see all of the master side.
-    if (!definition.zones[zone].resolved || definition.zones[zone].mixed.local_average || point_counts[zone] == 0 || facets[zone].empty()) continue;
-    if (is_held(mesh, facets[zone], gives_way)) continue;
-    const int across = dimension(mesh.cell_types[static_cast<std::size_t>(slave.front())]);
-    const double points_a_face = static_cast<double>(point_counts[zone]) / static_cast<double>(slave.size());
-    const double spacing = mean_size(mesh, slave) * std::pow(points_a_face, -1.0 / std::max(1, across));
-    const double ratio = spacing / mean_size(mesh, facets[zone]);
-    if (ratio > sparse_spacing) doubts.note({.kind = DoubtKind::sparse_points, .zone = static_cast<int>(zone), .share = ratio, .length = spacing});
+PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions positions, double time) const {
+  Depths result;
+  for (const ContactPair& pair : pair_surfaces(turned(definition_, zone), mesh_, positions, time)) {
+    if (pair.status != PairingStatus::paired) continue;
+    result.size = std::max(result.size, extent(mesh_, pair.facet));
+    result.depth.emplace(pair.slave, -gap_at(pair, mesh_, positions));
+  }
+  return result;
+}
+
+void PassedMaster::look(Positions positions, double pushed_back, double time) {
+  pushed_back_ = std::max(pushed_back_, pushed_back);
+  if (!(pushed_back > 0.0)) return;
+  for (int index = 0; index < static_cast<int>(definition_.zones.size()); ++index) {
+    const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
+    if (!zone.resolved || zone.mixed.local_average) continue;
+    if (!initial_.contains(index)) {
+      std::vector<Eigen::Vector3d> places;
+      for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);
+      initial_.emplace(index, depths(zone, places, time));
+    }
+    const Depths& before = initial_.at(index);
+    const Depths now = depths(zone, positions, time);
+    double sum = 0.0;
+    int touching = 0;
+    for (const auto& [node, depth] : now.depth) {
+      if (depth < -doubtful_share * pushed_back) continue;
+      const auto known = before.depth.find(node);
+      sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
+      ++touching;
+    }
+    const double mean = touching > 0 ? sum / touching : 0.0;
+    if (mean > rounding_of_place * now.size) deepest_[index] = std::max(deepest_[index], mean);
+  }
+}
+
+void PassedMaster::conclude(ContactDoubts& doubts) const {
+  for (const auto& [zone, depth] : deepest_) {
+    const bool is_soft = std::ranges::any_of(doubts.all(), [zone = zone](const ContactDoubt& each) {
+      return each.zone == zone && (each.kind == DoubtKind::soft_penalty || each.kind == DoubtKind::deep_penalty);
+    });
+    if (is_soft || depth <= doubtful_passage * pushed_back_) continue;
+    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = depth / pushed_back_, .length = depth});
   }
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "solver/contact/definition.hpp"
@@ -16,14 +17,14 @@ enum class DoubtKind : std::uint8_t {
   deep_penalty,   ///< they sink in by a good part of the size of the slave side
   soft_friction,  ///< points that stick creep by a good part of what they would slip without contact
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
-  sparse_points,  ///< slave points are so far apart that master nodes between them can go through the slave side
+  passed_master,  ///< master nodes between slave points have gone through the slave side
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
 };
 
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth or slip in what the kind compares it with; `sparse_points`: distance of slave points over size of master facets
+  double share = 0.0;    ///< of the depth or slip in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
@@ -48,18 +49,39 @@ inline constexpr double doubtful_share = 1e-2;
 inline constexpr double doubtful_depth = 0.1;
 /// What the penalty that is proposed leaves.
 inline constexpr double penalty_goal = 1e-3;
-/// On meshes in two dimensions resultants are wrong by 3 % where slave points lie two master facets apart, by 11 % where it is four
-/// (docs/stability.md).
-inline constexpr double sparse_spacing = 3.0;
+/// Contact forces are short by about the share that master nodes have gone through on the mean; below this it passes for what a mesh leaves.
+inline constexpr double doubtful_passage = 0.05;
 
 /// The penalty that leaves `penalty_goal`, the next power of ten, where the present one leaves `share`: both in series with the
 /// compliance of the bodies.
 double wanted_penalty(double penalty, double share);
 
-/// Doubts of kind `sparse_points`. `point_counts`: slave points of each zone; `facets`: the master facets that they face, zone by
-/// zone; `gives_way`: whether a node can move: master surfaces that are held all over cannot go anywhere.
-void note_sparse_points(const ContactDefinition& definition, const Mesh& mesh, const std::vector<int>& point_counts,
-                        const std::vector<std::vector<int>>& facets, const std::function<bool(int)>& gives_way, ContactDoubts& doubts);
+/// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone in, beyond where
+/// the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back. Zones of local averages see all of the
+/// master side and have none, nor have those whose penalty is known to be soft.
+class PassedMaster {
+ public:
+  PassedMaster(const ContactDefinition& definition, const Mesh& mesh) : definition_(definition), mesh_(mesh) {}
+
+  /// After each step. `pushed_back`: how far contact forces move the surfaces apart; `time`: at which thicknesses are read. Throws what
+  /// pair_surfaces throws.
+  void look(Positions positions, double pushed_back, double time);
+  /// After the last one; after other doubts.
+  void conclude(ContactDoubts& doubts) const;
+
+ private:
+  struct Depths {
+    double size = 0.0;                      ///< of the largest slave face met
+    std::unordered_map<int, double> depth;  ///< of the master nodes that face the slave side; negative outside
+  };
+  Depths depths(const ContactZone& zone, Positions positions, double time) const;
+
+  const ContactDefinition& definition_;
+  const Mesh& mesh_;
+  double pushed_back_ = 0.0;
+  std::unordered_map<int, Depths> initial_;  ///< by zone
+  std::map<int, double> deepest_;              ///< by zone, on the mean
+};
 
 /// By how much a slave node stands off its place on the facet, along the pair's normal; negative where it has gone in.
 double gap_at(const ContactPair& pair, const Mesh& mesh, Positions positions);

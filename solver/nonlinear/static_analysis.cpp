@@ -77,7 +77,7 @@ class StaticAnalysis {
       newton_.accept_step();
       if (path_) path_->accept_step(now_.state.u);
       if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
-      note_geometry_left_behind(instant);
+      note_doubts_about_surfaces(instant);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
       speed_ = (now_.state.u - start_) / (instant - from);
@@ -86,6 +86,7 @@ class StaticAnalysis {
       sequence.accept(*iterations, watched_change());
       if (path_ && path_->has_ended()) return;
     }
+    if (passed_master_) passed_master_->conclude(doubts_);
   }
 
   const ContactDoubts& doubts() const { return doubts_; }
@@ -384,20 +385,26 @@ class StaticAnalysis {
     return result;
   }
 
-  /// Where the geometry is updated less than it asks for, or averages face each other as they did when the step began: whether the surfaces as they
-  /// are have the gaps that were solved for.
-  void note_geometry_left_behind(double instant) {
+  void note_doubts_about_surfaces(double instant) {
     if (!problem_.contact || path_ || !now_.paired) return;
-    const bool averages = std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; });
-    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !averages) return;
     const std::vector<Vector3d> now = positions();
+    const double pushed_back = mixed_ ? mixed_->pushed_back() : newton_.pushed_back();
     try {
-      const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(averages ? start_ : now_.reference), instant) : now_.pairs;
-      const double pushed_back = mixed_ ? mixed_->pushed_back() : newton_.pushed_back();
-      note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
+      if (!passed_master_) passed_master_.emplace(*problem_.contact, mesh_);
+      passed_master_->look(now, pushed_back, instant);
+      note_geometry_left_behind(instant, now, pushed_back);
     } catch (const Error&) {
       // Surfaces that cannot be paired any more are no reason to lose a step that has converged.
     }
+  }
+
+  /// Where the geometry is updated less than it asks for, or averages face each other as they did when the step began: whether the surfaces as they
+  /// are have the gaps that were solved for.
+  void note_geometry_left_behind(double instant, const std::vector<Vector3d>& now, double pushed_back) {
+    const bool averages = std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; });
+    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !averages) return;
+    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(averages ? start_ : now_.reference), instant) : now_.pairs;
+    note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
   }
 
   Vector3d displacement(int node) const { return displacement(node, now_.state.u); }
@@ -410,31 +417,6 @@ class StaticAnalysis {
       if (dof >= 0) result[axis] = u[dof];
     }
     return result;
-  }
-
-  /// Where slave points lie too far apart for the master facets that they face.
-  void check_points() {
-    const std::size_t zones = problem_.contact->zones.size();
-    std::vector<int> counts(zones, 0);
-    std::vector<std::vector<int>> facets(zones);
-    const auto count = [&](int zone, int facet) {
-      ++counts[static_cast<std::size_t>(zone)];
-      if (facet >= 0) facets[static_cast<std::size_t>(zone)].push_back(facet);
-    };
-    if (mixed_) {
-      for (const ContactPoint& point : mixed_->points()) count(point.zone, point.facet);
-    } else {
-      for (const ContactPair& pair : now_.pairs) count(pair.zone, pair.facet);
-    }
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> transformation = elimination_.transformation();
-    const auto gives_way = [&](int node) {
-      for (int component = 0; component < component_count; ++component) {
-        const int dof = dofs_.dof(node, static_cast<Component>(component));
-        if (dof >= 0 && transformation.outerIndexPtr()[dof + 1] > transformation.outerIndexPtr()[dof]) return true;
-      }
-      return false;
-    };
-    note_sparse_points(*problem_.contact, mesh_, counts, facets, gives_way, doubts_);
   }
 
   /// What the intensity multiplies, and what it does not.
@@ -521,8 +503,6 @@ class StaticAnalysis {
       now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
       ++counters_.pairings;
     }
-    if (!points_checked_) check_points();
-    points_checked_ = true;
     now_.paired = true;
     now_.reference = now_.state.u;
   }
@@ -666,8 +646,8 @@ class StaticAnalysis {
   std::unique_ptr<PathFollowing> path_;
 
   Progress now_;
+  std::optional<PassedMaster> passed_master_;
   ContactDoubts doubts_;
-  bool points_checked_ = false;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
   double last_instant_ = 0.0;

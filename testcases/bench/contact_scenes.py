@@ -256,7 +256,7 @@ def scenes() -> dict[str, ContactScene]:
             (2, 4, 6, 8), (("HEXA8", f.ALL),), 1.0e7, "force"),
         ContactScene(
             "sliding", "Coulomb: a block that is pulled along", "sliding", "D_PLAN", lambda family, n: standing_block(family, n, False), of_cube,
-            (4, 8, 16, 32), (("QUAD4", f.RUBBING),), 1.0e9, "", friction=0.3, parameters={"steps": 10}),
+            (4, 8, 16, 32), (("QUAD4", f.RUBBING),), 1.0e9, "", friction=0.3, parameters={"steps": 10, "angle": 0.0}),
         ContactScene(
             "mindlin", "Cattaneo and Mindlin: partial slip", "mindlin", "D_PLAN", two_cylinders, PLANE.cell, (10, 20, 40, 80),
             (("QUAD4", f.RUBBING),), 2.0e11, "force", penetration=False, friction=0.3, parameters={"far": PLANE.far, "steps": 1}),

@@ -39,11 +39,12 @@ class StabilityMap:
     contradictory: tuple[object, ...] = ()  # values without a solution: an error that says so is right
     own_measure: bool = False
     mesh_key: Callable[[object], object] = lambda value: None  # which values have a mesh of their own
+    family: str = "QUAD4"
 
     def case(self, series: str, value: object, slave_nodes: int) -> Case:
         values: Values = {"slave_nodes": slave_nodes, "measured": {"penetration": "penetration" in self.tolerances, "pressure": self.pressure}}
         values |= self.formulation(series, value) | self.parameters(series, value)
-        return Case(self.name, self.folder, "QUAD4", self.modelisation, "MULT_FRONT", 0, values, None if self.own_measure else "contact.comm")
+        return Case(self.name, self.folder, self.family, self.modelisation, "MULT_FRONT", 0, values, None if self.own_measure else "contact.comm")
 
 
 SCENES = "../stability/scenes/"
@@ -51,9 +52,9 @@ STEEL, RUBBER = 2.0e11, 1.0e9
 BARS = {"first": STEEL, "second": STEEL, "gap": 1.0e-3, "push": 2.0e-3}
 
 
-def usual(young: float, cell: float = 0.1, friction: float | None = None) -> Callable[[str, object], Values]:
+def usual(young: float, cell: float = 0.1, friction: float | None = None, solid: bool = False) -> Callable[[str, object], Values]:
     """The formulation that the series is named by, with the penalties of formulations.py."""
-    return lambda series, _: FORMULATIONS[series].values(Scale(young, 1.0, cell, solid=False), friction)
+    return lambda series, _: FORMULATIONS[series].values(Scale(young, 1.0, cell, solid), friction)
 
 
 def changed(formulation: str, young: float, keyword: str, value: object, friction: float | None = None) -> Values:
@@ -76,10 +77,10 @@ def short_bars(gap: float) -> Mesh:
     return mesh
 
 
-def flat_block(_: object) -> Mesh:
-    """A block of 1 x 1/10 that does not tip over, whatever the friction."""
-    mesh = standing_block("QUAD4", 8, solid=False)
-    mesh.coordinates = [(x, 0.1 * y) if y > 0.0 else (x, y) for x, y in mesh.coordinates]
+def flat_block(_: object, solid: bool = False) -> Mesh:
+    """A block 1/10 high and 1 wide (and deep) that does not tip over, whatever the friction."""
+    mesh = standing_block("HEXA8", 4, True) if solid else standing_block("QUAD4", 8, False)
+    mesh.coordinates = [(*point[:-1], 0.1 * point[-1]) if point[-1] > 0.0 else point for point in mesh.coordinates]
     return mesh
 
 
@@ -103,11 +104,18 @@ def matching_blocks(_: object) -> Mesh:
     return whole
 
 
-def unequal_blocks(ratio: float) -> Mesh:
-    """Two blocks of 1 x 1/2; slave cells are `ratio` times as long as master cells, the finer side has 32."""
-    slave, master = (round(32 / ratio), 32) if ratio >= 1.0 else (32, round(32 * ratio))
-    upper = build_mesh(Grid((slave, max(2, slave // 2)), lambda p: (p[0], 0.5 * p[1]), {"SLAVE": on(1, 0.0), "TOP": on(1, 1.0), "LEFT": on(0, 0.0)}), "QUAD4")
-    lower = build_mesh(Grid((master, max(2, master // 2)), lambda p: (p[0], 0.5 * p[1] - 0.5), {"MASTER": on(1, 1.0), "BASE": on(1, 0.0), "LEFT": on(0, 0.0)}), "QUAD4")
+def unequal_blocks(ratio: float, finest: int = 32, solid: bool = False) -> Mesh:
+    """Two blocks 1 wide (and deep) and 1/2 high; slave cells are `ratio` times as long as master cells, the finer side has `finest`."""
+    slave, master = (round(finest / ratio), finest) if ratio >= 1.0 else (finest, round(finest * ratio))
+    high = 2 if solid else 1
+
+    def block(count: int, base: float, sides: dict) -> Mesh:
+        sides |= {"LEFT": on(0, 0.0)} | ({"FRONT": on(1, 0.0)} if solid else {})
+        counts = (count,) * high + (max(2, count // 2),)
+        return build_mesh(Grid(counts, lambda p: (*p[:high], base + 0.5 * p[high]), sides), "HEXA8" if solid else "QUAD4")
+
+    upper = block(slave, 0.0, {"SLAVE": on(high, 0.0), "TOP": on(high, 1.0)})
+    lower = block(master, -0.5, {"MASTER": on(high, 1.0), "BASE": on(high, 0.0)})
     whole = merged([("U_", upper), ("L_", lower)])
     whole.cell_groups["SLAVE"] = whole.cell_groups.pop("U_SLAVE")
     return whole
@@ -170,7 +178,7 @@ def _friction_penalties() -> StabilityMap:
         "friction_penalty", "Penalty or augmentation of friction over the modulus (a block that slides)", "coefficient / E (1/m)", decades(-6, 6),
         tuple(keywords), "sliding", "D_PLAN", flat_block,
         lambda series, value: changed(keywords[series][0], RUBBER, keywords[series][1], value * RUBBER, 0.3),
-        lambda series, value: {"friction": 0.3, "steps": 10})
+        lambda series, value: {"friction": 0.3, "steps": 10, "angle": 0.0})
 
 
 def _stiffness() -> StabilityMap:
@@ -187,7 +195,7 @@ def _friction() -> StabilityMap:
     return StabilityMap(
         "friction", "Friction coefficient (a block that slides)", "COULOMB", (0.0, 0.01, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0), f.RUBBING, "sliding",
         "D_PLAN", flat_block, lambda series, value: usual(RUBBER, friction=value)(series, value),
-        lambda series, value: {"friction": value, "steps": 10})
+        lambda series, value: {"friction": value, "steps": 10, "angle": 0.0})
 
 
 def _threshold() -> StabilityMap:
@@ -219,7 +227,7 @@ def _steps() -> StabilityMap:
 def _friction_steps() -> StabilityMap:
     return StabilityMap(
         "friction_steps", "Number of load steps (a block that slides)", "steps", STEPS, f.RUBBING, "sliding", "D_PLAN", flat_block,
-        usual(RUBBER, friction=0.3), lambda series, value: {"friction": 0.3, "steps": value})
+        usual(RUBBER, friction=0.3), lambda series, value: {"friction": 0.3, "steps": value, "angle": 0.0})
 
 
 def _gaps() -> StabilityMap:
@@ -242,6 +250,20 @@ def _cells() -> StabilityMap:
         "cells", "Length of slave cells over that of master cells (patch test)", "slave / master", (1 / 16, 1 / 8, 1 / 4, 1 / 2, 1.0, 2.0, 4.0, 8.0, 16.0),
         f.BETWEEN_BODIES_WITH_LAC, "patch", "C_PLAN", unequal_blocks, usual(RUBBER), lambda series, value: {}, {"resultant": MESHED}, "stress",
         mesh_key=lambda value: value)
+
+
+def _solid_cells() -> StabilityMap:
+    return StabilityMap(
+        "solid_cells", "Length of slave cells over that of master cells, in space (patch test)", "slave / master", (1 / 8, 1 / 4, 1 / 3, 1 / 2, 1.0, 2.0, 3.0, 4.0, 8.0),
+        f.BETWEEN_BODIES_WITH_LAC, "patch", "3D", lambda value: unequal_blocks(value, 8, solid=True), usual(RUBBER, 0.125, solid=True), lambda series, value: {},
+        {"resultant": MESHED}, "stress", mesh_key=lambda value: value, family="HEXA8")
+
+
+def _directions() -> StabilityMap:
+    return StabilityMap(
+        "directions", "Direction of a slide over the mesh (a block that is pulled, in space)", "degrees", (0.0, 10.0, 22.5, 30.0, 45.0, 60.0, 75.0, 90.0),
+        f.RUBBING, "sliding", "3D", lambda _: flat_block(_, solid=True), usual(RUBBER, 0.25, 0.3, solid=True),
+        lambda series, value: {"friction": 0.3, "steps": 5, "angle": value}, family="HEXA8")
 
 
 def _blocked() -> StabilityMap:
@@ -278,6 +300,6 @@ def _waves() -> StabilityMap:
 
 def maps() -> dict[str, StabilityMap]:
     """All of them, by name."""
-    listed = (_penalties(), _friction_penalties(), _stiffness(), _friction(), _steps(), _friction_steps(), _gaps(), _cells(), _blocked(), _bounds(),
+    listed = (_penalties(), _friction_penalties(), _stiffness(), _friction(), _steps(), _friction_steps(), _gaps(), _cells(), _solid_cells(), _directions(), _blocked(), _bounds(),
               _floating(), _waves(), _threshold())
     return {each.name: each for each in listed}

@@ -8,25 +8,17 @@ using namespace comma::solver;
 
 namespace {
 
-/// A row of edges of unit length in all for each side, the slave one above.
+/// A row of edges of unit length in all for each side, the slave one above, whose outward side is below it.
 struct Sides {
   Mesh mesh;
   ContactDefinition definition;
-  std::vector<std::vector<int>> facets{1};
 
   Sides(int slaves, int masters) {
     mesh.dimension = 2;
     ContactZone zone;
     zone.slave_cells = row(slaves, 1.0);
     zone.master_cells = row(masters, 0.0);
-    facets.front() = zone.master_cells;
     definition.zones.push_back(zone);
-  }
-
-  ContactDoubts doubts(int points, bool gives_way = true) const {
-    ContactDoubts found;
-    note_sparse_points(definition, mesh, {points}, facets, [gives_way](int) { return gives_way; }, found);
-    return found;
   }
 
  private:
@@ -95,15 +87,29 @@ TEST_CASE("Of the doubts about a zone the deepest stays, one of each kind") {
   CHECK(doubts.all().front().length == 3.0);
 }
 
-TEST_CASE("Slave points far apart on fine master facets are a doubt, unless there are points in between or the master cannot move") {
-  const Sides coarse(2, 16);
-  REQUIRE(coarse.doubts(3).all().size() == 1);
-  // Three points for two faces: a distance of 1/3, on facets of 1/16.
-  CHECK(coarse.doubts(3).all().front().share == Approx(16.0 / 3.0).epsilon(1e-12));
-  CHECK(coarse.doubts(7).all().empty());
-  CHECK(coarse.doubts(3, false).all().empty());
-  Sides averaged = coarse;
-  averaged.definition.zones.front().mixed.local_average = true;
-  CHECK(averaged.doubts(3).all().empty());
-  CHECK(Sides(16, 2).doubts(17).all().empty());
+TEST_CASE("Master nodes that have gone through the slave side are told of by their mean depth") {
+  Sides sides(2, 16);
+  const auto told = [&](double deep, double pushed_back) {
+    std::vector<Eigen::Vector3d> places;
+    for (const auto& node : sides.mesh.nodes) places.emplace_back(node[0], node[1], node[2]);
+    // Every other master node, of the ones in front of the slave.
+    for (const int cell : sides.definition.zones.front().master_cells)
+      for (const int node : sides.mesh.cell(cell)) places[static_cast<std::size_t>(node)][1] = 1.0 + (node % 2 == 0 ? deep : 0.0);
+    ContactDoubts found;
+    PassedMaster passed(sides.definition, sides.mesh);
+    passed.look(places, pushed_back, 0.0);
+    passed.conclude(found);
+    return found.all();
+  };
+  const auto half = told(0.2, 1.0);
+  REQUIRE(half.size() == 1);
+  CHECK(half.front().kind == DoubtKind::passed_master);
+  CHECK(half.front().length == Approx(0.1).margin(0.01));  // 8 or 9 of 17 nodes
+  CHECK(half.front().share == Approx(half.front().length));
+  CHECK(told(0.2, 1.6).front().share == Approx(half.front().share / 1.6));
+  CHECK(told(0.05, 1.0).empty());
+  CHECK(told(-0.2, 1.0).empty());
+  CHECK(told(0.2, 0.0).empty());
+  sides.definition.zones.front().mixed.local_average = true;
+  CHECK(told(0.2, 1.0).empty());
 }
