@@ -18,8 +18,8 @@ inline constexpr std::array<std::string_view, 7> solid_mixed_names = {"SIXX", "S
 /// with the swelling as its trace; the stress that works is the law's deviator and p. With two fields the three balances are those of
 /// mixed_response(); with p alone the swelling at a point is p / K and the strain of the command variables.
 ///
-/// stresses() are the law's, Cauchy's, on the volume as the displacements have it, and SIP, by which p exceeds their mean in the balance of the
-/// swelling.
+/// stresses() are the law's, Cauchy's, on the volume as the displacements have it, and SIP, by which p exceeds their mean in the
+/// balance of the swelling; Code_Aster leaves it at 0 with the multiplicative split.
 template <int Dim, int Nodes, bool Axisymmetric>
 class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   using Base = InelasticBlock<Dim, Nodes, Axisymmetric>;
@@ -90,11 +90,10 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       const double* shown = reported.data() + static_cast<std::ptrdiff_t>(this->point_index(element, g)) * stress_count;
       Vector6d stress = Base::padded(shown);
       const double mean = stress.head<3>().mean(), volume = volume_ratio(gradient);
-      const double pressure = law_pressure(mean, volume, fields) + shown[strains];
-      stress.head<3>().array() += (measure_ == VolumeMeasure::logarithm ? pressure / volume : pressure) - mean;
+      stress.head<3>().array() += (measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure) - mean;
       MixedResponse response;
       response.stress = is_large() ? second_stress_of(gradient, stress) : stress;
-      response.swelling = two_fields() ? -shown[strains] : 0.0;
+      response.swelling = two_fields() ? law_pressure(mean, volume, fields) - fields.pressure : 0.0;
       response.pressure = volume_of(gradient, measure_) - fields.swelling;
       return response;
     });
@@ -108,7 +107,7 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       const Vector6d stress = law.reported * (ratio_of(fields.swelling) / volume);
       Eigen::Map<Strain> written(target);
       written = stress.template head<strains>();
-      target[strains] = fields.pressure - law_pressure(stress.template head<3>().mean(), volume, fields);
+      target[strains] = measure_ == VolumeMeasure::ratio ? 0.0 : fields.pressure - law_pressure(stress.template head<3>().mean(), volume, fields);
       target += stress_count;
     });
   }
