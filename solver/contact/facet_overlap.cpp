@@ -98,6 +98,12 @@ std::vector<OverlapPoint> segment_overlap(const FacetGeometry& slave, const Face
   return points;
 }
 
+/// A surface facet as its corners say: flat triangles, bilinear quadrangles.
+FacetGeometry straight_edged(const FacetGeometry& facet) {
+  const int corners = corner_count(facet.type);
+  return {corners == 3 ? CellType::tria3 : CellType::quad4, facet.points.first(static_cast<std::size_t>(corners)), {}};
+}
+
 /// The plane through the slave's centre.
 class Plane {
  public:
@@ -135,15 +141,10 @@ class Plane {
     return std::nullopt;
   }
 
-  /// Counter-clockwise: corners, with the mid-edge nodes between them.
+  /// Counter-clockwise: corners.
   Polygon outline(const FacetGeometry& facet) const {
-    const int corners = corner_count(facet.type);
-    const bool has_middles = node_count(facet.type) > corners;
     Polygon polygon;
-    for (int i = 0; i < corners; ++i) {
-      polygon.push_back(at(facet.points[static_cast<std::size_t>(i)]));
-      if (has_middles) polygon.push_back(at(facet.points[static_cast<std::size_t>(corners + i)]));
-    }
+    for (const Vector3d& corner : facet.points.first(static_cast<std::size_t>(corner_count(facet.type)))) polygon.push_back(at(corner));
     if (signed_area(polygon) < 0.0) std::ranges::reverse(polygon);
     return polygon;
   }
@@ -151,23 +152,6 @@ class Plane {
  private:
   Vector3d origin_, normal_, first_, second_;
 };
-
-bool is_convex(const Polygon& polygon) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d a = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const Vector2d b = polygon[(i + 2) % polygon.size()] - polygon[(i + 1) % polygon.size()];
-    if (a[0] * b[1] - a[1] * b[0] < 0.0) return false;
-  }
-  return true;
-}
-
-/// Convex pieces of a facet's outline: bent edges may bend inwards, seen from the centre they do not.
-std::vector<Polygon> convex_pieces(const Polygon& outline, const Vector2d& centre) {
-  if (is_convex(outline)) return {outline};
-  std::vector<Polygon> pieces;
-  for (std::size_t i = 0; i < outline.size(); ++i) pieces.push_back({centre, outline[i], outline[(i + 1) % outline.size()]});
-  return pieces;
-}
 
 /// Whether places on a facet are nearly linear in its reference coordinates.
 bool is_undistorted(const FacetGeometry& facet) {
@@ -212,15 +196,16 @@ bool misses(const Polygon& a, const Polygon& b) {
 /// Integration points of a triangle of the plane. False where they are not over both facets.
 bool append_points(const Plane& plane, const FacetGeometry& slave, const FacetGeometry& master, const Polygon& polygon, std::size_t i,
                    const std::vector<FacePoint>& rule, std::vector<OverlapPoint>& points) {
+  const FacetGeometry straight = straight_edged(slave);
   const Vector2d a = polygon[i] - polygon[0];
   const Vector2d b = polygon[i + 1] - polygon[0];
   const double twice = a[0] * b[1] - a[1] * b[0];
   for (const FacePoint& gauss : rule) {
-    const Vector2d place = polygon[0] + gauss.xi[0] * a + gauss.xi[1] * b;
-    const auto on_slave = plane.over(slave, place);
-    const auto on_master = plane.over(master, place);
-    if (!on_slave || !on_master) return false;
-    points.push_back({*on_slave, *on_master, gauss.weight * twice / std::abs(plane.slope(slave, *on_slave).determinant())});
+    const auto on_slave = plane.over(straight, polygon[0] + gauss.xi[0] * a + gauss.xi[1] * b);
+    if (!on_slave) return false;
+    const auto on_master = plane.over(master, plane.at(point_at(slave, *on_slave)));
+    if (!on_master) return false;
+    points.push_back({*on_slave, *on_master, gauss.weight * twice / std::abs(plane.slope(straight, *on_slave).determinant())});
   }
   return true;
 }
@@ -231,15 +216,12 @@ std::vector<OverlapPoint> polygon_overlap(const FacetGeometry& slave, const Face
   const Polygon ours = plane.outline(slave);
   if (misses(ours, theirs)) return {};
   if (plane.normal().dot(normal_at({master.type, master.points, {}}, facet_centre(master.type))) >= 0.0) return {};
-  const auto& rule = triangle_rule(is_undistorted(slave) && is_undistorted(master));
-  const double whole = signed_area(ours);
+  const Polygon common = clipped(theirs, ours);
+  if (common.empty() || signed_area(common) <= sliver * signed_area(ours)) return {};
+  const auto& rule = triangle_rule(is_undistorted(straight_edged(slave)) && is_undistorted(master));
   std::vector<OverlapPoint> points;
-  for (const Polygon& piece : convex_pieces(ours, plane.at(point_at(slave, facet_centre(slave.type))))) {
-    const Polygon common = clipped(theirs, piece);
-    if (common.empty() || signed_area(common) <= sliver * whole) continue;
-    for (std::size_t i = 1; i + 1 < common.size(); ++i)
-      if (!append_points(plane, slave, master, common, i, rule, points)) return {};
-  }
+  for (std::size_t i = 1; i + 1 < common.size(); ++i)
+    if (!append_points(plane, slave, master, common, i, rule, points)) return {};
   return points;
 }
 

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 /// A patch of which less than this share faces the master is open: what rounding leaves at an edge would not bear a pressure.
 constexpr double covered_tolerance = 1e-9;
 
-/// A facet's nodes where they are, and the outward normals there: those of the cells around where they are smoothed, else the facet's own.
+/// A facet's nodes where they are and, where normals are smoothed, the outward normals of the cells around them.
 struct Gathered {
   CellType type = CellType::seg2;
   std::array<Vector3d, max_facet_nodes> points;
@@ -34,6 +34,8 @@ struct Gathered {
   double radius = 0.0;
 
   FacetGeometry geometry() const { return {type, {points.data(), count}, {normals.data(), is_smooth ? count : 0}}; }
+  /// The same with normals of its own.
+  FacetGeometry bare() const { return {type, {points.data(), count}, {}}; }
 };
 
 /// The facets of a surface at one moment.
@@ -55,8 +57,7 @@ class Surface {
     const auto nodes = mesh_.cell(cell);
     for (std::size_t i = 0; i < facet.count; ++i) {
       facet.radius = std::max(facet.radius, (facet.points[i] - facet.centre).norm());
-      facet.normals[i] = is_smooth_ ? normals_.at(nodes[i])
-                                    : facet_normal(facet.type, {facet.points.data(), facet.count}, facet_node(facet.type, static_cast<int>(i)));
+      if (is_smooth_) facet.normals[i] = normals_.at(nodes[i]);
     }
     return facet;
   }
@@ -77,12 +78,12 @@ class PatchGaps {
         mesh_(*model.mesh),
         time_(time),
         slaves_(mesh_, zone_.slave_cells, positions, definition.smooth_normals),
-        slaves_at_start_(mesh_, zone_.slave_cells, start, definition.smooth_normals) {
+        facing_slaves_(mesh_, zone_.slave_cells, mesh_.dimension == 3 ? positions : start, definition.smooth_normals) {
     const Surface masters(mesh_, zone_.master_cells, positions, definition.smooth_normals);
-    const Surface masters_at_start(mesh_, zone_.master_cells, start, false);
+    const Surface facing_masters(mesh_, zone_.master_cells, mesh_.dimension == 3 ? positions : start, false);
     for (const int cell : zone_.master_cells) {
       masters_.push_back(masters.gather(cell));
-      masters_at_start_.push_back(masters_at_start.gather(cell));
+      facing_masters_.push_back(facing_masters.gather(cell));
     }
   }
 
@@ -107,12 +108,12 @@ class PatchGaps {
  private:
   void add_face(int face) {
     const Gathered slave = slaves_.gather(face);
-    const Gathered before = slaves_at_start_.gather(face);
+    const Gathered facing = facing_slaves_.gather(face);
     for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * stretch(face, at.xi);
     for (std::size_t m = 0; m < masters_.size(); ++m) {
-      const Gathered& master = masters_at_start_[m];
-      if (!may_overlap(before, master)) continue;
-      for (const OverlapPoint& each : facet_overlap(before.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
+      const Gathered& master = facing_masters_[m];
+      if (!may_overlap(facing, master)) continue;
+      for (const OverlapPoint& each : facet_overlap(facing.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
     }
   }
 
@@ -132,19 +133,21 @@ class PatchGaps {
     const double gap = normal.dot(here - foot);
     if (zone_.pairing_distance >= 0.0 && std::abs(gap) > zone_.pairing_distance) return;
     const double area = at.weight * stretch(face, at.slave);
-    const double shared = add_shares(face, slave, facet_shape(slave.type, at.slave), -area) + add_shares(facet, master, facet_shape(master.type, at.master), -area);
+    const double shared = add_shares(face, slave, at.slave, -area) + add_shares(facet, master, at.master, -area);
     point_.offset += shared - area * (gap - thickness_at(zone_, here, foot, time_));
     point_.weight += area;
     point_.normal += area * normal;
     point_.facet = facet;
   }
 
-  /// Adds what a point's gap takes of a facet's nodes, along their outward normals; returns what it makes of their places now.
-  double add_shares(int cell, const Gathered& facet, const FacetShape& shape, double factor) {
+  /// Adds what a point's gap takes of a facet's nodes, along outward normals; returns what it makes of their places now.
+  double add_shares(int cell, const Gathered& facet, const Vector2d& xi, double factor) {
     const auto nodes = mesh_.cell(cell);
+    const FacetShape shape = facet_shape(facet.type, xi);
+    const Vector3d own = facet.is_smooth ? Vector3d(Vector3d::Zero()) : normal_at(facet.bare(), xi);
     double sum = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Vector3d coefficient = factor * shape.values[i] * facet.normals[i];
+      const Vector3d coefficient = factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
       sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += coefficient;
       sum += coefficient.dot(facet.points[i]);
     }
@@ -161,8 +164,8 @@ class PatchGaps {
   const Model& model_;
   const Mesh& mesh_;
   double time_;
-  Surface slaves_, slaves_at_start_;
-  std::vector<Gathered> masters_, masters_at_start_;
+  Surface slaves_, facing_slaves_;
+  std::vector<Gathered> masters_, facing_masters_;
   ContactPoint point_;
   std::map<int, Vector3d> sums_;
 };

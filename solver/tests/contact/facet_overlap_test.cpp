@@ -109,6 +109,26 @@ TEST_CASE("The areas of a facet's overlaps with a grid of others add up to its o
   }
 }
 
+TEST_CASE("Whatever middle nodes do, a facet is covered once by others that tile the plane") {
+  Points slave = straight(CellType::tria6, {{0.1, 0.2, 0}, {1.7, 0.4, 0}, {0.6, 1.8, 0}});
+  slave[3] += Vector3d(0.02, -0.05, 0.01);
+  slave[4] += Vector3d(-0.03, 0.04, 0.0);
+  double sum = 0.0;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      const double h = 0.4;
+      Points square = straight(CellType::quad8, {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}});
+      square[4] += Vector3d(0.03, 0.01, -0.02);
+      for (const OverlapPoint& at : facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square))) {
+        sum += at.weight;
+        // What they face lies over what the slave's own shape functions say, along the normal at its centre.
+        const Vector3d apart = place(facet(CellType::quad8, square), at.master) - place(facet(CellType::tria6, slave), at.slave);
+        CHECK(apart.cross(facet_normal(CellType::tria6, slave, facet_centre(CellType::tria6))).norm() < 1e-9);
+      }
+    }
+  CHECK(sum == Approx(0.5).epsilon(1e-12));
+}
+
 TEST_CASE("On plane facets polynomials of the shape functions' degree are integrated exactly, on either side") {
   const Points slave = straight(CellType::tria6, {{0, 0, 0}, {2, 0.3, 0}, {0.4, 1.9, 0}});
   const Points master = straight(CellType::tria6, {{0.2, 0.1, 0.5}, {0.5, 2.2, 0.5}, {1.9, 0.5, 0.5}});

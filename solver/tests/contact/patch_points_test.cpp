@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -98,6 +100,46 @@ TEST_CASE("The pressure of a patch acts on each node along the normal there") {
     CHECK(pin == Approx(-1.0).epsilon(1e-6));
     CHECK(bush == Approx(1.0).epsilon(1e-6));
   }
+}
+
+TEST_CASE("Without smoothing, the pressure of a patch has the resultant of a uniform pressure on the curve: that on its chord") {
+  const Arcs arcs(10.0, 10.01);
+  const auto points = arcs.points(arcs.places);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    Vector3d pin = Vector3d::Zero();
+    for (const GapShare& share : points[p].shares)
+      if (arcs.places[static_cast<std::size_t>(share.node)].norm() < 10.005) pin += points[p].weight * share.coefficient;
+    const auto nodes = arcs.mesh->cell(arcs.definition.zones.front().slave_cells[p]);
+    const Vector3d chord = arcs.places[static_cast<std::size_t>(nodes[1])] - arcs.places[static_cast<std::size_t>(nodes[0])];
+    CHECK((pin + Vector3d(chord[1], -chord[0], 0.0)).norm() < 1e-9 * chord.norm());
+  }
+}
+
+TEST_CASE("In space what faces each other follows the bodies") {
+  Mesh mesh;
+  for (const double z : {0.0, -0.1})
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}}) mesh.nodes.push_back({x, y, z});
+  mesh.nodes.push_back({1.0, 0.5, 0.0});
+  ContactDefinition definition;
+  definition.zones.emplace_back();
+  ContactZone& zone = definition.zones.front();
+  zone.mixed.local_average = true;
+  // The slave's outward normal is down, the master's up.
+  for (const std::vector<int>& nodes : {std::vector{8, 1, 0}, {8, 2, 1}, {8, 3, 2}, {8, 0, 3}}) zone.slave_cells.push_back(mesh.add_cell(CellType::tria3, nodes));
+  zone.master_cells.push_back(mesh.add_cell(CellType::quad4, std::vector{4, 5, 6, 7}));
+  mesh.slave_patches.push_back(zone.slave_cells);
+  Model model;
+  model.formulations.assign(5, Formulation::solid);
+  std::vector<Vector3d> places;
+  for (const Point& node : mesh.nodes) places.emplace_back(node[0], node[1], node[2]);
+  model.mesh = std::make_shared<Mesh>(mesh);
+  std::vector<Vector3d> moved = places;
+  for (std::size_t node = 4; node < 8; ++node) moved[node][0] += 0.5;
+  std::vector<ContactPoint> points;
+  append_patch_points(definition, 0, model, moved, places, 0.0, points);
+  REQUIRE(points.size() == 1);
+  CHECK(points[0].area == Approx(2.0));
+  CHECK(points[0].weight == Approx(1.5));
 }
 
 TEST_CASE("A patch that faces nothing carries nothing, and a slave face needs a patch") {
