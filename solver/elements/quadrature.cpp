@@ -341,6 +341,7 @@ std::string_view full_family(CellType type) {
 /// As Code_Aster's cases have it (docs/conformance.md).
 std::string_view mixed_family(CellType type, int fields) {
   if (type == CellType::hexa20) return "FPG8";
+  if (type == CellType::tetra10) return "FPG4";
   return type == CellType::quad8 && fields == 2 ? "FPG4" : full_family(type);
 }
 
