@@ -133,6 +133,7 @@ void MixedContact::pair(Positions positions, double time) {
   build_rows();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
+  hold_back_points();
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
   forces_ = held_forces();
@@ -249,6 +250,33 @@ void MixedContact::build_rows() {
     for (int c = 1; c < point.rows; ++c) base_[point.first_row + c] = -before[point.first_row + c];
   reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
   settle_blocked_points();
+}
+
+bool MixedContact::is_faced_again() const {
+  if (definition_.geometry_update == GeometryUpdate::controlled) return definition_.controlled_updates > 1;
+  return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
+}
+
+/// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the next geometry (the mixed
+/// formulation alone; ssnv104e tells). A body that touches nothing yet must not pass through the other.
+void MixedContact::hold_back_points() {
+  held_back_.clear();
+  const bool waits = step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
+  step_begins_ = false;
+  for (std::size_t p = 0; p < points_.size() && waits; ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (!point.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
+    point.rows = 0;
+    held_back_.push_back(p);
+  }
+}
+
+bool MixedContact::leaves_overlap(const Eigen::VectorXd& u) const {
+  if (held_back_.empty()) return false;
+  const Eigen::VectorXd now = jumps(u);
+  return std::ranges::any_of(held_back_, [&](std::size_t p) {
+    return now[problem_.points[p].first_row] < -overlap_tolerance * extent(mesh_, points_[p].cell);
+  });
 }
 
 /// A point between nodes that are held is open or closed whatever the pressure, which then is anything: it gets none.

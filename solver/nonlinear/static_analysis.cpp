@@ -485,7 +485,8 @@ class StaticAnalysis {
           iterations += balance();
         }
       }
-      if (!updates || geometry_settled(update, history)) return iterations;
+      const bool settled = !updates || geometry_settled(update, history);
+      if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) return iterations;
       note_cycle(visited, history);
       if (problem_.contact->geometry_update == GeometryUpdate::automatic && update + 1 >= max_updates())
         throw_geometry_failure(time, history, *problem_.contact);
