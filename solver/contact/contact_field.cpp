@@ -21,8 +21,12 @@ constexpr double sticking = 1.0;
 constexpr double sliding = 2.0;
 constexpr double overlapping = 3.0;
 
-double status_of(const NodeContact& contact) {
-  if (contact.pair.status == PairingStatus::watched) return contact.gap < 0.0 ? overlapping : not_paired;
+/// Bodies that touch overlap by rounding of where they are; that is no overlap.
+constexpr double touching_share = 1e-12;
+
+double status_of(const NodeContact& contact, const Eigen::Vector3d& place) {
+  if (contact.pair.status == PairingStatus::watched)
+    return contact.gap < -touching_share * (place.norm() + contact.pair.foot.norm()) ? overlapping : not_paired;
   if (contact.sticking) return sticking;
   return contact.closed || contact.normal_force > 0.0 ? sliding : open;
 }
@@ -44,7 +48,7 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
       for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r}) row[force] = 0.0;
       continue;
     }
-    row[cont] = status_of(contact);
+    row[cont] = status_of(contact, positions[pair.slave]);
     row[jeu] = contact.gap;
     row[rn] = contact.normal_force;
     const Eigen::Vector3d whole = contact.normal_force * pair.normal + contact.shear_force;

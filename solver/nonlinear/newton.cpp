@@ -281,10 +281,12 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
 }
 
 /// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put
-/// it: residuals of 1e-6 of the largest force move a body on weak springs by metres.
+/// it: residuals of 1e-6 of the largest force move a body on weak springs by metres. A residual that is rounding, of a stiffness that
+/// loses few digits, says that there is nothing to gain.
 void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
   if (!tangent_.is_constant()) return;
   double last = std::numeric_limits<double>::infinity();
+  if (tangent_.loses_few_digits() && is_rounding(state)) return;
   const int rounds = tangent_.loses_few_digits() ? 1 : max_polishing;
   for (int k = 0; k < rounds; ++k) {
     const double step = correct(state, offset).step;

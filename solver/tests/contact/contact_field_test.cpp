@@ -59,3 +59,15 @@ TEST_CASE("A node that one zone holds is not unpaired because another zone does 
     CHECK(field.at(0, field.component("RN")) == 5.0);
   }
 }
+
+TEST_CASE("Where contact is only watched, bodies that touch do not overlap") {
+  const std::vector<Vector3d> places(3, Vector3d(60, 155, 0));
+  std::vector<ContactPair> pairs;
+  for (int node = 0; node < 3; ++node) pairs.push_back(pair(node, PairingStatus::watched));
+  const std::vector<double> gaps = {-1e-13, -1e-6, 0.5};
+  const NodalField field = contact_field(pairs, gaps, Vector3d::Zero(), 3, places);
+  const int status = field.component("CONT");
+  CHECK(field.at(0, status) == -1.0);
+  CHECK(field.at(1, status) == 3.0);
+  CHECK(field.at(2, status) == -1.0);
+}
