@@ -7,6 +7,8 @@
 #include "commands/field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/discretisation.hpp"
+#include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
 
@@ -73,14 +75,23 @@ void add_values(Table& table, Row row, const solver::Field& field, const std::ve
   if (carried) table.add_row(row);
 }
 
+void add_place(Row& row, double x, double y, double z) { row.insert(row.end(), {{"COOR_X", x}, {"COOR_Y", y}, {"COOR_Z", z}}); }
+
 void add_nodes(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
   const auto& field = std::get<solver::NodalField>(from.field);
   for (const int node : selected_nodes(source, from.mesh)) {
     Row row = from.columns;
     const solver::Point& at = from.mesh.nodes[node];
-    row.insert(row.end(), {{"NOEUD", table_node(from.mesh, node)}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
+    row.emplace_back("NOEUD", table_node(from.mesh, node));
+    add_place(row, at[0], at[1], at[2]);
     add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(node, component); });
   }
+}
+
+// Where the values of a field on cells lie, as components 0 to 2; empty where that is not known.
+solver::ElementField places_of(const FieldSource& from, const solver::ElementField& field) {
+  if (from.model == nullptr || field.support == solver::Support::cell) return {};
+  return solver::brought_to(*from.model, solver::node_coordinates(from.mesh), field.support, true);
 }
 
 void add_cells(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
@@ -90,12 +101,15 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
     throw DiagnosticError("wrong-place", fmt::format("CREA_TABLE: {} names nodes, and the field lies on cells", keyword), source.span_of(keyword),
                           "name cells by TOUT, GROUP_MA or MAILLE");
   }
+  const solver::ElementField places = places_of(from, field);
   for (const int cell : selected_cells(source, from.mesh)) {
+    const bool placed = !places.starts.empty() && places.points(cell) == field.points(cell);
     for (int point = 0; point < field.points(cell); ++point) {
       Row row = from.columns;
       row.emplace_back("MAILLE", table_cell(from.mesh, cell));
       if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
       if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
+      if (placed) add_place(row, places.at(cell, point, 0), places.at(cell, point, 1), places.at(cell, point, 2));
       add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, point, component); });
     }
   }

@@ -29,7 +29,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"GEOM", {"X", "Y", "Z"}},
       {"DEPL", {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "LAGS_C", "LAGS_F1", "LAGS_F2", "PRES", "GONF"}},
       {"FORC", {"FX", "FY", "FZ", "MX", "MY", "MZ"}},
-      {"SIEF", {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "N", "VY", "VZ", "MT", "MFY", "MFZ", "VMIS", "TRESCA", "PRIN_1",
+      {"SIEF", {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ", "VMIS", "TRESCA", "PRIN_1",
                 "PRIN_2", "PRIN_3", "VMIS_SG", "TRSIG", "TRIAX", "SN", "SVY", "SVZ", "SMT", "SMFY", "SMFZ", "SIXXMIN", "SIXXMAX"}},
       {"EPSI", {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ", "INVA_2", "PRIN_1", "PRIN_2", "PRIN_3", "INVA_2SG", "GAXY", "GAXZ",
                 "GAT", "KY", "KZ"}},

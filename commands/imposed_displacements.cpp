@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
+constexpr std::array<NamedComponent, 2> mixed_keywords = {{{"PRES", Component::pressure}, {"GONF", Component::swelling}}};
 
 void impose(int node, Component component, const Amount& amount, const solver::Origin& origin, solver::Load& load) {
   load.relations.push_back({{{node, component, 1.0}}, amount.value, amount.function, origin});
@@ -31,19 +32,23 @@ bool any_carries(const std::vector<int>& nodes, Component component, const Loade
   return std::ranges::any_of(nodes, [&](int node) { return target.dofs.dof(node, component) >= 0; });
 }
 
+void impose_component(const Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes, const LoadedModel& target,
+                      const solver::Origin& origin, solver::Load& load, interpreter::Diagnostics* alarms) {
+  if (!keywords.given(named.keyword)) return;
+  const Amount amount = amount_of(keywords, named.keyword);
+  const bool holds = !amount.function && amount.value == 0.0;
+  if (alarms != nullptr && holds && !any_carries(nodes, named.component, target)) {
+    alarms->alarm("unknown-component", fmt::format("{}: none of these nodes carries {}: there is nothing to hold", named.keyword, named.keyword),
+                  keywords.at(named.keyword).name_span);
+    return;
+  }
+  for (const int node : carriers(keywords, named, nodes, target.dofs)) impose(node, named.component, amount, origin, load);
+}
+
 void impose_components(const Keywords& keywords, const std::vector<int>& nodes, const LoadedModel& target, const solver::Origin& origin,
                        solver::Load& load, interpreter::Diagnostics* alarms = nullptr) {
-  for (const NamedComponent& named : displacement_keywords) {
-    if (!keywords.given(named.keyword)) continue;
-    const Amount amount = amount_of(keywords, named.keyword);
-    const bool holds = !amount.function && amount.value == 0.0;
-    if (alarms != nullptr && holds && !any_carries(nodes, named.component, target)) {
-      alarms->alarm("unknown-component", fmt::format("{}: none of these nodes carries {}: there is nothing to hold", named.keyword, named.keyword),
-                    keywords.at(named.keyword).name_span);
-      continue;
-    }
-    for (const int node : carriers(keywords, named, nodes, target.dofs)) impose(node, named.component, amount, origin, load);
-  }
+  for (const NamedComponent& named : displacement_keywords) impose_component(keywords, named, nodes, target, origin, load, alarms);
+  for (const NamedComponent& named : mixed_keywords) impose_component(keywords, named, nodes, target, origin, load, alarms);
 }
 
 void hold(const std::vector<int>& nodes, std::span<const Component> components, const LoadedModel& target, const solver::Origin& origin,

@@ -27,7 +27,7 @@ bool is_users_own(std::string_view name) {
 /// The components of displacements and of nodal forces, those of contact's multipliers included.
 std::vector<std::string> nodal_components(const solver::Model& model) {
   solver::ComponentMask mask = 0;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) mask |= model.components_of(cell);
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) mask |= model.components_of(cell) | model.corner_components_of(cell);
   std::vector<std::string> names;
   for (int index = 0; index < solver::component_count; ++index) {
     const auto component = static_cast<solver::Component>(index);
@@ -61,7 +61,7 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
   }
   const std::string_view quantity = field.substr(0, 4);
   if (quantity == "SIEF" || quantity == "SIGM") {
-    return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "N", "VY", "VZ", "MT", "MFY", "MFZ"};
+    return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ"};
   }
   if (quantity == "EPSI") return std::vector<std::string>{"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
   if (quantity == "VARI") return std::vector<std::string>{"V", "VARI"};

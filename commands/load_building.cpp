@@ -44,7 +44,7 @@ Amount amount_of(const Keywords& keywords, const std::string& name) {
 Component component_named(const Keywords& keywords, const std::string& keyword, const std::string& name) {
   if (const auto component = solver::component_named(name)) return *component;
   throw DiagnosticError("unknown-component", keyword + ": there is no component " + name, keywords.span_of(keyword),
-                        "a displacement has DX, DY, DZ, DRX, DRY, DRZ");
+                        "a displacement has DX, DY, DZ, DRX, DRY, DRZ, and PRES, GONF where the volume hardly changes");
 }
 
 std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,

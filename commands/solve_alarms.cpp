@@ -91,7 +91,7 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
       fmt::format("{}: NU = {} in {} fully integrated cells, {} ({}) the first: such cells lock, displacements may come out far too small",
                   call.command, risk->poisson, risk->cells, mesh.cell_name(risk->first_cell),
                   solver::name_of(mesh.cell_types[static_cast<std::size_t>(risk->first_cell)])),
-      call.span, "use quadratic cells with MODELISATION='D_PLAN_SI', 'AXIS_SI' or '3D_SI', and compare two meshes");
+      call.span, "use quadratic cells with MODELISATION='D_PLAN_INCO_UP', 'AXIS_INCO_UP' or '3D_INCO_UP', or with fewer points (D_PLAN_SI, AXIS_SI, 3D_SI), and compare two meshes");
 }
 
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context) {

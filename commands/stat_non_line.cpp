@@ -179,6 +179,7 @@ void read_reference(const Keywords& convergence, solver::NewtonOptions& options)
   if (!convergence.given("RESI_REFE_RELA")) return;
   options.referred_residual = convergence.real("RESI_REFE_RELA");
   if (convergence.given("SIGM_REFE")) options.reference.stress = convergence.real("SIGM_REFE");
+  if (convergence.given("EPSI_REFE")) options.reference.strain = convergence.real("EPSI_REFE");
   if (convergence.given("EFFORT_REFE")) options.reference.force = convergence.real("EFFORT_REFE");
   if (convergence.given("MOMENT_REFE")) options.reference.moment = convergence.real("MOMENT_REFE");
 }

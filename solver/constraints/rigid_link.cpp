@@ -108,7 +108,7 @@ BodyRows rows_of(const DofMap& dofs, const RigidBody& body, const Motions& motio
   BodyRows rows;
   std::vector<Eigen::RowVectorXd> values;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
-    for (int c = 0; c < component_count; ++c) {
+    for (int c = 0; c < motion_count; ++c) {
       const auto component = static_cast<Component>(c);
       if (!contains(dofs.components(body.nodes[i]), component)) continue;
       rows.terms.push_back({body.nodes[i], component, c < 3 ? 1.0 : body.radius});

@@ -38,6 +38,7 @@ struct PartModes {
 ModeVector mode_values(const Mesh& mesh, const DofMap& dofs, int dof, const PartModes& part) {
   const int component = static_cast<int>(dofs.component_of(dof));
   ModeVector values = ModeVector::Zero();
+  if (component >= motion_count) return values;  // no motion changes a pressure
   if (component >= 3) {
     values[component] = 1.0 / part.size;
     return values;
@@ -67,7 +68,7 @@ Eigen::MatrixXd admissible_modes(const Mesh& mesh, const DofMap& dofs, const Eli
   ModeMatrix mismatch = ModeMatrix::Zero();
   double scale = 0.0;
   for (const int node : nodes) {
-    for (int c = 0; c < component_count; ++c) {
+    for (int c = 0; c < motion_count; ++c) {
       const int dof = dofs.dof(node, static_cast<Component>(c));
       if (dof < 0) continue;
       const ModeVector rigid = mode_values(mesh, dofs, dof, part);

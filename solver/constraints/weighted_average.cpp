@@ -49,7 +49,7 @@ Leaders look_at(const Mesh& mesh, const DofMap& dofs, int follower, std::span<co
   double total = 0.0;
   for (const AverageNode& leader : nodes) total += leader.weight;
   for (const AverageNode& leader : nodes) {
-    for (int c = 0; c < component_count; ++c) {
+    for (int c = 0; c < motion_count; ++c) {
       const auto component = static_cast<Component>(c);
       if (!contains(leader.components & dofs.components(leader.node), component)) continue;
       const double scale = c < 3 ? 1.0 : leaders.distance;
@@ -93,7 +93,7 @@ std::vector<LinearRelation> weighted_average(const Mesh& mesh, const DofMap& dof
   const std::vector<int> kept = motions(leaders.in_space);
   const NormalMatrix normal = normal_matrix(leaders, kept);
   std::vector<LinearRelation> relations;
-  for (int c = 0; c < component_count; ++c) {
+  for (int c = 0; c < motion_count; ++c) {
     const auto component = static_cast<Component>(c);
     if (!contains(following, component)) continue;
     const auto at = std::find(kept.begin(), kept.end(), c);

@@ -35,6 +35,7 @@ std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std:
   const Formulation formulation = input.model.formulations[cell];
   if (needs_stabilisation(input.model.mesh->cell_types[cell], formulation)) throw_unsupported_element(input.model, cell);
   const bool solid = continuum_dimension(formulation) == 3;
+  if (mixed_field_count(formulation) > 0) return solid ? make_mixed_solid_block(input, std::move(cells)) : make_mixed_plane_block(input, std::move(cells));
   if (keeps_memory(input, cells)) return solid ? make_inelastic_solid_block(input, std::move(cells)) : make_inelastic_plane_block(input, std::move(cells));
   return solid ? make_solid_block(input, std::move(cells)) : make_plane_block(input, std::move(cells));
 }

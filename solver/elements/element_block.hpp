@@ -105,6 +105,8 @@ std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vec
 std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_inelastic_plane_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_inelastic_solid_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_mixed_plane_block(const BlockInput& input, std::vector<int> cells);
+std::unique_ptr<ElementBlock> make_mixed_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells);

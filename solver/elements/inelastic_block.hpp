@@ -12,8 +12,10 @@ namespace comma::solver {
 /// Keeps what each integration point was when the step began; all that it computes is of a trial from there, until accept() makes one the next
 /// step's beginning. Large strains are on the initial geometry: internal forces F S grad N over the initial volume.
 template <int Dim, int Nodes, bool Axisymmetric>
-class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
+class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   using Base = ContinuumBlock<Dim, Nodes, Axisymmetric>;
+
+ protected:
   using typename Base::Coordinates;
   using typename Base::Displacements;
   using typename Base::Point;
@@ -87,7 +89,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables,
                         std::span<double> out) const override {
     const auto count = static_cast<std::size_t>(law_.variable_count());
-    each_point(u, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+    each_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       const std::size_t index = point_index(element, g);
       const Constants constants(*this, element, g, x, state);
       PointPast at;
@@ -113,7 +115,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
     const auto count = static_cast<std::size_t>(law_.variable_count());
     remember_materials(state);
-    each_point(u, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
+    each_point(u, state, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
       const std::size_t index = point_index(element, g);
       PointPast& past = past_[index];
       past.gradient = gradient;
@@ -127,7 +129,7 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
- private:
+ protected:
   using Respond = PointResponse (PointLaw::*)(const PointInput&) const;
 
   std::size_t point_index(int element, int g) const { return static_cast<std::size_t>(element) * this->samples_.size() + static_cast<std::size_t>(g); }
@@ -223,23 +225,28 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     return h;
   }
 
-  /// Calls visitor(element, g, coordinates, H) for each point.
+  /// The gradient that the law is given where that of the displacement is H: the same, unless an element has a volume of its own.
+  virtual Eigen::Matrix3d law_gradient(const Eigen::VectorXd&, const VariableState&, int, int, const Coordinates&, const Eigen::Matrix3d& gradient) const {
+    return gradient;
+  }
+
+  /// Calls visitor(element, g, coordinates, H that the law is given) for each point.
   template <class Visitor>
-  void each_point(const Eigen::VectorXd& u, Visitor&& visitor) const {
+  void each_point(const Eigen::VectorXd& u, const VariableState& state, Visitor&& visitor) const {
     std::array<int, size> dofs;
     for (int element = 0; element < this->map_.element_count(); ++element) {
       this->map_.dofs(element, dofs.data());
       const Displacements displacements = Base::relative_displacements(u, dofs);
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g)
-        visitor(element, g, x, gradient_of_displacement(displacements, g, Base::locate(x, this->samples_[g])));
+        visitor(element, g, x, law_gradient(u, state, element, g, x, gradient_of_displacement(displacements, g, Base::locate(x, this->samples_[g]))));
     }
   }
 
   /// Calls visitor(index of the point, H, response).
   template <class Visitor>
   void visit(const Eigen::VectorXd& u, const VariableState& state, Visitor&& visitor) const {
-    each_point(u, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+    each_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       visitor(point_index(element, g), gradient, respond(element, g, x, gradient, state, &PointLaw::respond));
     });
   }
@@ -307,14 +314,19 @@ class InelasticBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const PointResponse response = respond(element, g, x, gradient, state, how);
       const typename Base::Law law = response.tangent.template topLeftCorner<strains, strains>();
       for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
-      for (int b = 0; b < Nodes; ++b) {
-        const StrainRow image = point.weight * (law * rows[b]);
-        for (int a = b; a < Nodes; ++a) k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
-      }
+      add_material(law, point.weight, rows, k);
       if (law_.is_large()) add_geometric(g, point, response.stress, k);
     }
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
+  }
+
+  /// What the law's tangent adds by the strain rows of the nodes (lower triangle).
+  static void add_material(const typename Base::Law& law, double weight, const std::array<StrainRow, Nodes>& rows, Stiffness& k) {
+    for (int b = 0; b < Nodes; ++b) {
+      const StrainRow image = weight * (law * rows[b]);
+      for (int a = b; a < Nodes; ++a) k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
+    }
   }
 
   /// What the stress adds when the strain's own variation turns (lower triangle).

@@ -338,6 +338,13 @@ std::string_view full_family(CellType type) {
   return {};
 }
 
+/// As Code_Aster's cases have it (docs/conformance.md).
+std::string_view mixed_family(CellType type, int fields) {
+  if (type == CellType::hexa20) return "FPG8";
+  if (type == CellType::tetra10) return "FPG4";
+  return type == CellType::quad8 && fields == 2 ? "FPG4" : full_family(type);
+}
+
 }  // namespace
 
 Quadrature quadrature(CellType type, std::string_view name) {
@@ -354,6 +361,7 @@ Quadrature quadrature(CellType type, std::string_view name) {
 int quadrature_degree(CellType type, std::string_view name) { return name == "NOEU" ? -1 : rule_named(type, name).degree; }
 
 std::string_view stiffness_family(CellType type, Formulation formulation) {
+  if (const int fields = mixed_field_count(formulation); fields > 0) return mixed_family(type, fields);
   // The radius raises the degree by one; on quadrangles the full family has it to spare.
   if (is_axisymmetric(formulation) && type == CellType::tria6) return "FPG6";
   if (!is_reduced(formulation)) return full_family(type);

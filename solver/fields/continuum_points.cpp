@@ -46,7 +46,7 @@ bool ContinuumPoints::covers(int cell) const {
 const std::vector<ContinuumSample>& ContinuumPoints::samples(int cell) {
   const CellType type = model_.mesh->cell_types[cell];
   const Formulation formulation = model_.formulations[cell];
-  auto& samples = known_[static_cast<std::size_t>(type)][is_reduced(formulation) ? 1 : 0];
+  auto& samples = known_[static_cast<std::size_t>(type)][is_reduced(formulation) ? 1 : mixed_field_count(formulation) > 0 ? 1 + mixed_field_count(formulation) : 0];
   if (samples.empty()) {
     const auto family = family_ == PointFamily::mass ? mass_family(type) : stiffness_family(type, formulation);
     for (const QuadraturePoint& point : quadrature(type, family)) {

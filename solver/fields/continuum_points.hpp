@@ -63,8 +63,8 @@ class ContinuumPoints {
  private:
   const Model& model_;
   PointFamily family_;
-  /// By cell type; full and reduced integration apart.
-  std::array<std::array<std::vector<ContinuumSample>, 2>, cell_type_count> known_;
+  /// By cell type; full, reduced and mixed integration (with one field, with two) apart.
+  std::array<std::array<std::vector<ContinuumSample>, 4>, cell_type_count> known_;
 };
 
 }  // namespace comma::solver

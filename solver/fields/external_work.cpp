@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/model/component.hpp"
 
 namespace comma::solver {
 
@@ -14,6 +15,12 @@ const NodalField& nodal_field(const ResultStep& step, std::string_view name) {
   const auto found = step.fields.find(name);
   if (found != step.fields.end()) return std::get<NodalField>(found->second);
   throw Error("unknown-field", fmt::format("step {} has no field {}, which the work needs", step.order, name), fmt::format("compute {} first", name));
+}
+
+/// Whether a component is a displacement or a rotation, on which forces do work; pressures and changes of volume are not.
+bool is_motion(std::string_view name) {
+  const std::optional<Component> component = component_named(name);
+  return component && static_cast<int>(*component) < motion_count;
 }
 
 /// Displacements and forces of a step, paired by node and component, 0 where either is absent.
@@ -27,7 +34,7 @@ Pairs pairs_of(const ResultStep& step) {
   const std::size_t nodes = displacement.values.size() / displacement.components.size();
   Pairs pairs;
   for (std::size_t c = 0; c < displacement.components.size(); ++c) {
-    const int column = force.component(displacement.components[c]);
+    const int column = is_motion(displacement.components[c]) ? force.component(displacement.components[c]) : -1;
     for (std::size_t node = 0; column >= 0 && node < nodes; ++node) {
       const double u = displacement.at(static_cast<int>(node), static_cast<int>(c));
       const double f = force.at(static_cast<int>(node), column);

@@ -7,7 +7,7 @@ namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, component_count> names = {"DX", "DY", "DZ", "DRX", "DRY", "DRZ"};
+constexpr std::array<std::string_view, component_count> names = {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "PRES", "GONF"};
 
 }  // namespace
 

@@ -8,8 +8,11 @@
 
 namespace comma::solver {
 
-enum class Component : std::uint8_t { dx, dy, dz, drx, dry, drz };
-inline constexpr int component_count = 6;
+/// Translations, rotations, and what mixed elements have besides: the mean stress and the change of volume.
+enum class Component : std::uint8_t { dx, dy, dz, drx, dry, drz, pressure, swelling };
+inline constexpr int component_count = 8;
+/// Translations and rotations come first.
+inline constexpr int motion_count = 6;
 
 std::string_view name_of(Component component);               ///< "DX" ...
 std::optional<Component> component_named(std::string_view name);

@@ -8,7 +8,11 @@ DofMap::DofMap(const Model& model) : masks_(model.mesh->nodes.size(), 0), starts
   const Mesh& mesh = *model.mesh;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     const ComponentMask mask = model.components_of(cell);
-    for (const int node : mesh.cell(cell)) masks_[node] |= mask;
+    const auto nodes = mesh.cell(cell);
+    for (const int node : nodes) masks_[node] |= mask;
+    const ComponentMask at_corners = model.corner_components_of(cell);
+    if (at_corners == 0) continue;
+    for (const int node : nodes.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell])))) masks_[node] |= at_corners;
   }
   starts_.reserve(masks_.size() + 1);
   for (int node = 0; node < node_count(); ++node) {

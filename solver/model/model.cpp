@@ -1,5 +1,7 @@
 #include "solver/model/model.hpp"
 
+#include <algorithm>
+
 namespace comma::solver {
 
 namespace {
@@ -18,6 +20,10 @@ ComponentMask components_of_formulation(Formulation formulation) {
     case Formulation::plane_stress_reduced:
     case Formulation::axisymmetric:
     case Formulation::axisymmetric_reduced:
+    case Formulation::plane_strain_pressure:
+    case Formulation::axisymmetric_pressure:
+    case Formulation::plane_strain_swelling:
+    case Formulation::axisymmetric_swelling:
     case Formulation::bar_2d:
     case Formulation::spring_2d:
       return plane_translations;
@@ -25,6 +31,8 @@ ComponentMask components_of_formulation(Formulation formulation) {
       return plane_translations | mask_of(Component::drz);
     case Formulation::solid:
     case Formulation::solid_reduced:
+    case Formulation::solid_pressure:
+    case Formulation::solid_swelling:
     case Formulation::bar:
     case Formulation::spring_3d:
       return space_translations;
@@ -49,6 +57,8 @@ int continuum_dimension(Formulation formulation) {
   switch (formulation) {
     case Formulation::solid:
     case Formulation::solid_reduced:
+    case Formulation::solid_pressure:
+    case Formulation::solid_swelling:
       return 3;
     case Formulation::plane_strain:
     case Formulation::plane_strain_reduced:
@@ -56,6 +66,10 @@ int continuum_dimension(Formulation formulation) {
     case Formulation::plane_stress_reduced:
     case Formulation::axisymmetric:
     case Formulation::axisymmetric_reduced:
+    case Formulation::plane_strain_pressure:
+    case Formulation::axisymmetric_pressure:
+    case Formulation::plane_strain_swelling:
+    case Formulation::axisymmetric_swelling:
       return 2;
     default:
       return 0;
@@ -71,7 +85,23 @@ bool has_element(Formulation formulation, CellType type) {
 }
 
 bool is_axisymmetric(Formulation formulation) {
-  return formulation == Formulation::axisymmetric || formulation == Formulation::axisymmetric_reduced;
+  return formulation == Formulation::axisymmetric || formulation == Formulation::axisymmetric_reduced ||
+         formulation == Formulation::axisymmetric_pressure || formulation == Formulation::axisymmetric_swelling;
+}
+
+int mixed_field_count(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::solid_pressure:
+    case Formulation::plane_strain_pressure:
+    case Formulation::axisymmetric_pressure:
+      return 1;
+    case Formulation::solid_swelling:
+    case Formulation::plane_strain_swelling:
+    case Formulation::axisymmetric_swelling:
+      return 2;
+    default:
+      return 0;
+  }
 }
 
 bool is_plate(Formulation formulation) {
@@ -87,6 +117,18 @@ bool Model::is_skin(int cell) const {
 ComponentMask Model::components_of(int cell) const {
   const Formulation formulation = formulations[cell];
   return has_element(formulation, mesh->cell_types[cell]) ? components_of_formulation(formulation) : ComponentMask{0};
+}
+
+ComponentMask Model::corner_components_of(int cell) const {
+  const int fields = components_of(cell) == 0 || is_skin(cell) ? 0 : mixed_field_count(formulations[cell]);
+  ComponentMask mask = 0;
+  if (fields > 0) mask |= mask_of(Component::pressure);
+  if (fields > 1) mask |= mask_of(Component::swelling);
+  return mask;
+}
+
+bool Model::is_mixed() const {
+  return std::ranges::any_of(formulations, [](Formulation formulation) { return mixed_field_count(formulation) > 0; });
 }
 
 }  // namespace comma::solver

@@ -14,7 +14,9 @@ namespace comma::solver {
 enum class Formulation : std::uint8_t {
   none, solid, solid_reduced, plane_strain, plane_strain_reduced, plane_stress, plane_stress_reduced,
   axisymmetric, axisymmetric_reduced, bar, bar_2d, euler_beam, timoshenko_beam,
-  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d, thin_plate, shear_plate
+  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d, thin_plate, shear_plate,
+  solid_pressure, plane_strain_pressure, axisymmetric_pressure,     // with the pressure as an unknown
+  solid_swelling, plane_strain_swelling, axisymmetric_swelling      // with the change of volume besides
 };
 
 /// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric bodies,
@@ -23,6 +25,8 @@ int continuum_dimension(Formulation formulation);
 /// Whether elements of a formulation exist on cells of a type at all, skin elements included.
 bool has_element(Formulation formulation, CellType type);
 bool is_axisymmetric(Formulation formulation);
+/// How many fields an element has besides displacements: 1 for the pressure, 2 with the change of volume, else 0.
+int mixed_field_count(Formulation formulation);
 /// Whether elements are flat plates in space, with three translations and three rotations a node.
 bool is_plate(Formulation formulation);
 
@@ -37,6 +41,10 @@ struct Model {
   bool is_skin(int cell) const;
   /// The components that the element of a cell gives to each of its nodes (0 where it carries none).
   ComponentMask components_of(int cell) const;
+  /// What it gives to its corners besides.
+  ComponentMask corner_components_of(int cell) const;
+  /// Whether any cell has more unknowns than displacements and rotations: its stiffness is then that of a saddle.
+  bool is_mixed() const;
 };
 
 /// The numbering of degrees of freedom: those of a node are consecutive, in the order of Component; a node without any

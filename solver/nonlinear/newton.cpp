@@ -137,7 +137,7 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
-  return sizes.size() == residual_.size() &&
+  return sizes.size() == residual_.size() && !tangent_.is_saddle() &&
          (residual_.array().abs() <= rounding_share * largest(state.u) * sizes.array()).all();
 }
 

@@ -89,7 +89,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
 }
 
 void PathFollowing::accept_step(const VectorXd& u) {
-  last_step_ = u - start_;
+  last_step_ = motions(u - start_);
   accepted_ = intensity_;
   criterion_.accept(load_);
   ++steps_;
@@ -154,9 +154,17 @@ std::vector<double> PathFollowing::candidates(double wanted, const Correction& c
   return {};
 }
 
+/// Displacements without the pressures and swellings of mixed elements, whose sizes are others.
+VectorXd PathFollowing::motions(VectorXd u) const {
+  if (!tangent_.is_saddle()) return u;
+  for (int dof = 0; dof < dofs_.size(); ++dof)
+    if (static_cast<int>(dofs_.component_of(dof)) >= motion_count) u[dof] = 0.0;
+  return u;
+}
+
 std::vector<double> PathFollowing::by_displacement(double wanted, const VectorXd& constant, const VectorXd& linear) const {
   const double slope = controlled(linear).sum();
-  if (!(std::abs(slope) > no_influence * largest(linear))) return {};
+  if (!(std::abs(slope) > no_influence * largest(motions(linear)))) return {};
   return {(wanted - controlled(constant).sum()) / slope};
 }
 
@@ -166,7 +174,7 @@ std::vector<double> PathFollowing::by_arc_length(double wanted, const VectorXd& 
   const VectorXd b = controlled(linear);
   const auto count = static_cast<double>(controlled_nodes_);
   const double square = b.squaredNorm();
-  if (!(std::sqrt(square) > no_influence * largest(linear))) return {};
+  if (!(std::sqrt(square) > no_influence * largest(motions(linear)))) return {};
   const double middle = -a.dot(b) / square;
   const double apart = middle * middle - (a.squaredNorm() - count * wanted * wanted) / square;
   if (apart < 0.0) return {};
@@ -194,7 +202,7 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
   const VectorXd before = u - start_ + change.constant;
   // The better, the smaller.
   const auto cost = [&](double intensity) {
-    const VectorXd increment = before + intensity * change.linear;
+    const VectorXd increment = motions(before + intensity * change.linear);
     if (control_.choice == PathChoice::smallest_angle && last_step_.size() && !last_step_.isZero(0.0))
       return -increment.dot(last_step_) / std::max(increment.norm(), std::numeric_limits<double>::min());
     if (control_.choice != PathChoice::smallest_residual) return increment.norm();

@@ -60,6 +60,7 @@ class PathFollowing {
   std::vector<double> by_displacement(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
   std::vector<double> by_arc_length(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
   Eigen::VectorXd controlled(const Eigen::VectorXd& u) const;
+  Eigen::VectorXd motions(Eigen::VectorXd u) const;
   double chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
   double bounded(double intensity) const;
   void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);

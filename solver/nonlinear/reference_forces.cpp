@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "solver/contact/extent.hpp"
+#include "solver/elements/corner_unknowns.hpp"
+#include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 
@@ -50,10 +52,36 @@ class Summation {
     VectorXd forces = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
     for (const ContinuumSample& sample : points_.samples(cell)) {
       const ContinuumPoint point = points_.locate(cell, sample);
-      forces += efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
+      forces += share(cell, point) * efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
     }
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (const Component component : translations) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
+    if (model_.corner_components_of(cell) != 0) add_mixed(cell);
+  }
+
+  /// In mixed elements Code_Aster has the mean over the components of the stress, SIP among them, where others have the sum, and in bodies of
+  /// revolution the radius twice (docs/conformance.md).
+  double share(int cell, const ContinuumPoint& point) const {
+    if (model_.corner_components_of(cell) == 0) return 1.0;
+    const Formulation formulation = model_.formulations[static_cast<std::size_t>(cell)];
+    const double components = continuum_dimension(formulation) == 3 ? 7.0 : 5.0;
+    return (is_axisymmetric(formulation) ? point.at[0] : 1.0) / components;
+  }
+
+  /// The balance of the pressure is one of strains, that of the swelling one of stresses: integrals of both times the shape functions of the corners.
+  void add_mixed(int cell) {
+    require(efforts_.strain, cell, "EPSI_REFE");
+    const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
+    const Quadrature rule = quadrature(type, stiffness_family(type, model_.formulations[static_cast<std::size_t>(cell)]));
+    const CellType linear = linear_cell(model_, cell);
+    VectorXd volumes = VectorXd::Zero(corner_count(type));
+    for (std::size_t g = 0; g < rule.size(); ++g)
+      volumes += points_.locate(cell, points_.samples(cell)[g]).weight * shape_functions(linear, rule[g].at);
+    for (Eigen::Index i = 0; i < volumes.size(); ++i) {
+      const int node = mesh_.cell(cell)[static_cast<std::size_t>(i)];
+      add(node, Component::pressure, efforts_.strain * std::abs(volumes[i]));
+      add(node, Component::swelling, efforts_.stress * std::abs(volumes[i]));
+    }
   }
 
   /// Resultants of plates are forces and moments a length.

@@ -89,6 +89,7 @@ struct ReferenceEfforts {
   double stress = 0.0;  ///< SIGM_REFE, of continua
   double force = 0.0;   ///< EFFORT_REFE, of bars, beams, springs and, a length, of plates
   double moment = 0.0;  ///< MOMENT_REFE, of beams, springs and, a length, of plates
+  double strain = 0.0;  ///< EPSI_REFE, where the pressure is an unknown
 };
 
 struct NewtonOptions {

@@ -43,6 +43,7 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
       elimination_(elimination),
       options_(options),
       counters_(counters),
+      is_saddle_(model.is_mixed()),
       linear_(options.linear) {}
 
 bool TangentSystem::is_known(TangentKind kind) const {
@@ -149,7 +150,7 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   if (report.verdict == FactorVerdict::singular) {
     throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
-  if (report.verdict == FactorVerdict::indefinite) ++counters_.indefinite_factorisations;
+  if (report.verdict == FactorVerdict::indefinite && !is_saddle_) ++counters_.indefinite_factorisations;
   lost_digits_ = has_pivots ? report.lost_digits : std::numeric_limits<double>::digits10;
   measure_rows(reduced);
   factorised_ = true;

@@ -74,6 +74,9 @@ class TangentSystem {
   /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
   bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
 
+  /// Whether unknowns are of several kinds, so that one size does not suit all.
+  bool is_saddle() const { return is_saddle_; }
+
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
 
@@ -96,6 +99,7 @@ class TangentSystem {
   const Elimination& elimination_;
   const NewtonOptions& options_;
   Counters& counters_;
+  bool is_saddle_;  ///< by the kind of elements
   const FollowerForces* followers_ = nullptr;
   bool whole_ = true;
   LinearOptions linear_;

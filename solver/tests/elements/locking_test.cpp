@@ -33,6 +33,8 @@ TEST_CASE("linear cells are at risk of locking before quadratic ones, reduced an
   CHECK(at_risk(CellType::quad8, Formulation::axisymmetric, 0.4995));
   CHECK_FALSE(at_risk(CellType::quad8, Formulation::plane_strain_reduced, 0.4999));
   CHECK_FALSE(at_risk(CellType::quad4, Formulation::plane_stress, 0.4999));
+  CHECK_FALSE(at_risk(CellType::quad8, Formulation::plane_strain_pressure, 0.4999));
+  CHECK_FALSE(at_risk(CellType::hexa20, Formulation::solid_swelling, 0.4999));
 }
 
 TEST_CASE("the risk of locking counts body cells, not their skin", "[elements]") {

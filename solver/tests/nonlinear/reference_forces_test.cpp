@@ -21,6 +21,24 @@ TEST_CASE("The reference force of a square's corner is the stress times half a s
     for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == Approx(7.0 * (1.0 + 1.0)));
 }
 
+TEST_CASE("Corners of mixed elements have their share of the volume times the strain and the stress") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}};
+  mesh->add_cell(CellType::quad8, std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
+  const Model model{mesh, {Formulation::plane_strain_swelling}};
+  const DofMap dofs(model);
+  ReferenceEfforts efforts;
+  efforts.stress = 7.0;
+  CHECK_THROWS_WITH(reference_forces(model, dofs, efforts), Catch::Contains("EPSI_REFE"));
+  efforts.strain = 0.01;
+  const Eigen::VectorXd forces = reference_forces(model, dofs, efforts);
+  for (int corner = 0; corner < 4; ++corner) {
+    CHECK(forces[dofs.dof(corner, Component::pressure)] == Approx(0.01 * 1.0));
+    CHECK(forces[dofs.dof(corner, Component::swelling)] == Approx(7.0 * 1.0));
+  }
+}
+
 TEST_CASE("Structures take the resultants themselves, and an effort that lacks is named") {
   Scene scene;
   const int node = scene.node("A", 0, 0);
