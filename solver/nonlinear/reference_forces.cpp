@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -19,18 +20,21 @@ using Eigen::VectorXd;
 constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
 
+/// More than any force.
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
 class Summation {
  public:
   Summation(const Model& model, const DofMap& dofs, const ReferenceEfforts& efforts)
-      : model_(model), mesh_(*model.mesh), dofs_(dofs), efforts_(efforts), points_(model), sums_(VectorXd::Zero(dofs.size())), counts_(VectorXd::Zero(dofs.size())) {}
+      : model_(model), mesh_(*model.mesh), dofs_(dofs), efforts_(efforts), points_(model), sums_(VectorXd::Zero(dofs.size())), counts_(VectorXd::Zero(dofs.size())), least_(VectorXd::Constant(dofs.size(), unknown)) {}
 
-  VectorXd mean() {
+  VectorXd of_all() {
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
       if (model_.formulations[static_cast<std::size_t>(cell)] == Formulation::none) continue;
       if (points_.covers(cell)) add_continuum(cell);
       else if (!model_.is_skin(cell)) add_structure(cell);
     }
-    return sums_.array() / counts_.array().max(1.0);
+    return (least_.array() < unknown).select(least_.array(), sums_.array() / counts_.array().max(1.0));
   }
 
  private:
@@ -46,30 +50,31 @@ class Summation {
     counts_[dof] += 1.0;
   }
 
+  void add_least(int node, Component component, double force) {
+    const int dof = dofs_.dof(node, component);
+    if (dof >= 0) least_[dof] = std::min(least_[dof], force);
+  }
+
   void add_continuum(int cell) {
     require(efforts_.stress, cell, "SIGM_REFE");
     const auto nodes = mesh_.cell(cell);
     VectorXd forces = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
     for (const ContinuumSample& sample : points_.samples(cell)) {
       const ContinuumPoint point = points_.locate(cell, sample);
-      forces += share(cell, point) * efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
+      forces += efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
     }
+    if (model_.corner_components_of(cell) != 0) return add_mixed(cell, forces);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (const Component component : translations) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
-    if (model_.corner_components_of(cell) != 0) add_mixed(cell);
   }
 
-  /// In mixed elements Code_Aster has the mean over the components of the stress, SIP among them, where others have the sum, and in bodies of
-  /// revolution the radius twice (docs/conformance.md).
-  double share(int cell, const ContinuumPoint& point) const {
-    if (model_.corner_components_of(cell) == 0) return 1.0;
-    const Formulation formulation = model_.formulations[static_cast<std::size_t>(cell)];
-    const double components = continuum_dimension(formulation) == 3 ? 7.0 : 5.0;
-    return (is_axisymmetric(formulation) ? point.at[0] : 1.0) / components;
-  }
-
-  /// The balance of the pressure is one of strains, that of the swelling one of stresses: integrals of both times the shape functions of the corners.
-  void add_mixed(int cell) {
+  /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements have the sum, and of the cells at a node the least
+  /// (docs/conformance.md). The balance of the pressure is one of strains, that of the swelling one of stresses: integrals of both times the
+  /// shape functions of the corners.
+  void add_mixed(int cell, const VectorXd& forces) {
+    const double components = continuum_dimension(model_.formulations[static_cast<std::size_t>(cell)]) == 3 ? 7.0 : 5.0;
+    for (Eigen::Index i = 0; i < forces.size(); ++i)
+      for (const Component component : translations) add_least(mesh_.cell(cell)[static_cast<std::size_t>(i)], component, forces[i] / components);
     require(efforts_.strain, cell, "EPSI_REFE");
     const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
     const Quadrature rule = quadrature(type, stiffness_family(type, model_.formulations[static_cast<std::size_t>(cell)]));
@@ -79,8 +84,8 @@ class Summation {
       volumes += points_.locate(cell, points_.samples(cell)[g]).weight * shape_functions(linear, rule[g].at);
     for (Eigen::Index i = 0; i < volumes.size(); ++i) {
       const int node = mesh_.cell(cell)[static_cast<std::size_t>(i)];
-      add(node, Component::pressure, efforts_.strain * std::abs(volumes[i]));
-      add(node, Component::swelling, efforts_.stress * std::abs(volumes[i]));
+      add_least(node, Component::pressure, efforts_.strain * std::abs(volumes[i]));
+      add_least(node, Component::swelling, efforts_.stress * std::abs(volumes[i]));
     }
   }
 
@@ -104,12 +109,13 @@ class Summation {
   ContinuumPoints points_;
   VectorXd sums_;
   VectorXd counts_;
+  VectorXd least_;  ///< at the degrees of freedom of mixed elements
 };
 
 }  // namespace
 
 VectorXd reference_forces(const Model& model, const DofMap& dofs, const ReferenceEfforts& efforts) {
-  return Summation(model, dofs, efforts).mean();
+  return Summation(model, dofs, efforts).of_all();
 }
 
 ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options) {

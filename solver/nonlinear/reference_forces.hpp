@@ -9,7 +9,7 @@
 namespace comma::solver {
 
 /// At each degree of freedom the mean over the elements there of what reference efforts would make of internal force: in a continuum the
-/// integral of the stress times the gradient of the node's shape function, its components taken by their size and added; with mixed elements their mean, and the integrals of the strain for the pressure and of the stress for the swelling; in bars, beams, springs
+/// integral of the stress times the gradient of the node's shape function, its components taken by their size and added; of mixed elements the least of their means, and integrals of the strain for the pressure and of the stress for the swelling; in bars, beams, springs
 /// the resultants themselves; in plates times a length of the cell.
 class ReferenceForces {
  public:
