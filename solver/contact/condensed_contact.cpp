@@ -70,6 +70,16 @@ class CondensedSolver {
     return solution;
   }
 
+  CondensedSolution step() {
+    CondensedSolution solution;
+    solution.iterations = 1;
+    number_unknowns();
+    correct();
+    evaluate();
+    solution.forces = forces_;
+    return solution;
+  }
+
  private:
   /// What closed points do along the surface.
   enum class Rubbing : std::uint8_t { by_law, never_slides };
@@ -423,6 +433,7 @@ class CondensedSolver {
 }  // namespace
 
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+  if (problem.one_step) return CondensedSolver(schur, problem, state).step();
   if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
   return CondensedSolver(schur, problem, state).run();
 }

@@ -45,6 +45,7 @@ struct CondensedProblem {
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
+  bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
   ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };
 

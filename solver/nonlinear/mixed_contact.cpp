@@ -133,6 +133,7 @@ void MixedContact::pair(Positions positions, double time) {
   build_rows();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
+  hold_back_points();
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
   forces_ = held_forces();
@@ -251,6 +252,58 @@ void MixedContact::build_rows() {
   settle_blocked_points();
 }
 
+bool MixedContact::can_iterate_jointly() const {
+  return std::ranges::none_of(definition_.zones, [](const ContactZone& zone) {
+    return zone.mixed.local_average || zone.mixed.penalised || zone.mixed.friction > 0.0;
+  });
+}
+
+int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
+  pair(positions_at(u), time);
+  const Eigen::VectorXd now = jumps(u);
+  int changes = 0;
+  forces_.setZero();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0) continue;
+    const Vector3d pressure = multiplier_at(point);
+    const Vector3d gap(now[point.first_row], 0.0, 0.0);
+    const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
+    const ContactStatus status = contact_status(point.law, stays_closed, pressure, gap);
+    changes += status != state_.statuses[p];
+    state_.statuses[p] = status;
+    forces_[point.first_row] = point.weight * contact_law(point.law, status, pressure, gap).traction[0];
+  }
+  return changes;
+}
+
+bool MixedContact::is_faced_again() const {
+  if (definition_.geometry_update == GeometryUpdate::controlled) return definition_.controlled_updates > 1;
+  return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
+}
+
+/// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the next geometry (the mixed
+/// formulation alone; ssnv104e tells). A body that touches nothing yet must not pass through the other.
+void MixedContact::hold_back_points() {
+  held_back_.clear();
+  const bool waits = step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
+  step_begins_ = false;
+  for (std::size_t p = 0; p < points_.size() && waits; ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (!point.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
+    point.rows = 0;
+    held_back_.push_back(p);
+  }
+}
+
+bool MixedContact::leaves_overlap(const Eigen::VectorXd& u) const {
+  if (held_back_.empty()) return false;
+  const Eigen::VectorXd now = jumps(u);
+  return std::ranges::any_of(held_back_, [&](std::size_t p) {
+    return now[problem_.points[p].first_row] < -overlap_tolerance * extent(mesh_, points_[p].cell);
+  });
+}
+
 /// A point between nodes that are held is open or closed whatever the pressure, which then is anything: it gets none.
 void MixedContact::settle_blocked_points() {
   blocked_.clear();
@@ -344,6 +397,12 @@ Vector3d MixedContact::multiplier(int number) const {
   return value;
 }
 
+Vector3d MixedContact::multiplier_at(const CondensedPoint& point) const {
+  Vector3d value = Vector3d::Zero();
+  for (int i = 0; i < point.node_count; ++i) value += point.shape[static_cast<std::size_t>(i)] * multiplier(point.nodes[static_cast<std::size_t>(i)]);
+  return value;
+}
+
 Eigen::VectorXd MixedContact::forces() const { return reduced_rows_.transpose() * forces_; }
 
 /// Points come in the same order at every pairing.
@@ -392,7 +451,8 @@ void MixedContact::forget() {
 
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   update_schur();
-  add_natural_augmentation();
+  // One step a time, statuses depend on the augmentation, and so does whether the iterations converge: it is the user's.
+  if (!is_joint()) add_natural_augmentation();
   const std::vector<ContactStatus> statuses = state_.statuses;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
   forces.head(forces_.size()) = forces_;

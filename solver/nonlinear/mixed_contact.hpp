@@ -35,12 +35,25 @@ class MixedContact {
                TangentSystem& tangent, Counters& counters, std::vector<int> support);
 
   /// A step begins at u: slips are counted from there.
-  void start_step(const Eigen::VectorXd& u) { reference_ = u; }
+  void start_step(const Eigen::VectorXd& u) {
+    reference_ = u;
+    step_begins_ = true;
+  }
   /// Pressures and statuses as they are before a step, and back to them when it fails; points must be faced anew then.
   void remember() { remembered_ = {state_, started_}; }
   void restore() { std::tie(state_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time);
+  /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
+  /// contact without friction.
+  bool can_iterate_jointly() const;
+  /// Whether they do: `correct` then takes one step with the statuses at hand, and `linearise` gives the next.
+  void iterate_jointly(bool jointly) { problem_.one_step = jointly; }
+  bool is_joint() const { return problem_.one_step; }
+  /// Faces the points anew at u; statuses and forces are what the law says there. Returns the number of points whose status changed.
+  int linearise(const Eigen::VectorXd& u, double time);
+  /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must be faced anew.
+  bool leaves_overlap(const Eigen::VectorXd& u) const;
   /// After a new factorisation.
   void forget();
 
@@ -93,8 +106,11 @@ class MixedContact {
   std::vector<char> shared_multipliers() const;
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
+  Eigen::Vector3d multiplier_at(const CondensedPoint& point) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void settle_blocked_points();
+  bool is_faced_again() const;
+  void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
   void update_schur();
@@ -132,6 +148,8 @@ class MixedContact {
   Eigen::VectorXd base_;
   Eigen::VectorXd forces_;         ///< on the rows
   Eigen::VectorXd reference_;
+  bool step_begins_ = false;             ///< and no point has been faced in it
+  std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::vector<std::size_t> blocked_;  ///< points that the conditions on displacements settle
   std::unique_ptr<SchurComplement> schur_;
 };

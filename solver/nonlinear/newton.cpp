@@ -65,7 +65,9 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     if (iteration > 1 && is_tangent_due(options_.tangent, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
-    const Correction correction = correct(state, offset);
+    Correction correction = correct(state, offset);
+    const bool is_joint = mixed_ && mixed_->is_joint();
+    if (is_joint) correction.changes = mixed_->linearise(state.u, time);
     if (searches(iteration))
       search(before, external, offset, state);
     else
@@ -73,8 +75,8 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_));
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged) {
-      polish(state, external, offset);
+    if (measure.converged && (!is_joint || correction.changes == 0)) {
+      if (!is_joint) polish(state, external, offset);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;

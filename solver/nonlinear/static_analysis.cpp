@@ -68,6 +68,7 @@ class StaticAnalysis {
     if (plan.instants.empty()) return;
     start(plan.instants.front());
     watch(plan);
+    if (mixed_) mixed_->iterate_jointly(iterates_jointly(plan));
     StepSequence sequence(plan);
     while (!sequence.finished()) {
       const double from = last_instant_;
@@ -108,10 +109,30 @@ class StaticAnalysis {
     try {
       return solve_from_either_side(instant, before);
     } catch (const Error& error) {
-      if (!is_failure_of_step(error.code()) || !sequence.cut()) throw advised(error);
+      if (!is_failure_of_step(error.code())) throw advised(error);
+      if (!sequence.cut()) return solve_as_last_resort(instant, before, error);
       take_back(before);
       if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, sequence.target())));
       return std::nullopt;
+    }
+  }
+
+  /// Bodies that remember and steps that may be cut: where Newton's method takes statuses and geometry along, as Code_Aster does, steps are cut where
+  /// Code_Aster cuts them, and the path is the same (ssnv506e). Else contact is settled within each iteration, which fails less.
+  bool iterates_jointly(const StepPlan& plan) const {
+    return problem_.contact->joint_iterations && plan.cutting && assembler_.has_memory() && mixed_->can_iterate_jointly();
+  }
+
+  /// Of a step that cannot be cut.
+  int solve_as_last_resort(double instant, const Progress& before, const Error& error) {
+    if (!mixed_ || !mixed_->is_joint()) throw advised(error);
+    take_back(before);
+    mixed_->iterate_jointly(false);
+    const OnExit as_before([&] { mixed_->iterate_jointly(true); });
+    try {
+      return solve_from_either_side(instant, before);
+    } catch (const Error& again) {
+      throw advised(again);
     }
   }
 
@@ -467,7 +488,8 @@ class StaticAnalysis {
           iterations += balance();
         }
       }
-      if (!updates || geometry_settled(update, history)) return iterations;
+      const bool settled = !updates || geometry_settled(update, history);
+      if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) return iterations;
       note_cycle(visited, history);
       if (problem_.contact->geometry_update == GeometryUpdate::automatic && update + 1 >= max_updates())
         throw_geometry_failure(time, history, *problem_.contact);

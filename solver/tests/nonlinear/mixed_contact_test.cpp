@@ -215,6 +215,32 @@ TEST_CASE("A guided surface pulls where free contact would open") {
   }
 }
 
+TEST_CASE("Points of a guided surface close where the step has taken the bodies") {
+  // The upper block comes down tilted: its left end closes in the first step, the rest in the second. Any geometry is settled at once.
+  std::vector<int> pairings;
+  for (const bool guided : {false, true}) {
+    Stack stack(6, 6, 0.015);
+    Scene& scene = stack.scene;
+    scene.problem.contact->zones.front().mixed.bilateral = guided;
+    scene.problem.contact->geometry_tolerance = 1e3;
+    scene.impose({stack.upper.nodes.back()[0]}, Component::dx, 0);
+    for (std::size_t column = 0; column <= 6; ++column)
+      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, -0.02 + 0.002 * static_cast<double>(column), true);
+    scene.solve(1);
+    CHECK(scene.contact(stack.upper.nodes[0].front(), "CONT") == 2.0);
+    CHECK(scene.contact(stack.upper.nodes[0].back(), "CONT") == 0.0);
+    scene.result = {};
+    scene.counters = {};
+    scene.solve(2);
+    for (const int node : stack.upper.nodes[0]) {
+      CHECK(scene.contact(node, "CONT") == 2.0);
+      CHECK(scene.contact(node, "JEU") == Approx(0.0).margin(1e-12));
+    }
+    pairings.push_back(scene.counters.pairings);
+  }
+  CHECK(pairings[1] == pairings[0] + 1);  // the second step, whose first geometry lets the other points through
+}
+
 TEST_CASE("Nodes paired with nodes transmit a uniform pressure on matching meshes") {
   Stack stack(4, 4);
   stack.scene.problem.contact->formulation = ContactFormulation::discrete;
