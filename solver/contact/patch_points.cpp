@@ -78,9 +78,9 @@ class PatchGaps {
         mesh_(*model.mesh),
         time_(time),
         slaves_(mesh_, zone_.slave_cells, positions, definition.smooth_normals),
-        facing_slaves_(mesh_, zone_.slave_cells, mesh_.dimension == 3 ? positions : start, definition.smooth_normals) {
+        facing_slaves_(mesh_, zone_.slave_cells, facing(positions, start), definition.smooth_normals) {
     const Surface masters(mesh_, zone_.master_cells, positions, definition.smooth_normals);
-    const Surface facing_masters(mesh_, zone_.master_cells, mesh_.dimension == 3 ? positions : start, false);
+    const Surface facing_masters(mesh_, zone_.master_cells, facing(positions, start), false);
     for (const int cell : zone_.master_cells) {
       masters_.push_back(masters.gather(cell));
       facing_masters_.push_back(facing_masters.gather(cell));
@@ -106,6 +106,11 @@ class PatchGaps {
   }
 
  private:
+  /// Where the bodies are when it is settled which places face each other: surfaces now, lines when the step began.
+  Positions facing(Positions positions, Positions start) const {
+    return dimension(mesh_.cell_types[zone_.slave_cells.front()]) == 2 ? positions : start;
+  }
+
   void add_face(int face) {
     const Gathered slave = slaves_.gather(face);
     const Gathered facing = facing_slaves_.gather(face);

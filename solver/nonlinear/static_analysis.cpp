@@ -410,12 +410,18 @@ class StaticAnalysis {
     if (!problem_.contact || path_ || !now_.paired) return;
     const std::vector<Vector3d> now = positions();
     const double pushed_back = mixed_ ? mixed_->pushed_back() : newton_.pushed_back();
+    if (!passed_master_) passed_master_.emplace(*problem_.contact, mesh_);
+    where_surfaces_pair([&] { passed_master_->look(now, pushed_back, instant); });
+    where_surfaces_pair([&] { note_geometry_left_behind(instant, now, pushed_back); });
+  }
+
+  /// Surfaces that cannot be paired, or not any more, are no reason to lose a step that has converged.
+  template <class Check>
+  static void where_surfaces_pair(Check&& check) {
     try {
-      if (!passed_master_) passed_master_.emplace(*problem_.contact, mesh_);
-      passed_master_->look(now, pushed_back, instant);
-      note_geometry_left_behind(instant, now, pushed_back);
+      check();
     } catch (const Error&) {
-      // Surfaces that cannot be paired any more are no reason to lose a step that has converged.
+      return;
     }
   }
 
