@@ -48,6 +48,7 @@ class CondensedSolver {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
     bool solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    const bool led_away = led_away_;
     if (!solved) {
       restart(multipliers);
       solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
@@ -56,7 +57,7 @@ class CondensedSolver {
       restart(multipliers);
       solved = relax() && settle(Rubbing::by_law, solution.iterations);
     }
-    if (!solved) {
+    if (!solved && led_away) {
       restart(multipliers);
       solved = settle(Rubbing::by_law, solution.iterations);
     }
@@ -133,6 +134,7 @@ class CondensedSolver {
   bool settle(Rubbing rubbing, int& iterations, Patience patience = Patience::to_the_end) {
     rubbing_ = rubbing;
     one_at_a_time_ = false;
+    led_away_ = false;
     visited_.clear();
     double last = 0.0, before_last = 0.0;
     for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
@@ -146,7 +148,8 @@ class CondensedSolver {
       if (!settled) same_statuses_ = 0;
       if (problem_.components == 1 || rubbing_ != Rubbing::by_law) continue;
       if (one_at_a_time_) return false;  // with friction a cycle stays one
-      if (patience == Patience::short_of_growth && iteration >= 2 && residual_ > before_last) return false;
+      led_away_ = patience == Patience::short_of_growth && iteration >= 2 && residual_ > before_last;
+      if (led_away_) return false;
       before_last = last;
       last = residual_;
     }
@@ -162,13 +165,7 @@ class CondensedSolver {
 
   bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
 
-  Vector3d multiplier_at(const CondensedPoint& point) const {
-    Vector3d value = Vector3d::Zero();
-    for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < problem_.components; ++c)
-        value[c] += point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)];
-    return value;
-  }
+  Vector3d multiplier_at(const CondensedPoint& point) const { return solver::multiplier_at(problem_, state_, point); }
 
   Vector3d jump_at(const CondensedPoint& point) const {
     Vector3d value = Vector3d::Zero();
@@ -425,12 +422,20 @@ class CondensedSolver {
   double pressure_scale_ = 0.0;
   int same_statuses_ = 0;
   bool one_at_a_time_ = false;
+  bool led_away_ = false;  ///< the last attempt ended for want of patience
   Rubbing rubbing_ = Rubbing::by_law;
   double friction_share_ = 1.0;
   std::set<std::vector<ContactStatus>> visited_;
 };
 
 }  // namespace
+
+Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point) {
+  Vector3d value = Vector3d::Zero();
+  for (int i = 0; i < point.node_count; ++i)
+    for (int c = 0; c < problem.components; ++c) value[c] += point.shape[i] * state.multipliers[point.nodes[i] * problem.components + c];
+  return value;
+}
 
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
   if (problem.one_step) return CondensedSolver(schur, problem, state).step();

@@ -54,6 +54,9 @@ struct CondensedState {
   std::vector<ContactStatus> statuses;  ///< one a point: the start, then the solution
 };
 
+/// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
+Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point);
+
 enum class CondensedVerdict : std::uint8_t { solved, too_many_iterations };
 
 struct CondensedSolution {

@@ -266,7 +266,7 @@ int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
-    const Vector3d pressure = multiplier_at(point);
+    const Vector3d pressure = multiplier_at(problem_, state_, point);
     const Vector3d gap(now[point.first_row], 0.0, 0.0);
     const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
     const ContactStatus status = contact_status(point.law, stays_closed, pressure, gap);
@@ -394,12 +394,6 @@ Eigen::VectorXd MixedContact::held_forces() const {
 Vector3d MixedContact::multiplier(int number) const {
   Vector3d value = Vector3d::Zero();
   value.head(problem_.components) = state_.multipliers.segment(number * problem_.components, problem_.components);
-  return value;
-}
-
-Vector3d MixedContact::multiplier_at(const CondensedPoint& point) const {
-  Vector3d value = Vector3d::Zero();
-  for (int i = 0; i < point.node_count; ++i) value += point.shape[static_cast<std::size_t>(i)] * multiplier(point.nodes[static_cast<std::size_t>(i)]);
   return value;
 }
 

@@ -106,7 +106,6 @@ class MixedContact {
   std::vector<char> shared_multipliers() const;
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
-  Eigen::Vector3d multiplier_at(const CondensedPoint& point) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void settle_blocked_points();
   bool is_faced_again() const;
