@@ -29,7 +29,9 @@ std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
 
 class SharedFriction {
  public:
-  SharedFriction(const CondensedProblem& problem, const SolveCondensed& solve) : given_(problem), problem_(problem), solve_(solve), shared_(nodes_with_shares(problem)) {}
+  SharedFriction(const CondensedProblem& problem, const SolveCondensed& solve) : given_(problem), problem_(problem), solve_(solve), shared_(nodes_with_shares(problem)) {
+    problem_.expected.resize(0);  // shears, not shares
+  }
 
   CondensedSolution run(CondensedState& state) {
     const CondensedState start = state;
