@@ -42,13 +42,18 @@ class CondensedSolver {
     assert(state.statuses.size() == problem.points.size());
   }
 
-  /// From the statuses given; where that leads away, from those of points that stick to what they touch; then from what relaxation
-  /// finds; then from the statuses given, however far that leads; at last with friction that grows from none.
+  /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
+  /// then from what relaxation finds; then from the statuses given, however far that leads; at last with friction that grows from none.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
-    bool solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
-    const bool led_away = led_away_;
+    bool solved = start_as_expected() && settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    bool led_away = false;
+    if (!solved) {
+      restart(multipliers);
+      solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+      led_away = led_away_;
+    }
     if (!solved) {
       restart(multipliers);
       solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
@@ -86,6 +91,28 @@ class CondensedSolver {
   enum class Rubbing : std::uint8_t { by_law, never_slides };
   /// With friction, whether to stop where two iterations have brought what is left of the equations no nearer to zero.
   enum class Patience : std::uint8_t { to_the_end, short_of_growth };
+
+  /// Jumps are those that go with the forces of these multipliers.
+  bool start_as_expected() {
+    if (problem_.components == 1 || problem_.expected.size() != state_.multipliers.size()) return false;
+    state_.multipliers = problem_.expected;
+    forces_.setZero();
+    std::vector<int> rows;
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      const CondensedPoint& point = problem_.points[p];
+      if (state_.statuses[p] == ContactStatus::open) continue;
+      const Vector3d traction = multiplier_at(point);
+      for (int c = 0; c < point.rows; ++c) {
+        forces_[point.first_row + c] = (c == 0 ? 1.0 : -1.0) * point.weight * traction[c];
+        rows.push_back(point.first_row + c);
+      }
+    }
+    for (Index row = 0; row < problem_.held.size(); ++row)
+      if (problem_.held[row] != 0.0 && forces_[row] == 0.0) rows.push_back(static_cast<int>(row));
+    schur_.require(rows);
+    jumps_ = balanced_jumps();
+    return true;
+  }
 
   void restart(const Eigen::VectorXd& multipliers) {
     state_.multipliers = multipliers;

@@ -46,6 +46,7 @@ struct CondensedProblem {
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
   bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
+  Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
   ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };
 

@@ -365,8 +365,8 @@ std::string_view stiffness_family(CellType type, Formulation formulation) {
   // The radius raises the degree by one; on quadrangles the full family has it to spare.
   if (is_axisymmetric(formulation) && type == CellType::tria6) return "FPG6";
   if (!is_reduced(formulation)) return full_family(type);
-  // Reduced integration exists on these cells alone (U3.14.01, U3.13.01); others keep their full family.
-  if (type == CellType::tetra10 || type == CellType::quad8 || type == CellType::quad9) return "FPG4";
+  // Reduced integration exists on these cells alone (U3.14.01, U3.13.05); others keep their full family.
+  if (type == CellType::tetra10 || type == CellType::quad8) return "FPG4";
   return type == CellType::hexa20 ? "FPG8" : full_family(type);
 }
 

@@ -15,6 +15,10 @@ struct GmshType {
   std::vector<int> order = {};
 };
 
+/// What LIRE_MAILLAGE makes of a cell: Code_Aster leaves the nodes inside faces and cells out (QUAD9 becomes QUAD8: ssnp152g tells; HEXA27
+/// and PENTA18, whose faces are such, HEXA20 and PENTA15). The first nodes of either are the same.
+CellType without_inner_nodes(CellType type);
+
 /// All that both know.
 const std::vector<GmshType>& gmsh_types();
 

@@ -182,7 +182,9 @@ class GmshReader {
     }
     std::vector<int> ordered = nodes_;
     for (std::size_t i = 0; i < type.order.size(); ++i) ordered[i] = nodes_[static_cast<std::size_t>(type.order[i])];
-    const int cell = mesh_.add_cell(type.type, ordered);
+    const CellType kept = without_inner_nodes(type.type);
+    ordered.resize(static_cast<std::size_t>(node_count(kept)));
+    const int cell = mesh_.add_cell(kept, ordered);
     mesh_.cell_names.push_back(fmt::format("M{}", number));
     for (const int group : groups) add_to_groups(cell, dimension(type.type), group);
   }

@@ -20,8 +20,10 @@ struct Lapack {
   using Factorise = void(const int* rows, const int* columns, double* a, const int* lda, int* interchanges, int* info);
   using Solve = void(const char* transposed, const int* n, const int* columns, const double* a, const int* lda, const int* interchanges, double* b, const int* ldb,
                      int* info);
+  using Cholesky = void(const char* triangle, const int* n, double* a, const int* lda, int* info);
   Factorise* factorise = library.function<Factorise>("dgetrf_");
   Solve* solve = library.function<Solve>("dgetrs_");
+  Cholesky* cholesky = library.function<Cholesky>("dpotrf_");
   BlasThreads threads{library};
 };
 
@@ -68,6 +70,16 @@ Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& b) const {
 }
 
 }  // namespace
+
+bool factorise_dense(Eigen::MatrixXd& lower) {
+  if (lower.rows() < large_dense) return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(lower).info() == Eigen::Success;
+  const int n = static_cast<int>(lower.rows());
+  int info = 0;
+  lapack().threads.use_all();
+  lapack().cholesky("L", &n, lower.data(), &n, &info);
+  lapack().threads.use(1);
+  return info == 0;
+}
 
 Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
   constexpr double tiny = std::numeric_limits<double>::min();

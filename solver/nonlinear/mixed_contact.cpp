@@ -107,6 +107,7 @@ void MixedContact::number_multipliers() {
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
+  rates_ = start_ = state_.multipliers;
 }
 
 /// One a patch, at all nodes inside it.
@@ -488,6 +489,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const CondensedState earlier = state_;
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   counters_.contact_iterations += solution.iterations;
+  problem_.expected.resize(0);
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
     if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
     state_ = earlier;

@@ -34,11 +34,14 @@ class MixedContact {
   MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs, const Elimination& elimination,
                TangentSystem& tangent, Counters& counters, std::vector<int> support);
 
-  /// A step begins at u: slips are counted from there.
-  void start_step(const Eigen::VectorXd& u) {
+  /// A step of that duration begins at u: slips are counted from there, and multipliers are expected to go on as in the step before.
+  void start_step(const Eigen::VectorXd& u, double duration) {
     reference_ = u;
     step_begins_ = true;
+    problem_.expected = state_.multipliers + duration * rates_;
+    start_ = state_.multipliers;
   }
+  void accept_step(double duration) { rates_ = (state_.multipliers - start_) / duration; }
   /// Pressures and statuses as they are before a step, and back to them when it fails; points must be faced anew then.
   void remember() { remembered_ = {state_, started_}; }
   void restore() { std::tie(state_, started_) = remembered_; }
@@ -150,6 +153,8 @@ class MixedContact {
   Eigen::VectorXd base_;
   Eigen::VectorXd forces_;         ///< on the rows
   Eigen::VectorXd reference_;
+  Eigen::VectorXd start_;                ///< multipliers when the step began
+  Eigen::VectorXd rates_;                ///< of multipliers, in the last step that was accepted
   bool step_begins_ = false;             ///< and no point has been faced in it
   std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::vector<std::size_t> blocked_;  ///< points that the conditions on displacements settle

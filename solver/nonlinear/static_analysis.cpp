@@ -76,6 +76,7 @@ class StaticAnalysis {
       const std::optional<int> iterations = try_step(instant, sequence);
       if (!iterations) continue;
       newton_.accept_step();
+      if (mixed_) mixed_->accept_step(instant - from);
       if (path_) path_->accept_step(now_.state.u);
       if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
       note_doubts_about_surfaces(instant);
@@ -468,7 +469,7 @@ class StaticAnalysis {
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
-    if (mixed_) mixed_->start_step(now_.state.u);
+    if (mixed_) mixed_->start_step(now_.state.u, time - last_instant_);
     start_ = now_.state.u;
     guess(time, offset);
     const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;

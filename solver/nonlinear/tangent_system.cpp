@@ -127,6 +127,7 @@ FactorReport TangentSystem::factorise_with(LinearMethod method, const SymmetricM
     solver_->analyse(reduced);
   }
   ++counters_.factorisations;
+  known_.forget();
   return solver_->factorise(reduced);
 }
 
@@ -199,9 +200,14 @@ void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
     return;
   }
   if (columns.rows() == 0) return;
-  counters_.solves += columns.cols();
   const Stopwatch stopwatch(counters_.solving);
+  const bool may_be_known = columns.cols() == 1 && !is_saddle_;
+  if (may_be_known && known_.take(columns.col(0), row_sizes_)) return;
+  counters_.solves += columns.cols();
+  Eigen::VectorXd load;
+  if (may_be_known) load = columns.col(0);
   solver_->solve_once(columns);
+  if (may_be_known) known_.add(std::move(load), columns.col(0));
 }
 
 void TangentSystem::solve(Eigen::Ref<Eigen::MatrixXd> columns) {

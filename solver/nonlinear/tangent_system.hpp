@@ -12,6 +12,7 @@
 #include "solver/elements/follower_forces.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/linear/unsymmetric_solver.hpp"
+#include "solver/nonlinear/known_solutions.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
@@ -104,6 +105,7 @@ class TangentSystem {
   bool whole_ = true;
   LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
+  KnownSolutions known_;  ///< of the symmetric factor
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   int lost_digits_ = 0;

@@ -6,6 +6,8 @@
 
 #include <Eigen/Jacobi>
 
+#include "solver/linear/dense_solve.hpp"
+
 namespace comma::solver {
 
 double ActiveCholesky::remaining_pivot(const Eigen::VectorXd& coupling, double diagonal) const {
@@ -38,8 +40,7 @@ bool ActiveCholesky::append_all(const Eigen::MatrixXd& coupling, const Eigen::Ma
     lower_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(across);
     rest.selfadjointView<Eigen::Lower>().rankUpdate(across.transpose(), -1.0);
   }
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(rest);
-  if (factor.info() != Eigen::Success) return false;
+  if (!factorise_dense(rest)) return false;
   for (Eigen::Index i = 0; i < count; ++i)
     if (!(rest(i, i) * rest(i, i) > dependence_tolerance * block(i, i))) return false;
   grow(size_ + count);

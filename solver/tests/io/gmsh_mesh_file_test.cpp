@@ -154,6 +154,27 @@ TEST_CASE("quadratic cells of Gmsh get Code_Aster's order of nodes", "[io]") {
   }
 }
 
+TEST_CASE("nodes inside faces and cells of Gmsh belong to no cell", "[io]") {
+  // The edges are Gmsh's own; where inner nodes lie plays no part.
+  const std::vector<std::array<int, 2>> square = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
+  const std::vector<std::array<int, 2>> wedge = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}, {0, 4}, {0, 5}, {1, 5}};
+  std::vector<std::array<int, 2>> cube = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+  cube.resize(19, {0, 6});
+  const std::array<std::pair<std::string, CellType>, 3> cells = {{{single_cell(10, CellType::quad9, square), CellType::quad8},
+                                                                  {single_cell(13, CellType::penta18, wedge), CellType::penta15},
+                                                                  {single_cell(12, CellType::hexa27, cube), CellType::hexa20}}};
+  for (const auto& [text, type] : cells) {
+    const Mesh mesh = parse_gmsh_mesh(text, "cell.msh");
+    REQUIRE(mesh.cell_types[0] == type);
+    CHECK(mesh.node_count() > node_count(type));
+    const auto expected = reference_points(type);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const Point& node = mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])];
+      for (int axis = 0; axis < 3; ++axis) CHECK(node[axis] == Approx(expected[i][axis]).margin(1e-15));
+    }
+  }
+}
+
 TEST_CASE("a damaged Gmsh file is an error with its place", "[io]") {
   for (const std::string& text : {version_1, version_2, version_4}) {
     // Cut off anywhere before its last section has ended, a file is not taken for a whole one.

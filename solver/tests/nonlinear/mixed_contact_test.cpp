@@ -203,6 +203,29 @@ TEST_CASE("Thickness on either side closes the gap by as much") {
   }
 }
 
+TEST_CASE("Friction that goes on as in the step before takes few iterations") {
+  const auto solved = [](int steps) {
+    Stack stack(40, 28);
+    stack.scene.problem.contact->zones.front().mixed.friction = 0.3;
+    stack.scene.problem.contact->geometry_update = GeometryUpdate::none;
+    const auto& top = stack.upper.nodes.back();
+    for (std::size_t column = 0; column < top.size(); ++column) {
+      const double across = 2.0 * static_cast<double>(column) / 28.0 - 1.0;
+      stack.scene.impose({top[column]}, Component::dx, 5e-4, true);
+      stack.scene.impose({top[column]}, Component::dy, -2e-3 * (1.0 - across * across), true);
+    }
+    stack.scene.solve(steps);
+    return stack;
+  };
+  const Stack once = solved(1), often = solved(6);
+  REQUIRE(once.scene.counters.contact_iterations > 3);
+  CHECK(often.scene.counters.contact_iterations <= once.scene.counters.contact_iterations + 5 * 3);
+  for (const int node : once.upper.nodes[0]) {
+    CHECK(pressure(often.scene, node) == Approx(6.0 * pressure(once.scene, node)).epsilon(1e-9).margin(1e-9));
+    CHECK(shear_share(often.scene, node) == Approx(shear_share(once.scene, node)).margin(1e-9));
+  }
+}
+
 TEST_CASE("A guided surface pulls where free contact would open") {
   Stack stack(4, 4);
   stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
