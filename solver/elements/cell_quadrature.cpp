@@ -39,9 +39,16 @@ CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample) {
 }
 
 const std::vector<CellSample>& CellSamples::of(CellType type, CellRole role) {
-  auto& samples = known_[static_cast<std::size_t>(type)][static_cast<std::size_t>(role)];
+  return of_family(type, role == CellRole::body ? mass_family(type) : boundary_family(type));
+}
+
+const std::vector<CellSample>& CellSamples::of_stiffness(CellType type, Formulation formulation) {
+  return of_family(type, stiffness_family(type, formulation));
+}
+
+const std::vector<CellSample>& CellSamples::of_family(CellType type, std::string_view family) {
+  auto& samples = known_[static_cast<std::size_t>(type)][family];
   if (samples.empty()) {
-    const auto family = role == CellRole::body ? mass_family(type) : boundary_family(type);
     for (const auto& point : quadrature(type, family)) {
       samples.push_back({point.weight, shape_functions(type, point.at), shape_derivatives(type, point.at)});
     }

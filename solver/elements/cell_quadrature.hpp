@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "solver/elements/reference_element.hpp"
 #include "solver/mesh/mesh.hpp"
+#include "solver/model/model.hpp"
 
 namespace comma::solver {
 
@@ -45,9 +48,13 @@ CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample);
 class CellSamples {
  public:
   const std::vector<CellSample>& of(CellType type, CellRole role);
+  /// Those of the points at which an element of the formulation has its stresses.
+  const std::vector<CellSample>& of_stiffness(CellType type, Formulation formulation);
 
  private:
-  std::array<std::array<std::vector<CellSample>, 2>, cell_type_count> known_;
+  const std::vector<CellSample>& of_family(CellType type, std::string_view family);
+
+  std::array<std::map<std::string_view, std::vector<CellSample>>, cell_type_count> known_;
 };
 
 }  // namespace comma::solver

@@ -90,7 +90,7 @@ class CellIntegrator {
   void add(const PressureLoad& load, double factor) {
     check_pressure(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
-    integrate(load.cell, CellRole::skin, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
+    integrate(load.cell, of_skin(load.cell), [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
       const Point at = to_point(point.at);
       const double pressure = pressure_at(load, mesh_, sample, at, time_);
       const double shear = load.shear_function ? load.shear_function(at, time_) : load.shear;
@@ -101,8 +101,10 @@ class CellIntegrator {
   void add(const DistributedForce& load, double factor) {
     check_distributed_force(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
-    const CellRole role = input_.model.is_skin(load.cell) ? CellRole::skin : CellRole::body;
-    integrate(load.cell, role, [&](const CellPoint& point, const CellSample&) -> Eigen::Vector3d {
+    // Forces in a body are integrated where its stresses are (ssnv263c); gravity and centrifugal forces with the mass.
+    const CellType type = mesh_.cell_types[load.cell];
+    const auto& samples = input_.model.is_skin(load.cell) ? of_skin(load.cell) : samples_.of_stiffness(type, input_.model.formulations[load.cell]);
+    integrate(load.cell, samples, [&](const CellPoint& point, const CellSample&) -> Eigen::Vector3d {
       return factor * point.measure(cell_dimension) * values_at(load.force, load.functions, to_point(point.at), time_);
     });
   }
@@ -116,13 +118,15 @@ class CellIntegrator {
   }
 
  private:
+  const std::vector<CellSample>& of_skin(int cell) { return samples_.of(mesh_.cell_types[cell], CellRole::skin); }
+
   /// `density`(point, sample): force for a unit of reference measure at a point.
   template <class F>
-  void integrate(int cell, CellRole role, F&& density) {
+  void integrate(int cell, const std::vector<CellSample>& samples, F&& density) {
     const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
     const NodeColumns places = node_places(mesh_, cell);
     NodeColumns nodal = NodeColumns::Zero(3, places.cols());
-    for (const CellSample& sample : samples_.of(mesh_.cell_types[cell], role)) {
+    for (const CellSample& sample : samples) {
       const CellPoint point = locate(places, sample);
       const Eigen::Vector3d force = (axisymmetric ? point.at[0] : 1.0) * sample.weight * density(point, sample);
       nodal += force.lazyProduct(sample.values.transpose());

@@ -27,7 +27,7 @@ int quadrature_degree(CellType type, std::string_view name);
 
 /// The family of an element's stiffness and stresses.
 std::string_view stiffness_family(CellType type, Formulation formulation);
-/// The family of its mass, volume forces included.
+/// The family of its mass, gravity and centrifugal forces included.
 std::string_view mass_family(CellType type);
 /// The family of pressures and other forces on a skin cell.
 std::string_view boundary_family(CellType type);

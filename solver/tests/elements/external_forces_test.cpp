@@ -133,6 +133,26 @@ TEST_CASE("nodal forces follow functions of place and time, and unknown componen
                     Catch::Contains("DZ") && Catch::Contains("N3"));
 }
 
+TEST_CASE("a force in a body that is a function is integrated where the stresses of the body are", "[loads]") {
+  for (const Formulation formulation : {Formulation::solid, Formulation::solid_reduced}) {
+    const Body body(single_cell(CellType::tetra10), formulation, elastic(1.0, 0.3));
+    const Mesh& mesh = *body.model.mesh;
+    // Of a degree that no family of few points integrates exactly.
+    const auto density = [](const Point& x, double) { return std::pow(x[0], 6); };
+    auto load = std::make_shared<Load>();
+    load->distributed_forces.push_back({0, {}, {density, {}, {}}});
+    double expected = 0.0;
+    for (const auto& point : quadrature(CellType::tetra10, stiffness_family(CellType::tetra10, formulation))) {
+      Eigen::Matrix<double, 3, 10> places;
+      for (int node = 0; node < 10; ++node) places.col(node) = Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());
+      const Eigen::Vector3d at = places * shape_functions(CellType::tetra10, point.at);
+      const Eigen::Matrix3d jacobian = places * shape_derivatives(CellType::tetra10, point.at);
+      expected += point.weight * jacobian.determinant() * density({at[0], at[1], at[2]}, 0.0);
+    }
+    CHECK(resultant(body, body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0))[0] == Approx(expected).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("pressure on a cell that is no skin is refused", "[loads]") {
   const Body body(single_cell(CellType::tria3), Formulation::plane_strain, elastic(1.0, 0.3));
   auto load = std::make_shared<Load>();
