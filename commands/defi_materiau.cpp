@@ -135,13 +135,15 @@ solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
   return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0), value("EPSP_LUDERS")};
 }
 
-// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01) as U4.43.01 has it.
+// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01), exactly: U4.43.01 has 2 for 4/3 (1 + NU), which is that near 0.5
+// (ssnv187a tells).
 solver::Hyperelasticity hyperelasticity(const Keywords& law) {
   solver::Hyperelasticity rubber{law.real("C10"), law.real("C01"), law.real("C20"), 0.0};
   if (law.has("K")) {
     rubber.bulk = law.real("K");
   } else {
-    rubber.bulk = 6.0 * (rubber.c10 + rubber.c01) / (3.0 * (1.0 - 2.0 * law.real("NU")));
+    const double poisson = law.real("NU");
+    rubber.bulk = 4.0 * (1.0 + poisson) * (rubber.c10 + rubber.c01) / (3.0 * (1.0 - 2.0 * poisson));
   }
   return rubber;
 }

@@ -29,7 +29,8 @@ std::string how_to_follow(const solver::ContactDefinition& contact) {
     case solver::GeometryUpdate::controlled: return "take more updates (NB_ITER_GEOM), or REAC_GEOM='AUTOMATIQUE'";
     case solver::GeometryUpdate::automatic: break;
   }
-  return "take smaller steps: with ALGO_CONT='LAC' surfaces face each other through a step as they did when it began";
+  return "take smaller steps: with ALGO_CONT='LAC' surfaces that slide by less than a fifth of a facet face each other through a step as they did when it "
+         "began";
 }
 
 Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact, const solver::Mesh& mesh) {

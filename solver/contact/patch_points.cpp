@@ -1,5 +1,6 @@
 #include "solver/contact/patch_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/contact/extent.hpp"
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet_overlap.hpp"
 #include "solver/contact/facet_search.hpp"
@@ -69,6 +71,62 @@ class Surface {
   std::unordered_map<int, Vector3d> normals_;
 };
 
+/// Normals of a slave face may lean: what lies within the facets' sizes of the line through the face's centre is looked at.
+bool may_overlap(const Gathered& slave, const Gathered& master) {
+  const Vector3d normal = normal_at(slave.geometry(), facet_centre(slave.type));
+  const Vector3d apart = master.centre - slave.centre;
+  const double along = normal.dot(apart);
+  const double lean = slave.is_smooth ? std::abs(along) : 0.0;
+  return (apart - along * normal).norm() <= 2.0 * (slave.radius + master.radius) + lean;
+}
+
+bool is_line(const Mesh& mesh, const ContactZone& zone) { return dimension(mesh.cell_types[zone.slave_cells.front()]) == 1; }
+
+/// How far places of two surfaces have slid along each other.
+class Slides {
+ public:
+  Slides(const ContactDefinition& definition, const ContactZone& zone, const Mesh& mesh, Positions positions, Positions start)
+      : zone_(zone), mesh_(mesh), positions_(positions), start_(start), smooth_(definition.smooth_normals) {}
+
+  /// Of places that face each other at `where`, no farther apart than the smaller facet is long, as a share of its size.
+  double largest(Positions where) const {
+    const Surface slaves(mesh_, zone_.slave_cells, where, smooth_);
+    const Surface masters(mesh_, zone_.master_cells, where, false);
+    std::vector<Gathered> facets;
+    for (const int cell : zone_.master_cells) facets.push_back(masters.gather(cell));
+    double result = 0.0;
+    for (const int face : zone_.slave_cells) {
+      const Gathered slave = slaves.gather(face);
+      for (std::size_t m = 0; m < facets.size(); ++m) {
+        if (!may_overlap(slave, facets[m])) continue;
+        const double size = std::min(extent(mesh_, face), extent(mesh_, zone_.master_cells[m]));
+        for (const OverlapPoint& at : facet_overlap(slave.geometry(), facets[m].geometry())) {
+          const Vector3d normal = normal_at(slave.geometry(), at.slave);
+          if (normal.dot(point_at(facets[m].geometry(), at.master) - point_at(slave.geometry(), at.slave)) > size) continue;
+          const Vector3d slide = way(face, at.slave) - way(zone_.master_cells[m], at.master);
+          result = std::max(result, (slide - normal.dot(slide) * normal).norm() / size);
+        }
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Of a place of a cell, from the start.
+  Vector3d way(int cell, const Vector2d& xi) const {
+    const FacetShape shape = facet_shape(mesh_.cell_types[cell], xi);
+    const auto nodes = mesh_.cell(cell);
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) sum += shape.values[i] * (positions_[nodes[i]] - start_[nodes[i]]);
+    return sum;
+  }
+
+  const ContactZone& zone_;
+  const Mesh& mesh_;
+  Positions positions_, start_;
+  bool smooth_;
+};
+
 class PatchGaps {
  public:
   PatchGaps(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time)
@@ -107,9 +165,7 @@ class PatchGaps {
 
  private:
   /// Where the bodies are when it is settled which places face each other: surfaces now, lines when the step began.
-  Positions facing(Positions positions, Positions start) const {
-    return dimension(mesh_.cell_types[zone_.slave_cells.front()]) == 2 ? positions : start;
-  }
+  Positions facing(Positions positions, Positions start) const { return is_line(mesh_, zone_) ? start : positions; }
 
   void add_face(int face) {
     const Gathered slave = slaves_.gather(face);
@@ -120,15 +176,6 @@ class PatchGaps {
       if (!may_overlap(facing, master)) continue;
       for (const OverlapPoint& each : facet_overlap(facing.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
     }
-  }
-
-  /// Normals of a slave face may lean: what lies within the facets' sizes of the line through the face's centre is looked at.
-  static bool may_overlap(const Gathered& slave, const Gathered& master) {
-    const Vector3d normal = normal_at(slave.geometry(), facet_centre(slave.type));
-    const Vector3d apart = master.centre - slave.centre;
-    const double along = normal.dot(apart);
-    const double lean = slave.is_smooth ? std::abs(along) : 0.0;
-    return (apart - along * normal).norm() <= 2.0 * (slave.radius + master.radius) + lean;
   }
 
   void add(int face, const Gathered& slave, int facet, const Gathered& master, const OverlapPoint& at) {
@@ -203,6 +250,18 @@ void append_patch_points(const ContactDefinition& definition, int zone, const Mo
   PatchGaps gaps(definition, zone, model, positions, start, time);
   for (const int patch : patches_of(definition.zones[static_cast<std::size_t>(zone)], *model.mesh))
     points.push_back(gaps.point_of(model.mesh->slave_patches[static_cast<std::size_t>(patch)]));
+}
+
+bool faces_as_at_start(const ContactZone& zone, const Mesh& mesh) { return zone.mixed.local_average && is_line(mesh, zone); }
+
+double largest_slide(const ContactDefinition& definition, const Mesh& mesh, Positions positions, Positions start) {
+  double result = 0.0;
+  for (const ContactZone& zone : definition.zones) {
+    if (!faces_as_at_start(zone, mesh)) continue;
+    const Slides slides(definition, zone, mesh, positions, start);
+    result = std::max({result, slides.largest(positions), slides.largest(start)});
+  }
+  return result;
 }
 
 }  // namespace comma::solver

@@ -36,6 +36,10 @@ constexpr int most_condensed_iterations = 60;
 /// so that a few rounds do.
 constexpr double raise_margin = 1.1;
 constexpr double least_raise = 2.0;
+/// Averages in the plane follow bodies that have slid by more than this share of a facet since the step began, until it is less than the
+/// other: between the two, updates of the geometry do not go to and fro.
+constexpr double far_slide = 0.2;
+constexpr double short_slide = 0.1;
 /// Beyond, rounding of the gaps makes pressures.
 constexpr double most_raise = 1e12;
 
@@ -128,7 +132,9 @@ std::vector<Vector3d> MixedContact::positions_at(const Eigen::VectorXd& u) const
 }
 
 void MixedContact::pair(Positions positions, double time) {
-  points_ = contact_points(definition_, model_, positions, positions_at(reference_), time);
+  const std::vector<Vector3d> start = positions_at(reference_);
+  follows_ = largest_slide(definition_, mesh_, positions, start) > (follows_ ? short_slide : far_slide);
+  points_ = contact_points(definition_, model_, positions, follows_ ? positions : Positions(start), time);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();
@@ -293,6 +299,10 @@ int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
     forces_[point.first_row] = point.weight * contact_law(point.law, status, pressure, gap).traction[0];
   }
   return changes;
+}
+
+bool MixedContact::is_left_behind() const {
+  return !follows_ && std::ranges::any_of(definition_.zones, [&](const ContactZone& zone) { return faces_as_at_start(zone, mesh_); });
 }
 
 bool MixedContact::is_faced_again() const {

@@ -47,6 +47,8 @@ class MixedContact {
   void restore() { std::tie(state_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time);
+  /// Whether places of some zone face each other as they did when the step began.
+  bool is_left_behind() const;
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
   /// contact without friction.
   bool can_iterate_jointly() const;
@@ -144,6 +146,7 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
+  bool follows_ = false;  ///< what faces each other in the plane follows the bodies through the step, which slide far
   std::pair<CondensedState, bool> remembered_;
   std::size_t spring_count_ = 0;
   RowMatrix rows_;                 ///< R, over all degrees of freedom

@@ -429,9 +429,9 @@ class StaticAnalysis {
   /// Where the geometry is updated less than it asks for, or averages face each other as they did when the step began: whether the surfaces as they
   /// are have the gaps that were solved for.
   void note_geometry_left_behind(double instant, const std::vector<Vector3d>& now, double pushed_back) {
-    const bool averages = std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; });
-    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !averages) return;
-    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(averages ? start_ : now_.reference), instant) : now_.pairs;
+    const bool from_start = mixed_ && mixed_->is_left_behind();
+    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !from_start) return;
+    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(from_start ? start_ : now_.reference), instant) : now_.pairs;
     note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
   }
 

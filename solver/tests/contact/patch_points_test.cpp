@@ -49,6 +49,17 @@ struct Arcs {
     return mesh->add_cell(CellType::seg3, nodes);
   }
 
+  /// The places once one of the arcs has turned about the origin.
+  std::vector<Vector3d> turned(bool is_slave, double angle) const {
+    std::vector<Vector3d> result = places;
+    const int slave_nodes = 5;
+    for (int node = 0; node < mesh->node_count(); ++node)
+      if ((node < slave_nodes) == is_slave) result[static_cast<std::size_t>(node)] = Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * result[static_cast<std::size_t>(node)];
+    return result;
+  }
+
+  double slide(const std::vector<Vector3d>& now) const { return largest_slide(definition, *mesh, now, places); }
+
   std::vector<ContactPoint> points(const std::vector<Vector3d>& now) const {
     std::vector<ContactPoint> result;
     append_patch_points(definition, 0, model, now, places, 0.0, result);
@@ -140,6 +151,33 @@ TEST_CASE("In space what faces each other follows the bodies") {
   REQUIRE(points.size() == 1);
   CHECK(points[0].area == Approx(2.0));
   CHECK(points[0].weight == Approx(1.5));
+}
+
+TEST_CASE("Surfaces that turn against each other slide, by a share of the smaller facet") {
+  const Arcs arcs(10.0, 10.5);
+  // The boxes of the slave arcs: 10 sin(0.2) high, 10 (1 - cos(0.2)) wide.
+  const double size = 20.0 * std::sin(0.1);
+  CHECK(arcs.slide(arcs.places) == 0.0);
+  // A chord of 10 times the angle, but for its square; parabolas are arcs to 1e-4.
+  CHECK(arcs.slide(arcs.turned(true, 0.03)) == Approx(0.3 / size).epsilon(2e-3));
+  // The bush moves by 10.5 times the angle.
+  CHECK(arcs.slide(arcs.turned(false, 0.03)) == Approx(0.315 / size).epsilon(2e-3));
+  // Where nothing faces the other surface any more, what faced it then tells.
+  CHECK(arcs.slide(arcs.turned(true, 1.0)) > 1.0);
+}
+
+TEST_CASE("Surfaces that come closer, or are far apart, do not slide, nor do those that follow the bodies anyway") {
+  Arcs arcs(10.0, 10.5);
+  std::vector<Vector3d> closer = arcs.places;
+  for (Vector3d& place : closer)
+    if (place.norm() > 10.25) place *= 10.1 / 10.5;
+  CHECK(arcs.slide(closer) < 1e-3);
+  const Arcs apart(10.0, 14.0);
+  CHECK(apart.slide(apart.turned(true, 0.03)) == 0.0);
+  CHECK(faces_as_at_start(arcs.definition.zones.front(), *arcs.mesh));
+  arcs.definition.zones.front().mixed.local_average = false;
+  CHECK_FALSE(faces_as_at_start(arcs.definition.zones.front(), *arcs.mesh));
+  CHECK(arcs.slide(arcs.turned(true, 0.03)) == 0.0);
 }
 
 TEST_CASE("A patch that faces nothing carries nothing, and a slave face needs a patch") {
