@@ -34,6 +34,8 @@ double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoe
 /// By how much friction grows at first, and at least, as a share of the whole.
 constexpr double first_friction_step = 0.125;
 constexpr double least_friction_step = 1.0 / 1024.0;
+/// It stops growing after as many iterations as so many attempts may take.
+constexpr int growth_attempts = 20;
 
 class CondensedSolver {
  public:
@@ -74,6 +76,14 @@ class CondensedSolver {
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
     for (std::size_t p = 0; p < start_.size(); ++p) solution.changes += start_[p] != state_.statuses[p];
+    return solution;
+  }
+
+  /// From a state near the solution, and no other.
+  CondensedSolution refine() {
+    CondensedSolution solution;
+    solution.verdict = settle(Rubbing::by_law, solution.iterations) ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution.forces = forces_;
     return solution;
   }
 
@@ -129,7 +139,8 @@ class CondensedSolver {
     double step = first_friction_step;
     friction_share_ = 0.0;
     bool solved = settle(Rubbing::by_law, iterations);
-    while (solved && reached < 1.0 && step >= least_friction_step) {
+    const int most = iterations + growth_attempts * problem_.max_iterations;
+    while (solved && reached < 1.0 && step >= least_friction_step && iterations < most) {
       const CondensedState state = state_;
       const Eigen::VectorXd jumps = jumps_, forces = forces_;
       friction_share_ = std::min(1.0, reached + step);
@@ -475,7 +486,8 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
   if (problem.one_step) return CondensedSolver(schur, problem, state).step();
   if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
   if (has_shared_friction(problem))
-    return solve_shared_friction(problem, state, [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).run(); });
+    return solve_shared_friction(problem, state, {[&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).run(); },
+                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).refine(); }});
   return CondensedSolver(schur, problem, state).run();
 }
 

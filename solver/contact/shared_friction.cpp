@@ -29,7 +29,7 @@ std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
 
 class SharedFriction {
  public:
-  SharedFriction(const CondensedProblem& problem, const SolveCondensed& solve) : given_(problem), problem_(problem), solve_(solve), shared_(nodes_with_shares(problem)) {
+  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)) {
     problem_.expected.resize(0);  // shears, not shares
   }
 
@@ -40,8 +40,7 @@ class SharedFriction {
     if (pressure_ > 0.0 && solve_by_shares(state, solution)) return counted(start, state, solution);
     state = start;
     find_pressure(state);
-    take(Shears::as_they_are);
-    solution = solve_once(state);
+    solution = solve_by_shears(state);
     pressure_ = largest_pressure(given_, state);
     if (!(pressure_ > 0.0) || solution.verdict != CondensedVerdict::solved) return counted(start, state, solution);
     const CondensedState by_shears = state;
@@ -72,8 +71,9 @@ class SharedFriction {
     }
   }
 
-  CondensedSolution solve_once(CondensedState& state) {
-    CondensedSolution solution = solve_(problem_, state);
+  CondensedSolution solve_once(CondensedState& state) { return solve_once(state, methods_.solve); }
+  CondensedSolution solve_once(CondensedState& state, const CondensedMethods::Method& method) {
+    CondensedSolution solution = method(problem_, state);
     iterations_ += solution.iterations;
     return solution;
   }
@@ -87,6 +87,22 @@ class SharedFriction {
     pressure_ = largest_pressure(given_, state);
   }
 
+  /// With the augmentation of shares, and with that of pressures, which a penalty has large.
+  CondensedSolution solve_by_shears(CondensedState& state) {
+    const CondensedState start = state;
+    take(Shears::as_they_are);
+    CondensedSolution solution = solve_once(state, methods_.refine);
+    if (solution.verdict == CondensedVerdict::solved) return solution;
+    if (!lets_creep()) {
+      state = start;
+      solution = methods_.solve(given_, state);
+      iterations_ += solution.iterations;
+      if (solution.verdict == CondensedVerdict::solved) return solution;
+    }
+    state = start;
+    return solve_once(state);
+  }
+
   /// Pressures that weigh shares follow those of the solution, in turns; the last of them by Newton's method. Whether that leads anywhere.
   bool solve_by_shares(CondensedState& state, CondensedSolution& solution) {
     const CondensedState start = state;
@@ -95,7 +111,12 @@ class SharedFriction {
     bool solved = false;
     double change = hold_shares(state);
     for (int turn = 0; turn < most_turns && !solved; ++turn) {
-      solution = solve_once(state);
+      const CondensedState before = state;
+      solution = solve_once(state, methods_.refine);
+      if (solution.verdict != CondensedVerdict::solved && lets_creep()) {
+        state = before;
+        solution = solve_once(state);
+      }
       if (solution.verdict != CondensedVerdict::solved) break;
       change = hold_shares(state);
       if (change < near_share) solved = finish(state, solution);
@@ -113,7 +134,7 @@ class SharedFriction {
     const std::vector<double> held = held_shares();
     for (CondensedPoint& point : problem_.points) point.law.held_share = 0.0;
     CondensedState finished = state;
-    const CondensedSolution last = solve_once(finished);
+    const CondensedSolution last = solve_once(finished, methods_.refine);
     for (std::size_t p = 0; p < held.size(); ++p) problem_.points[p].law.held_share = held[p];
     if (last.verdict != CondensedVerdict::solved) return false;
     state = finished;
@@ -161,7 +182,7 @@ class SharedFriction {
 
   const CondensedProblem& given_;
   CondensedProblem problem_;
-  const SolveCondensed& solve_;
+  const CondensedMethods& methods_;
   const std::vector<char> shared_;
   double pressure_ = 0.0;
   int iterations_ = 0;
@@ -173,8 +194,8 @@ bool has_shared_friction(const CondensedProblem& problem) {
   return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.rows > 1 && point.share_augmentation > 0.0; });
 }
 
-CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const SolveCondensed& solve) {
-  return SharedFriction(problem, solve).run(state);
+CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const CondensedMethods& methods) {
+  return SharedFriction(problem, methods).run(state);
 }
 
 }  // namespace comma::solver

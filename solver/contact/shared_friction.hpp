@@ -7,7 +7,12 @@
 
 namespace comma::solver {
 
-using SolveCondensed = std::function<CondensedSolution(const CondensedProblem& problem, CondensedState& state)>;
+/// Solutions of a condensed problem with the laws as they stand: from wherever, or from a state that is near.
+struct CondensedMethods {
+  using Method = std::function<CondensedSolution(const CondensedProblem& problem, CondensedState& state)>;
+  Method solve;
+  Method refine;
+};
 
 /// Whether points have a share_augmentation.
 bool has_shared_friction(const CondensedProblem& problem);
@@ -16,7 +21,7 @@ bool has_shared_friction(const CondensedProblem& problem);
 /// COEF_PENA_FROT add to the share by the slip. On nodes without a penalty this is the law of Alart and Curnier all the same. Where nothing presses
 /// shares say nothing, so that a solution by shears comes first, the augmentation of which is that of shares at the largest pressure; it stands where no solution by
 /// shares is found, unless there is a penalty.
-/// `solve` solves with the laws as they stand. Multipliers in `state` are pressures and shears at the nodes, before and after.
-CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const SolveCondensed& solve);
+/// Multipliers in `state` are pressures and shears at the nodes, before and after.
+CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const CondensedMethods& methods);
 
 }  // namespace comma::solver

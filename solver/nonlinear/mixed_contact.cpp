@@ -261,7 +261,7 @@ void MixedContact::build_rows() {
 }
 
 /// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier lie on its node, and no penalty lets them
-/// creep, the solution is that of shears, which need no scale.
+/// creep, the solution is that of shears, which need no scale. A penalty of contact is one: shears then take its coefficient.
 void MixedContact::share_friction() {
   if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
   const std::vector<char> shared = shared_multipliers();
@@ -271,7 +271,7 @@ void MixedContact::share_friction() {
     const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     if (mixed.friction_penalised)
       point.share_augmentation = mixed.friction_penalty;
-    else if (shared[static_cast<std::size_t>(point.nodes[0])])
+    else if (shared[static_cast<std::size_t>(point.nodes[0])] && !mixed.penalised)
       point.share_augmentation = mixed.friction_augmentation;
   }
 }

@@ -23,6 +23,8 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr double negligible_step = 4e-16;
 /// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
 constexpr double rounding_share = 1e-14;
+/// A residual beyond this share of the applied loads has not taken them up.
+constexpr double lost_load = 0.5;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
 /// all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
@@ -132,10 +134,13 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
   load_ = std::max(largest(loads), largest(unbalanced));
+  applied_ = largest(loads);
 }
 
-/// Whether the residual is no more than the last bits of u, moved to and fro, make of it.
+/// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that the loads are lost in them: a body
+/// that nothing holds has flown away.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
+  if (applied_ > 0.0 && largest(residual_) > lost_load * applied_) return false;
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
   return sizes.size() == residual_.size() && !tangent_.is_saddle() &&
          (residual_.array().abs() <= rounding_share * largest(state.u) * sizes.array()).all();

@@ -125,6 +125,7 @@ class NewtonSolver {
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
   double load_ = 0.0;
+  double applied_ = 0.0;  ///< the largest component of the external forces
   int steps_ = 0;                    ///< accepted so far
   TangentKind prediction_;
 };

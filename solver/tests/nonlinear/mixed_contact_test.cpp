@@ -248,6 +248,16 @@ TEST_CASE("A slave node that is held where it lies carries no pressure and does 
   CHECK(pressure(stack.scene, stack.upper.nodes[0][3]) > 0.0);
 }
 
+TEST_CASE("A load that is lost in the rounding of displacements is no balance") {
+  // Nothing but springs of 1e-15 of its stiffness hold the block: displacements are 1e15 times what the load strains, and no double tells.
+  Scene scene;
+  const auto block = scene.block("b", {0, 0}, {1, 1}, 2, 2, 1e6, 0.0);
+  scene.ground_spring("k", block.nodes[0][0], 1e-9, 1e-9);
+  scene.ground_spring("l", block.nodes[0][2], 1e-9, 1e-9);
+  scene.force(block.nodes[2][1], Component::dy, 1.0);
+  CHECK_THROWS_AS(scene.solve(1), Error);
+}
+
 TEST_CASE("Imposed displacements that push one surface into the other are an error") {
   Stack stack(4, 4);
   stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
