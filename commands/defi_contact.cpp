@@ -154,6 +154,20 @@ void check_pairing(const Keywords& zone) {
                         "write ALGO_CONT='LAC', or APPARIEMENT='MAIT_ESCL'");
 }
 
+// ADAPTATION changes the penalty of friction until no point that sticks slips by more than GLIS_MAXI (U4.44.11), which comma does not.
+void take_friction(const Keywords& keywords, solver::MixedZone& zone) {
+  zone.friction_penalised = keywords.text("ALGO_FROT") == "PENALISATION";
+  if (!zone.friction_penalised) {
+    zone.friction_augmentation = keywords.real("COEF_FROT");
+    return;
+  }
+  zone.friction_penalty = keywords.real("COEF_PENA_FROT");
+  const std::string adaptation = keywords.text("ADAPTATION");
+  if (adaptation != "ADAPT_COEF" && adaptation != "TOUT") return;
+  throw DiagnosticError("unsupported", "comma does not adapt a penalty of friction", keywords.span_of("ADAPTATION"),
+                        "write ADAPTATION='CYCLAGE' or 'NON', and a COEF_PENA_FROT that is large enough");
+}
+
 solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::MixedZone zone;
   zone.local_average = keywords.text("ALGO_CONT") == "LAC";
@@ -168,6 +182,7 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
   if (!keywords.has("COULOMB")) return zone;
   zone.friction = keywords.real("COULOMB");
+  take_friction(keywords, zone);
   zone.frictionless_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO_FR", "SANS_NOEUD_FR", "", ""});
   if (keywords.has("DIRE_EXCL_FROT")) {
     const auto direction = keywords.reals("DIRE_EXCL_FROT");

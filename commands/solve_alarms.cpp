@@ -1,5 +1,7 @@
 #include "commands/solve_alarms.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "commands/concepts.hpp"
@@ -34,6 +36,7 @@ std::string how_to_follow(const solver::ContactDefinition& contact) {
 Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact, const solver::Mesh& mesh) {
   const bool is_mixed = contact.formulation == solver::ContactFormulation::mixed;
   const std::string penalty = is_mixed ? "COEF_PENA_CONT" : "E_N";
+  const std::string friction_penalty = is_mixed ? "COEF_PENA_FROT" : "E_T";
   const int zone = doubt.zone + 1;
   switch (doubt.kind) {
     case solver::DoubtKind::soft_penalty:
@@ -49,10 +52,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",
-              fmt::format("with E_T = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without contact: "
+              fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without contact: "
                           "friction comes out too small by about that share",
-                          doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
-              fmt::format("take E_T = {:.0e}, or FORMULATION='CONTINUE', where what sticks does not creep", doubt.wanted)};
+                          friction_penalty, doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
+              fmt::format("take {} = {:.0e}, or {}, where what sticks does not creep", friction_penalty, doubt.wanted,
+                          is_mixed ? "ALGO_FROT='STANDARD'" : "FORMULATION='CONTINUE'")};
     case solver::DoubtKind::held_overlap:
       return {"held-overlap",
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",
@@ -65,12 +69,19 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               how_to_follow(contact)};
     case solver::DoubtKind::passed_master: break;
   }
+  const std::string hint = is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
+                                    : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'";
+  if (!std::isfinite(doubt.share))
+    return {"coarse-slave",
+            fmt::format("master nodes of zone {} have gone through the slave side, {:.3g} deep on the mean, and contact pushes nothing back: no slave node has faced "
+                        "the master",
+                        zone, doubt.length),
+            hint};
   return {"coarse-slave",
           fmt::format("master nodes of zone {} go through the slave side between its nodes, {:.3g} deep on the mean, {:.0f} % of what contact pushes "
                       "back: forces come out too small or motions too large by about that share",
                       zone, doubt.length, 100.0 * doubt.share),
-          is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
-                   : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'"};
+          hint};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "solver/contact/frictionless.hpp"
 #include "solver/contact/nodal_step.hpp"
 #include "solver/contact/relaxation.hpp"
+#include "solver/contact/shared_friction.hpp"
 #include "solver/linear/dense_solve.hpp"
 
 namespace comma::solver {
@@ -170,6 +171,7 @@ class CondensedSolver {
       number_unknowns();
       correct();
       evaluate();
+      if (!std::isfinite(residual_)) return false;
       const bool settled = !update_statuses();
       if (settled && is_solved()) return true;
       if (!settled) same_statuses_ = 0;
@@ -352,6 +354,7 @@ class CondensedSolver {
     forces_.setZero();
     Eigen::VectorXd law_residual = Eigen::VectorXd::Zero(state_.multipliers.size());
     Eigen::VectorXd law_weight = law_residual;
+    Eigen::VectorXd share_weight = law_residual;
     for (std::size_t p = 0; p < problem_.points.size(); ++p) {
       const CondensedPoint& point = problem_.points[p];
       const ContactLawValue value = law_at(p);
@@ -361,6 +364,8 @@ class CondensedSolver {
           const int index = multiplier_index(point.nodes[i], c);
           law_residual[index] += point.weight * point.shape[i] * value.residual[c];
           law_weight[index] += point.weight * std::abs(point.shape[i]);
+          if (c > 0 && point.share_augmentation > 0.0 && state_.statuses[p] != ContactStatus::sticking)
+            share_weight[index] += point.weight * std::abs(point.shape[i]) / point.share_augmentation;
         }
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
@@ -369,9 +374,11 @@ class CondensedSolver {
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)
-      if (multiplier_unknowns_[i] >= 0 && law_weight[i] > 0.0) residual_ = std::max(residual_, std::abs(law_residual[i]) / law_weight[i]);
+      if (multiplier_unknowns_[i] >= 0 && law_weight[i] > 0.0)  // a share is known to its own rounding
+        residual_ = std::max(residual_, std::abs(law_residual[i]) / (law_weight[i] + (scale_ > 0.0 ? share_weight[i] / scale_ : 0.0)));
     for (Index row = 0; row < balanced.size(); ++row)
       if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
+    if (!jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = std::numeric_limits<double>::infinity();
   }
 
   /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
@@ -467,6 +474,8 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
   if (problem.one_step) return CondensedSolver(schur, problem, state).step();
   if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
+  if (has_shared_friction(problem))
+    return solve_shared_friction(problem, state, [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).run(); });
   return CondensedSolver(schur, problem, state).run();
 }
 

@@ -23,6 +23,8 @@ struct CondensedPoint {
   int node_count = 0;
   double weight = 0.0;
   ContactLaw law;
+  /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length (see shared_friction.hpp).
+  double share_augmentation = 0.0;
   bool bilateral = false;                       ///< once closed it stays closed
 };
 

@@ -25,6 +25,10 @@ Vector2d trial_shear(const ContactLaw& law, const Vector3d& multiplier, const Ve
   return multiplier.tail<2>() + slip;
 }
 
+double pressure_that_limits(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return law.share_pressure > 0.0 ? law.share_pressure : limiting_pressure(law, multiplier, jump);
+}
+
 struct Shear {
   Vector2d value = Vector2d::Zero();
   Matrix2d by_trial = Matrix2d::Zero();
@@ -47,19 +51,47 @@ Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, con
   return shear;
 }
 
-void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multiplier, ContactLawValue& value) {
+/// The traction of a shear, and its derivatives.
+void add_traction(const ContactLaw& law, const Shear& shear, ContactLawValue& value) {
   const double by_multiplier = law.friction_penalised ? 0.0 : 1.0;
-  const double augmentation = law.friction_augmentation;
   value.traction.tail<2>() = -shear.value;
   value.traction_by_multiplier.bottomRightCorner<2, 2>() = -by_multiplier * shear.by_trial;
-  value.traction_by_jump.bottomRightCorner<2, 2>() = -augmentation * shear.by_trial;
+  value.traction_by_jump.bottomRightCorner<2, 2>() = -law.friction_augmentation * shear.by_trial;
   value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -(law.penalised ? 0.0 : 1.0) * shear.by_pressure;
   value.traction_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? law.augmentation : 0.0) * shear.by_pressure;
+}
 
+void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multiplier, ContactLawValue& value) {
+  const double augmentation = law.friction_augmentation;
+  add_traction(law, shear, value);
   value.residual.tail<2>() = (shear.value - multiplier.tail<2>()) / augmentation;
   value.residual_by_multiplier.bottomRows<2>() = -value.traction_by_multiplier.bottomRows<2>() / augmentation;
   value.residual_by_multiplier.bottomRightCorner<2, 2>() -= Matrix2d::Identity() / augmentation;
   value.residual_by_jump.bottomRows<2>() = -value.traction_by_jump.bottomRows<2>() / augmentation;
+}
+
+/// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
+void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure, const Vector3d& multiplier, const Vector3d& jump,
+                         ContactLawValue& value) {
+  const double augmentation = law.friction_augmentation;
+  const bool is_held = law.held_share > 0.0;
+  const double present = pressure / law.share_pressure;
+  Shear shear{.value = present * unit.value, .by_trial = present * unit.by_trial, .by_pressure = pressure > 0.0 ? Vector2d(unit.value / law.share_pressure) : Vector2d::Zero()};
+  if (is_held && status == ContactStatus::sticking) shear = {.value = law.held_share * unit.value, .by_trial = law.held_share * unit.by_trial};
+  add_traction(law, shear, value);
+
+  // Sticking points slip by nothing: said without the shear, of any size, that it takes.
+  const bool sticks = status == ContactStatus::sticking && !law.friction_penalised;
+  const Vector2d left = sticks ? Vector2d(jump.tail<2>()) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
+  const bool counts_by_pressure = status != ContactStatus::open && !law.friction_penalised;
+  const double weight = !counts_by_pressure ? 1.0 : is_held ? law.held_share : std::max(present, least_pressure_share);
+  value.residual.tail<2>() = weight * left;
+  const double by_multiplier = law.friction_penalised ? 0.0 : 1.0;
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() = weight / augmentation * (by_multiplier * unit.by_trial - Matrix2d::Identity());
+  value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
+  if (!counts_by_pressure || is_held || present <= least_pressure_share) return;
+  value.residual_by_multiplier.bottomLeftCorner<2, 1>() = (law.penalised ? 0.0 : 1.0) / law.share_pressure * left;
+  value.residual_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
 }  // namespace
@@ -76,7 +108,13 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
   value.residual_by_jump(0, 0) = value.traction_by_jump(0, 0) / law.augmentation;
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
-  add_shear(law, shear_of(law, status, limiting_pressure(law, multiplier, jump), trial_shear(law, multiplier, jump)), multiplier, value);
+  const double limiting = limiting_pressure(law, multiplier, jump);
+  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), trial_shear(law, multiplier, jump));
+  if (law.share_pressure > 0.0) {
+    add_shear_by_shares(law, status, shear, limiting, multiplier, jump, value);
+    return value;
+  }
+  add_shear(law, shear, multiplier, value);
   if (status == ContactStatus::sticking && !law.friction_penalised) value.residual.tail<2>() = jump.tail<2>();
   return value;
 }
@@ -89,7 +127,7 @@ ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d&
 }
 
 double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return trial_shear(law, multiplier, jump).norm() - law.friction * limiting_pressure(law, multiplier, jump);
+  return trial_shear(law, multiplier, jump).norm() - law.friction * pressure_that_limits(law, multiplier, jump);
 }
 
 }  // namespace comma::solver

@@ -14,7 +14,14 @@ struct ContactLaw {
   double friction = 0.0;                   ///< Coulomb's coefficient
   double friction_augmentation = 100.0;    ///< of the shear by the slip
   bool friction_penalised = false;         ///< the shear is `friction_augmentation` times the slip while it sticks
+  /// Positive: a shear is a share of the limit of friction, in units of `friction` times this pressure: what the law gives at this pressure
+  /// times the present one over it. 0: shears are themselves.
+  double share_pressure = 0.0;
+  double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in the limit of friction
 };
+
+/// The least share of pressure by which a share of the limit of friction counts: one that nothing presses on is still one.
+inline constexpr double least_pressure_share = 1e-6;
 
 enum class ContactStatus : std::uint8_t { open, sliding, sticking };
 
@@ -34,7 +41,8 @@ struct ContactLawValue {
 /// The law of Alart and Curnier (Computer Methods in Applied Mechanics and Engineering 92, 1991; R5.03.52) with the status held:
 /// closed: pressure - augmentation * gap pushes, and the gap vanishes; open: the pressure vanishes. Shear: sticking, it is
 /// shear + friction_augmentation * slip, and the slip vanishes; sliding, it is cut down to friction * pressure, the pressure being the
-/// multiplier without the augmentation.
+/// multiplier without the augmentation. By shares (see share_pressure), which R5.03.52 takes for multipliers of friction, the residual of shears
+/// counts by the pressure.
 ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
 /// The status that the law gives a point. `closed` points stay so.

@@ -46,8 +46,9 @@ struct MixedZone {
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;             ///< COULOMB
-  bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T)
-  double friction_penalty = 0.0;
+  bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
+  double friction_penalty = 0.0;         ///< a force over a length, or one over a length
+  double friction_augmentation = 100.0;  ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
   std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
   std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
 };

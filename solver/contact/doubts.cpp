@@ -60,7 +60,6 @@ PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions pos
 
 void PassedMaster::look(Positions positions, double pushed_back, double time) {
   pushed_back_ = std::max(pushed_back_, pushed_back);
-  if (!(pushed_back > 0.0)) return;
   for (int index = 0; index < static_cast<int>(definition_.zones.size()); ++index) {
     const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
     if (!zone.resolved || zone.mixed.local_average) continue;
@@ -76,6 +75,8 @@ void PassedMaster::look(Positions positions, double pushed_back, double time) {
     for (const auto& [node, depth] : now.depth) {
       if (depth < -doubtful_share * pushed_back) continue;
       const auto known = before.depth.find(node);
+      // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay in front does.
+      if (!(pushed_back > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
       sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
       ++touching;
     }
@@ -90,7 +91,7 @@ void PassedMaster::conclude(ContactDoubts& doubts) const {
       return each.zone == zone && (each.kind == DoubtKind::soft_penalty || each.kind == DoubtKind::deep_penalty);
     });
     if (is_soft || depth <= doubtful_passage * pushed_back_) continue;
-    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = depth / pushed_back_, .length = depth});
+    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = pushed_back_ > 0.0 ? depth / pushed_back_ : std::numeric_limits<double>::infinity(), .length = depth});
   }
 }
 

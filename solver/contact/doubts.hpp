@@ -24,7 +24,7 @@ enum class DoubtKind : std::uint8_t {
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth or slip in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back
+  double share = 0.0;    ///< of the depth or slip in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back, infinite where it pushes nothing
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
@@ -58,7 +58,8 @@ double wanted_penalty(double penalty, double share);
 
 /// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone in, beyond where
 /// the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back. Zones of local averages see all of the
-/// master side and have none, nor have those whose penalty is known to be soft.
+/// master side and have none, nor have those whose penalty is known to be soft. Where contact pushes
+/// nothing back at all, master nodes count that lay in front of the slave side at first and are behind it.
 class PassedMaster {
  public:
   PassedMaster(const ContactDefinition& definition, const Mesh& mesh) : definition_(definition), mesh_(mesh) {}

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -94,10 +95,6 @@ std::vector<FacePoint> on_square(const Line& line) {
   return points;
 }
 
-[[noreturn]] void throw_no_triangle_rule(std::string_view rule, int order) {
-  throw Error("unsupported", fmt::format("triangles have no {} rule of order {}", rule, order), "give a lower order (ORDRE_INT)");
-}
-
 /// Nodes of the six-node triangle with a weight for corners and one for middles.
 std::vector<FacePoint> corners_and_middles(double corner, double middle) {
   std::vector<FacePoint> points;
@@ -111,32 +108,84 @@ std::vector<FacePoint> triangle_corners() {
   return points;
 }
 
+/// Dunavant's rule of degree 6 (International Journal for Numerical Methods in Engineering 21, 1985), FPG12 of R3.01.01: two orbits of three
+/// points and one of six. Weights here are for the unit area.
+std::vector<FacePoint> twelve_points() {
+  constexpr double a = 0.249286745170910, a_weight = 0.116786275726379;
+  constexpr double b = 0.063089014491502, b_weight = 0.050844906370207;
+  constexpr double c = 0.310352451033785, d = 0.053145049844816, c_weight = 0.082851075618374;
+  std::vector<FacePoint> points;
+  const auto add = [&](double x, double y, double weight) { points.push_back({Vector2d(x, y), 0.5 * weight}); };
+  for (const auto& [at, weight] : {std::pair(a, a_weight), std::pair(b, b_weight)}) {
+    add(at, at, weight);
+    add(1.0 - 2.0 * at, at, weight);
+    add(at, 1.0 - 2.0 * at, weight);
+  }
+  constexpr std::array<double, 3> all = {c, d, 1.0 - c - d};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (i != j) add(all[i], all[j], c_weight);
+  return points;
+}
+
 std::vector<FacePoint> gauss_triangle(int order) {
-  constexpr std::array<std::string_view, 6> families = {"FPG1", "FPG3", "FPG4", "FPG6", "FPG7", "FPG12"};
-  if (order > static_cast<int>(families.size())) throw_no_triangle_rule("Gauss", order);
+  constexpr std::array<std::string_view, 5> families = {"FPG1", "FPG3", "FPG4", "FPG6", "FPG7"};
+  if (order == static_cast<int>(families.size()) + 1) return twelve_points();
+  if (order > static_cast<int>(families.size()))
+    throw Error("unsupported", fmt::format("triangles have no Gauss rule of order {}", order), "give an order (ORDRE_INT) of 6 at most");
   std::vector<FacePoint> points;
   for (const QuadraturePoint& point : quadrature(CellType::tria3, families[static_cast<std::size_t>(order - 1)]))
     points.push_back({Vector2d(point.at[0], point.at[1]), point.weight});
   return points;
 }
 
+/// The weights of the corners and middles of each of order^2 like triangles, added up where these meet.
 std::vector<FacePoint> simpson_triangle(int order) {
-  if (order != 1) throw_no_triangle_rule("Simpson", order);
-  return corners_and_middles(1.0 / 30, 4.0 / 30);
+  if (order == 1) return corners_and_middles(1.0 / 30, 4.0 / 30);
+  const int parts = 2 * order;  // lattice of corners and middles
+  std::map<std::pair<int, int>, double> weights;
+  const auto add_triangle = [&](int i, int j, int side) {
+    const std::array<std::pair<int, int>, 3> corners = {std::pair(i, j), std::pair(i + side, j), std::pair(i, j + side)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [x, y] = corners[k];
+      const auto& [next_x, next_y] = corners[(k + 1) % 3];
+      weights[corners[k]] += 1.0 / 30 / (order * order);
+      weights[{(x + next_x) / 2, (y + next_y) / 2}] += 4.0 / 30 / (order * order);
+    }
+  };
+  for (int j = 0; j < parts; j += 2)
+    for (int i = 0; i + j < parts; i += 2) {
+      add_triangle(i, j, 2);
+      if (i + j + 4 <= parts) add_triangle(i + 2, j + 2, -2);
+    }
+  std::vector<FacePoint> points;
+  for (const auto& [at, weight] : weights) points.push_back({Vector2d(at.first, at.second) / parts, weight});
+  return points;
 }
 
-/// Closed rules on the triangle (Stroud, Approximate Calculation of Multiple Integrals, 1971).
+/// Closed, on the lattice of `order` parts a side: the weights that integrate all monomials of that degree exactly
+/// (Stroud, Approximate Calculation of Multiple Integrals, 1971, gives those of low order).
 std::vector<FacePoint> newton_cotes_triangle(int order) {
-  if (order == 1) return triangle_corners();
-  if (order == 2) return corners_and_middles(0.0, 1.0 / 6);
-  if (order != 3) throw_no_triangle_rule("Newton-Cotes", order);
   std::vector<FacePoint> points;
-  for (int j = 0; j <= order; ++j) {
-    for (int i = 0; i + j <= order; ++i) {
-      const int zeros = (i == 0) + (j == 0) + (i + j == order);
-      points.push_back({Vector2d(i / 3.0, j / 3.0), zeros == 2 ? 1.0 / 60 : zeros == 1 ? 3.0 / 80 : 9.0 / 40});
+  for (int j = 0; j <= order; ++j)
+    for (int i = 0; i + j <= order; ++i) points.push_back({Vector2d(i, j) / order, 0.0});
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd powers(count, count);
+  Eigen::VectorXd integrals(count);
+  Eigen::Index row = 0;
+  for (int b = 0; b <= order; ++b)
+    for (int a = 0; a + b <= order; ++a, ++row) {
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const Vector2d& at = points[static_cast<std::size_t>(k)].xi;
+        powers(row, k) = std::pow(at[0], a) * std::pow(at[1], b);
+      }
+      integrals[row] = std::tgamma(a + 1.0) * std::tgamma(b + 1.0) / std::tgamma(a + b + 3.0);
     }
-  }
+  const Eigen::VectorXd weights = powers.fullPivLu().solve(integrals);
+  for (Eigen::Index k = 0; k < count; ++k) points[static_cast<std::size_t>(k)].weight = weights[k];
+  // Weights that vanish are rounding: points that carry nothing are none.
+  constexpr double nothing = 1e-12;
+  std::erase_if(points, [](const FacePoint& point) { return std::abs(point.weight) < nothing; });
   return points;
 }
 

@@ -84,7 +84,7 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
     if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking) continue;
     const CondensedPoint& point = problem_.points[p];
     creep = std::max(creep, slip_of(point, now));
-    limit = std::max(limit, point.law.friction * forces_[point.first_row]);
+    limit = std::max(limit, point.share_augmentation > 0.0 ? 1.0 : point.law.friction * forces_[point.first_row]);
     reach = std::max(reach, slip_of(point, without));
   }
   if (creep <= least || creep <= doubtful_share * reach) return;

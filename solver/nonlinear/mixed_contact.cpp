@@ -257,6 +257,23 @@ void MixedContact::build_rows() {
     for (int c = 1; c < point.rows; ++c) base_[point.first_row + c] = -before[point.first_row + c];
   reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
   settle_blocked_points();
+  share_friction();
+}
+
+/// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier lie on its node, and no penalty lets them
+/// creep, the solution is that of shears, which need no scale.
+void MixedContact::share_friction() {
+  if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
+  const std::vector<char> shared = shared_multipliers();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (!(point.law.friction > 0.0) || point.node_count == 0) continue;
+    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
+    if (mixed.friction_penalised)
+      point.share_augmentation = mixed.friction_penalty;
+    else if (shared[static_cast<std::size_t>(point.nodes[0])])
+      point.share_augmentation = mixed.friction_augmentation;
+  }
 }
 
 bool MixedContact::can_iterate_jointly() const {
@@ -572,9 +589,25 @@ void MixedContact::add_multipliers(NodalField& displacements) const {
   displacements.values = std::move(values);
 }
 
+namespace {
+
+/// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them do.
+void add_contact(const NodeContact& contact, NodeContact& sum) {
+  const Vector3d whole = sum.normal_force * sum.pair.normal + contact.normal_force * contact.pair.normal;
+  sum.sticking = sum.closed && contact.closed ? sum.sticking && contact.sticking : sum.sticking || contact.sticking;
+  sum.closed |= contact.closed;
+  sum.gap = std::min(sum.gap, contact.gap);
+  sum.shear_force += contact.shear_force;
+  sum.normal_force = whole.norm();
+  if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
+}
+
+}  // namespace
+
 NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
   const Eigen::VectorXd now = jumps(u);
   std::vector<NodeContact> contacts;
+  std::map<Key, std::size_t> by_node;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
     const CondensedPoint& condensed = problem_.points[p];
@@ -593,7 +626,14 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
       contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
     }
-    contacts.push_back(contact);
+    const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
+    if (is_first) {
+      contacts.push_back(contact);
+    } else if (contact.pair.status == PairingStatus::paired && contacts[known->second].pair.status == PairingStatus::paired) {
+      add_contact(contact, contacts[known->second]);
+    } else if (contact.pair.status == PairingStatus::paired) {
+      contacts[known->second] = contact;
+    }
   }
   return contact_field(contacts, mesh_.node_count(), positions);
 }

@@ -109,6 +109,7 @@ class MixedContact {
   void choose_directions();
   Directions directions(const ContactPoint& point) const;
   std::vector<char> shared_multipliers() const;
+  void share_friction();
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;

@@ -1,5 +1,7 @@
 #include "solver/contact/contact_law.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 using namespace comma::solver;
@@ -47,8 +49,11 @@ void check_tangents(const ContactLaw& law, ContactStatus status) {
 TEST_CASE("Tangents of the contact law are its derivatives") {
   for (const bool penalised : {false, true})
     for (const bool friction_penalised : {false, true})
-      for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking}) {
+      for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking})
+        for (const double share_pressure : {0.0, 80.0, -80.0}) {
         ContactLaw law;
+        law.share_pressure = std::abs(share_pressure);
+        if (share_pressure < 0.0) law.held_share = 0.7;
         law.augmentation = 900.0;
         law.penalised = penalised;
         law.friction = 0.3;
@@ -69,6 +74,27 @@ TEST_CASE("A sliding point bears the limit of friction against the slip; a stick
   const ContactLawValue sticking = contact_law(law, ContactStatus::sticking, Vector3d(10.0, 3.0, 1.0), Vector3d::Zero());
   CHECK(sticking.traction[1] == Approx(-3.0));
   CHECK(sticking.residual.norm() == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("By shares a shear is a share of the limit of friction, whatever the pressure of their unit") {
+  ContactLaw law;
+  law.friction = 0.5;
+  law.friction_augmentation = 20.0;
+  const Vector3d jump(0.0, 0.1, 0.0);
+  for (const double pressure : {1.0, 40.0}) {
+    law.share_pressure = pressure;
+    law.friction_penalised = false;
+    const Vector3d whole(10.0, law.friction * pressure, 0.0);
+    CHECK(contact_law(law, ContactStatus::sliding, whole, jump).traction[1] == Approx(-5.0));
+    CHECK(contact_law(law, ContactStatus::sliding, whole, jump).residual.tail<2>().norm() == Approx(0.0).margin(1e-14));
+    CHECK(contact_law(law, ContactStatus::sticking, 0.5 * whole + Vector3d(5, 0, 0), Vector3d::Zero()).traction[1] == Approx(-2.5));
+    // A penalty of 0.4 of the limit a unit of slip.
+    law.friction_penalised = true;
+    law.friction_augmentation = 0.4 * law.friction * pressure;
+    CHECK(contact_law(law, ContactStatus::sticking, whole, jump).traction[1] == Approx(-0.04 * 5.0));
+    CHECK(contact_status(law, false, whole, jump) == ContactStatus::sticking);
+    CHECK(contact_status(law, false, whole, 30.0 * jump) == ContactStatus::sliding);
+  }
 }
 
 TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; of the depth where a penalty presses") {

@@ -1,0 +1,180 @@
+#include "solver/contact/shared_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+
+constexpr int most_turns = 20;
+/// Shares of pressure that change by less are near enough to those of the solution for Newton's method.
+constexpr double near_share = 1e-2;
+
+enum class Shears : std::uint8_t { none, as_they_are, by_shares };
+
+double largest_pressure(const CondensedProblem& problem, const CondensedState& state) {
+  double largest = 0.0;
+  for (int node = 0; node < problem.node_count; ++node) largest = std::max(largest, state.multipliers[Index{node} * problem.components]);
+  return largest;
+}
+
+std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
+  std::vector<char> result(static_cast<std::size_t>(problem.node_count), 0);
+  for (const CondensedPoint& point : problem.points)
+    for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i) result[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+  return result;
+}
+
+class SharedFriction {
+ public:
+  SharedFriction(const CondensedProblem& problem, const SolveCondensed& solve) : given_(problem), problem_(problem), solve_(solve), shared_(nodes_with_shares(problem)) {
+    problem_.expected.resize(0);  // shears, not shares
+  }
+
+  CondensedSolution run(CondensedState& state) {
+    const CondensedState start = state;
+    CondensedSolution solution;
+    pressure_ = largest_pressure(given_, state);
+    if (pressure_ > 0.0 && solve_by_shares(state, solution)) return counted(start, state, solution);
+    state = start;
+    find_pressure(state);
+    take(Shears::as_they_are);
+    solution = solve_once(state);
+    pressure_ = largest_pressure(given_, state);
+    if (!(pressure_ > 0.0) || solution.verdict != CondensedVerdict::solved) return counted(start, state, solution);
+    const CondensedState by_shears = state;
+    CondensedSolution shared;
+    if (solve_by_shares(state, shared)) {
+      solution = shared;
+    } else if (lets_creep()) {
+      solution.verdict = CondensedVerdict::too_many_iterations;
+    } else {
+      state = by_shears;
+    }
+    return counted(start, state, solution);
+  }
+
+ private:
+  bool lets_creep() const {
+    return std::ranges::any_of(given_.points, [](const CondensedPoint& point) { return point.share_augmentation > 0.0 && point.law.friction_penalised; });
+  }
+
+  void take(Shears shears) {
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      CondensedPoint& point = problem_.points[p];
+      if (!(point.share_augmentation > 0.0)) continue;
+      point.law = given_.points[p].law;
+      if (shears == Shears::none) point.law.friction = 0.0;
+      point.law.friction_augmentation = point.share_augmentation * (point.law.friction > 0.0 ? point.law.friction : 1.0) * (pressure_ > 0.0 ? pressure_ : 1.0);
+      point.law.share_pressure = shears == Shears::by_shares ? pressure_ : 0.0;
+    }
+  }
+
+  CondensedSolution solve_once(CondensedState& state) {
+    CondensedSolution solution = solve_(problem_, state);
+    iterations_ += solution.iterations;
+    return solution;
+  }
+
+  /// That of the solution without friction, unless there is one already.
+  void find_pressure(const CondensedState& start) {
+    if (pressure_ > 0.0) return;
+    CondensedState state = start;
+    take(Shears::none);
+    solve_once(state);
+    pressure_ = largest_pressure(given_, state);
+  }
+
+  /// Pressures that weigh shares follow those of the solution, in turns; the last of them by Newton's method. Whether that leads anywhere.
+  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) {
+    const CondensedState start = state;
+    take(Shears::by_shares);
+    scale_shears(state, [this](double pressure) { return pressure_ / pressure; });
+    bool solved = false;
+    double change = hold_shares(state);
+    for (int turn = 0; turn < most_turns && !solved; ++turn) {
+      solution = solve_once(state);
+      if (solution.verdict != CondensedVerdict::solved) break;
+      change = hold_shares(state);
+      if (change < near_share) solved = finish(state, solution);
+    }
+    if (!solved) {
+      state = start;
+      return false;
+    }
+    scale_shears(state, [this](double pressure) { return pressure / pressure_; });
+    return true;
+  }
+
+  /// With the pressures themselves.
+  bool finish(CondensedState& state, CondensedSolution& solution) {
+    const std::vector<double> held = held_shares();
+    for (CondensedPoint& point : problem_.points) point.law.held_share = 0.0;
+    CondensedState finished = state;
+    const CondensedSolution last = solve_once(finished);
+    for (std::size_t p = 0; p < held.size(); ++p) problem_.points[p].law.held_share = held[p];
+    if (last.verdict != CondensedVerdict::solved) return false;
+    state = finished;
+    solution = last;
+    return true;
+  }
+
+  std::vector<double> held_shares() const {
+    std::vector<double> held;
+    for (const CondensedPoint& point : problem_.points) held.push_back(point.law.held_share);
+    return held;
+  }
+
+  /// Returns the largest change.
+  double hold_shares(const CondensedState& state) {
+    double change = 0.0;
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      CondensedPoint& point = problem_.points[p];
+      if (!(point.share_augmentation > 0.0)) continue;
+      const bool open = state.statuses[p] == ContactStatus::open;
+      const double share = open ? least_pressure_share : std::max(least_pressure_share, multiplier_at(problem_, state, point)[0] / pressure_);
+      change = std::max(change, std::abs(share - point.law.held_share));
+      point.law.held_share = share;
+    }
+    return change;
+  }
+
+  /// Shears at nodes that nothing presses on vanish.
+  template <typename Factor>
+  void scale_shears(CondensedState& state, const Factor& factor) const {
+    for (int node = 0; node < given_.node_count; ++node) {
+      if (!shared_[static_cast<std::size_t>(node)]) continue;
+      const Index first = Index{node} * given_.components;
+      const double pressure = state.multipliers[first];
+      state.multipliers.segment(first + 1, given_.components - 1) *= pressure > 0.0 ? factor(pressure) : 0.0;
+    }
+  }
+
+  CondensedSolution counted(const CondensedState& start, const CondensedState& state, CondensedSolution solution) const {
+    solution.iterations = iterations_;
+    solution.changes = 0;
+    for (std::size_t p = 0; p < start.statuses.size(); ++p) solution.changes += start.statuses[p] != state.statuses[p];
+    return solution;
+  }
+
+  const CondensedProblem& given_;
+  CondensedProblem problem_;
+  const SolveCondensed& solve_;
+  const std::vector<char> shared_;
+  double pressure_ = 0.0;
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+bool has_shared_friction(const CondensedProblem& problem) {
+  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.rows > 1 && point.share_augmentation > 0.0; });
+}
+
+CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const SolveCondensed& solve) {
+  return SharedFriction(problem, solve).run(state);
+}
+
+}  // namespace comma::solver

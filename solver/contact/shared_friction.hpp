@@ -1,0 +1,22 @@
+// Friction whose multipliers are shares of its limit.
+#pragma once
+
+#include <functional>
+
+#include "solver/contact/condensed_contact.hpp"
+
+namespace comma::solver {
+
+using SolveCondensed = std::function<CondensedSolution(const CondensedProblem& problem, CondensedState& state)>;
+
+/// Whether points have a share_augmentation.
+bool has_shared_friction(const CondensedProblem& problem);
+
+/// The multiplier of friction of R5.03.52 is a share of the limit: the shear at a point is friction * pressure * share, both interpolated, and COEF_FROT or
+/// COEF_PENA_FROT add to the share by the slip. On nodes without a penalty this is the law of Alart and Curnier all the same. Where nothing presses
+/// shares say nothing, so that a solution by shears comes first, the augmentation of which is that of shares at the largest pressure; it stands where no solution by
+/// shares is found, unless there is a penalty.
+/// `solve` solves with the laws as they stand. Multipliers in `state` are pressures and shears at the nodes, before and after.
+CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const SolveCondensed& solve);
+
+}  // namespace comma::solver
