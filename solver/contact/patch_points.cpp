@@ -71,14 +71,22 @@ class Surface {
   std::unordered_map<int, Vector3d> normals_;
 };
 
-/// Normals of a slave face may lean: what lies within the facets' sizes of the line through the face's centre is looked at.
-bool may_overlap(const Gathered& slave, const Gathered& master) {
-  const Vector3d normal = normal_at(slave.geometry(), facet_centre(slave.type));
-  const Vector3d apart = master.centre - slave.centre;
-  const double along = normal.dot(apart);
-  const double lean = slave.is_smooth ? std::abs(along) : 0.0;
-  return (apart - along * normal).norm() <= 2.0 * (slave.radius + master.radius) + lean;
-}
+/// What a slave face may face. Its normals may lean: what lies within the facets' sizes of the line through the face's centre is looked at.
+class Reach {
+ public:
+  explicit Reach(const Gathered& slave) : slave_(slave), normal_(normal_at(slave.geometry(), facet_centre(slave.type))) {}
+
+  bool has(const Gathered& master) const {
+    const Vector3d apart = master.centre - slave_.centre;
+    const double along = normal_.dot(apart);
+    const double lean = slave_.is_smooth ? std::abs(along) : 0.0;
+    return (apart - along * normal_).norm() <= 2.0 * (slave_.radius + master.radius) + lean;
+  }
+
+ private:
+  const Gathered& slave_;
+  const Vector3d normal_;
+};
 
 bool is_line(const Mesh& mesh, const ContactZone& zone) { return dimension(mesh.cell_types[zone.slave_cells.front()]) == 1; }
 
@@ -97,8 +105,9 @@ class Slides {
     double result = 0.0;
     for (const int face : zone_.slave_cells) {
       const Gathered slave = slaves.gather(face);
+      const Reach reach(slave);
       for (std::size_t m = 0; m < facets.size(); ++m) {
-        if (!may_overlap(slave, facets[m])) continue;
+        if (!reach.has(facets[m])) continue;
         const double size = std::min(extent(mesh_, face), extent(mesh_, zone_.master_cells[m]));
         for (const OverlapPoint& at : facet_overlap(slave.geometry(), facets[m].geometry())) {
           const Vector3d normal = normal_at(slave.geometry(), at.slave);
@@ -170,10 +179,11 @@ class PatchGaps {
   void add_face(int face) {
     const Gathered slave = slaves_.gather(face);
     const Gathered facing = facing_slaves_.gather(face);
+    const Reach reach(facing);
     for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * stretch(face, at.xi);
     for (std::size_t m = 0; m < masters_.size(); ++m) {
       const Gathered& master = facing_masters_[m];
-      if (!may_overlap(facing, master)) continue;
+      if (!reach.has(master)) continue;
       for (const OverlapPoint& each : facet_overlap(facing.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
     }
   }
