@@ -134,7 +134,11 @@ class SharedFriction {
     const std::vector<double> held = held_shares();
     for (CondensedPoint& point : problem_.points) point.law.held_share = 0.0;
     CondensedState finished = state;
-    const CondensedSolution last = solve_once(finished, methods_.refine);
+    CondensedSolution last = solve_once(finished, methods_.refine);
+    if (last.verdict != CondensedVerdict::solved && lets_creep()) {
+      finished = state;
+      last = solve_once(finished);
+    }
     for (std::size_t p = 0; p < held.size(); ++p) problem_.points[p].law.held_share = held[p];
     if (last.verdict != CondensedVerdict::solved) return false;
     state = finished;
