@@ -21,6 +21,12 @@ namespace {
 using Levels = std::vector<const LevelPage*>;
 using Item = CallNode::Item;
 
+std::size_t count(const std::string& text, std::string_view part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++found;
+  return found;
+}
+
 void collect_pages(const LevelPage& level, std::string_view name, std::vector<const KeywordPage*>& found) {
   for (const KeywordPage& keyword : level.keywords) {
     if (keyword.name == name) found.push_back(&keyword);
@@ -122,7 +128,7 @@ class Planter {
     component_is_judged_ = written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
                            (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
     // Near it among those of the field is a displacement's; of another field all are listed.
-    component_hint_ = written_call.find("NOM_CHAM=") == std::string::npos || written_call.find("\"DEPL\"") != std::string::npos ? "DX" : "";
+    component_hint_ = count(written_call, "NOM_CHAM=") == count(written_call, "NOM_CHAM=\"DEPL\"") ? "DX" : "";
     const CommandPage& page = catalogue_.page(callee_of(*call));
     visit_level(*call, {&page.inside}, line_of(call->begin));
   }
@@ -211,10 +217,18 @@ class Planter {
     return found;
   }
 
+  /// C01 is no misspelling of C10 where both are keywords.
+  static bool is_keyword(const std::string& name, const Levels& levels) {
+    std::vector<const KeywordPage*> pages;
+    for (const LevelPage* level : levels) collect_pages(*level, name, pages);
+    return !pages.empty();
+  }
+
   void plant_at_keyword(const CallNode& call, std::size_t index, const KeywordPage& page, const Levels& levels, int line) {
     const Item& item = call.arguments[index];
     const bool nameable = item.name.size() > 2;
-    add("misspelt keyword", item.name_begin, item.name_end, misspell(item.name), "unknown-keyword", line_of(item.name_begin), nameable ? item.name : "");
+    if (!is_keyword(misspell(item.name), levels))
+      add("misspelt keyword", item.name_begin, item.name_end, misspell(item.name), "unknown-keyword", line_of(item.name_begin), nameable ? item.name : "");
     add("keyword given twice", item.value->end, item.value->end, ", " + item.name + "=" + written(*item.value), "repeated-keyword",
         line_of(item.value->end));
     const bool always = std::ranges::any_of(levels, [&](const LevelPage* level) {
