@@ -123,7 +123,8 @@ SolverChoice solver_choice(const Call& call) {
   SolverChoice choice;
   if (!call.has("SOLVEUR")) return choice;
   const Keywords& solver = call.factor("SOLVEUR");
-  if (solver.given("METHODE")) choice.method = linear_method(solver.text("METHODE"));
+  // PETSc is not there: the choice is comma's, as if none had been made.
+  if (solver.given("METHODE") && solver.text("METHODE") != "PETSC") choice.method = linear_method(solver.text("METHODE"));
   if (solver.text("METHODE") == "GCPC") take_iterations(solver, choice);
   if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
   constexpr int never_tested = -1;
