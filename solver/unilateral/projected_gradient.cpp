@@ -56,7 +56,12 @@ class ProjectedGradient {
     gradient_ = -scaling_.cwiseProduct(problem_.excess);
     if (!first_.size() || !(first_.array() > 0.0).any()) return;
     x_ = first_.cwiseQuotient(scaling_);
-    gradient_ += image(x_);
+    const VectorXd curved = image(x_);
+    // Along the start the dual is lowest at this multiple: with loads that grow in proportion it is the solution.
+    const double multiple = -gradient_.dot(x_) / x_.dot(curved);
+    const double taken = std::isfinite(multiple) && multiple > 0.0 ? multiple : 1.0;
+    x_ *= taken;
+    gradient_ += taken * curved;
   }
 
   /// By the power method, from below; a third covers it.

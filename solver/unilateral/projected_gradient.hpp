@@ -14,7 +14,7 @@ struct ProjectedGradientOptions {
   int max_iterations = 0;   ///< ITER_GCP_MAXI; 0: `default_iterations` times the rows, and a hundred
   /// PRE_COND: scale of each multiplier (m, > 0), about the inverse root of S's diagonal; empty: none.
   Eigen::VectorXd scaling;
-  Eigen::VectorXd start;  ///< multipliers to begin with (m, >= 0); empty: zero
+  Eigen::VectorXd start;  ///< multipliers to begin with the best multiple of (m, >= 0); empty: zero
 };
 
 inline constexpr int default_iterations = 20;

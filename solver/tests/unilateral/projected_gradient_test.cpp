@@ -50,8 +50,10 @@ TEST_CASE("neither the scaling nor the start changes the multipliers") {
   options.scaling = random.compliance.diagonal().cwiseSqrt().cwiseInverse();
   options.start = Eigen::VectorXd::Ones(30);
   CHECK((random.by_gradients(options).multipliers - expected).norm() < 1e-9 * expected.norm());
-  options.start = expected;
-  CHECK(random.by_gradients(options).iterations <= 2);
+  for (const double multiple : {1.0, 0.1, 7.0}) {
+    options.start = multiple * expected;
+    CHECK(random.by_gradients(options).iterations <= 2);
+  }
 }
 
 TEST_CASE("rows that nothing resists, and too few iterations, are told") {
