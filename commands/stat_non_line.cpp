@@ -235,9 +235,11 @@ solver::IterationObserver live_table(const Context& context) {
       context.console.progress("  " + report.event);
       return;
     }
+    // Where nothing is loaded there is no share of the loads.
+    const std::string relative = report.relative_residual < 0.0 ? "-" : fmt::format("{:.1e}", report.relative_residual);
     const std::string depth = report.penetration ? fmt::format("{:.2e}", *report.penetration) : "-";
-    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8.1e} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant, report.iteration,
-                                         report.relative_residual, report.absolute_residual, report.worst,
+    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant, report.iteration,
+                                         relative, report.absolute_residual, report.worst,
                                          report.active_conditions, report.contact_changes, depth));
   };
 }
