@@ -107,20 +107,9 @@ class CondensedSolver {
   bool start_as_expected() {
     if (problem_.components == 1 || problem_.expected.size() != state_.multipliers.size()) return false;
     state_.multipliers = problem_.expected;
-    forces_.setZero();
-    std::vector<int> rows;
-    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
-      const CondensedPoint& point = problem_.points[p];
-      if (state_.statuses[p] == ContactStatus::open) continue;
-      const Vector3d traction = multiplier_at(point);
-      for (int c = 0; c < point.rows; ++c) {
-        forces_[point.first_row + c] = (c == 0 ? 1.0 : -1.0) * point.weight * traction[c];
-        rows.push_back(point.first_row + c);
-      }
-    }
-    for (Index row = 0; row < problem_.held.size(); ++row)
-      if (problem_.held[row] != 0.0 && forces_[row] == 0.0) rows.push_back(static_cast<int>(row));
-    schur_.require(rows);
+    forces_ = multiplier_forces(problem_, state_, forces_.size());
+    number_unknowns();
+    require_columns();
     jumps_ = balanced_jumps();
     return true;
   }
@@ -480,6 +469,17 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
   for (int i = 0; i < point.node_count; ++i)
     for (int c = 0; c < problem.components; ++c) value[c] += point.shape[i] * state.multipliers[point.nodes[i] * problem.components + c];
   return value;
+}
+
+Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Index rows) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows);
+  for (std::size_t p = 0; p < problem.points.size(); ++p) {
+    const CondensedPoint& point = problem.points[p];
+    if (point.rows == 0 || state.statuses[p] == ContactStatus::open) continue;
+    const Vector3d multiplier = multiplier_at(problem, state, point);
+    for (int c = 0; c < point.rows; ++c) forces[point.first_row + c] = (c == 0 ? 1.0 : -1.0) * point.weight * multiplier[c];
+  }
+  return forces;
 }
 
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {

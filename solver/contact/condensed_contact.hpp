@@ -60,6 +60,9 @@ struct CondensedState {
 /// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point);
 
+/// What the multipliers alone put on the rows (`rows` of them) of closed points.
+Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Eigen::Index rows);
+
 enum class CondensedVerdict : std::uint8_t { solved, too_many_iterations };
 
 struct CondensedSolution {

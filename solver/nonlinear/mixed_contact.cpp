@@ -143,7 +143,7 @@ void MixedContact::pair(Positions positions, double time) {
   hold_back_points();
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
-  forces_ = held_forces();
+  forces_ = multiplier_forces(problem_, state_, rows_.rows());  // any would do for the next correction to start from
 }
 
 CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
@@ -404,19 +404,6 @@ void MixedContact::add_natural_augmentation() {
     if (!point.law.penalised) point.law.augmentation = stiffness / point.weight;
     if (!point.law.friction_penalised) point.law.friction_augmentation = stiffness / point.weight;
   }
-}
-
-/// Forces of the multipliers alone. Any would do for the next correction to start from.
-Eigen::VectorXd MixedContact::held_forces() const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows_.rows());
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
-    for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < point.rows; ++c)
-        forces[point.first_row + c] += (c == 0 ? 1.0 : -1.0) * point.weight * point.shape[i] * multiplier(point.nodes[i])[c];
-  }
-  return forces;
 }
 
 Vector3d MixedContact::multiplier(int number) const {

@@ -125,7 +125,6 @@ class MixedContact {
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
-  Eigen::VectorXd held_forces() const;
   Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }
 
   const ContactDefinition& definition_;
