@@ -27,18 +27,19 @@ Eigen::Vector3d angles_of(const Keywords& frame, const std::string& keyword) {
 }
 
 // ORIG_AXE: round an axis through a point; alone, in the plane, the axis is Z.
-Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Mesh& mesh, int cell) {
+Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Model& model, int cell) {
   const Eigen::Vector3d along_z(0.0, -90.0 * degree, 0.0);
   const Eigen::Vector3d angles = frame.has("ANGL_AXE") ? angles_of(frame, "ANGL_AXE") : along_z;
   const auto values = frame.reals("ORIG_AXE");
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::copy(values.begin(), values.end(), origin.begin());
-  return solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(mesh, cell));
+  const Eigen::Matrix3d axes = solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(*model.mesh, cell));
+  return solver::material_axes_round(axes, solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 3);
 }
 
 // The axes of an anisotropic material in a cell.
-Eigen::Matrix3d material_axes(const Keywords& frame, const solver::Mesh& mesh, int cell) {
-  if (frame.has("ORIG_AXE")) return axes_round(frame, mesh, cell);
+Eigen::Matrix3d material_axes(const Keywords& frame, const solver::Model& model, int cell) {
+  if (frame.has("ORIG_AXE")) return axes_round(frame, model, cell);
   const bool euler = frame.has("ANGL_EULER");
   const Eigen::Vector3d angles = angles_of(frame, euler ? "ANGL_EULER" : "ANGL_REP");
   return (euler ? solver::euler_axes : solver::nautical_axes)(angles[0], angles[1], angles[2]);
@@ -48,7 +49,7 @@ void add_material_axes(const Keywords& frame, const solver::Model& model, solver
   for (const int cell : selected_cells(frame, *model.mesh)) {
     if (solver::continuum_dimension(model.formulations[cell]) == 0) continue;
     try {
-      properties.material_axes[cell] = material_axes(frame, *model.mesh, cell);
+      properties.material_axes[cell] = material_axes(frame, model, cell);
     } catch (const solver::Error& error) {
       throw DiagnosticError(error.code(), std::string("MASSIF: ") + error.what(), frame.span, error.hint());
     }

@@ -46,4 +46,11 @@ Eigen::Matrix3d cylindrical_axes(double yaw, double pitch, const Eigen::Vector3d
   return axes;
 }
 
+Eigen::Matrix3d material_axes_round(const Eigen::Matrix3d& cylindrical, bool in_space) {
+  if (!in_space) return cylindrical;
+  Eigen::Matrix3d axes;
+  axes << cylindrical.row(2), cylindrical.row(1), -cylindrical.row(0);
+  return axes;
+}
+
 }  // namespace comma::solver
