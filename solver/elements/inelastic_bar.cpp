@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,7 @@ struct BarState {
   double stress = 0.0;
   double back_stress = 0.0;
   double p = 0.0;
+  double flow = 0.0;  ///< by which p grew in the step that led here
   bool flowing = false;
   PlasticModuli moduli;
 };
@@ -53,6 +55,7 @@ BarResponse integrate(const BarState& past, const BarMaterial& now, double strai
   state.strain = strain;
   state.expansion = now.expansion;
   state.moduli = now.plastic;
+  state.flow = 0.0;
   state.flowing = false;
   state.stress = ratio(young, past_young) * past.stress + young * increment;
   state.back_stress = ratio(now.plastic.kinematic, past.moduli.kinematic) * past.back_stress;
@@ -68,11 +71,24 @@ BarResponse integrate(const BarState& past, const BarMaterial& now, double strai
     return response;
   }
   const double flow = std::copysign(plastic_increment(now.plastic.curve, size, hardness, past.p), relative);
-  state.p = past.p + std::abs(flow);
+  state.flow = std::abs(flow);
+  state.p = past.p + state.flow;
   state.flowing = true;
   state.stress -= young * flow;
   state.back_stress += now.plastic.kinematic * flow;
   response.tangent = flow_tangent();
+  return response;
+}
+
+/// A bar that has flowed in the last step goes on by the tangent of the flow (R5.03.81); `duration`: of this step, in those of the last one.
+BarResponse extrapolate_flow(const BarState& past, const BarMaterial& now, double strain, double duration) {
+  const double young = young_of(now.plastic);
+  const double slope = past.flow > 0.0 ? hardening(now.plastic.curve, past.p + duration * past.flow).second : 0.0;
+  BarResponse response{past, past.flow > 0.0 ? young * slope / (young + slope) : young};
+  response.state.strain = strain;
+  response.state.expansion = now.expansion;
+  const double past_young = past.moduli.shear != 0.0 ? young_of(past.moduli) : 0.0;
+  response.state.stress = ratio(young, past_young) * past.stress + response.tangent * (strain - past.strain - (now.expansion - past.expansion));
   return response;
 }
 
@@ -118,6 +134,11 @@ class InelasticBar final : public ElementBlock {
     return std::ranges::all_of(members_, [](const Member& each) { return each.constant; });
   }
   bool has_memory() const override { return true; }
+  void extrapolate(std::optional<double> duration) override {
+    if (duration && (behaviour_.relation == Relation::kinematic_linear || is_mixed()))
+      throw Error("unsupported", "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS of bars alone", "take METHODE='NEWTON'");
+    extrapolation_ = duration;
+  }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element)
@@ -230,7 +251,9 @@ class InelasticBar final : public ElementBlock {
   }
 
   BarResponse respond(int element, const Eigen::VectorXd& u, const VariableState& state) const {
-    return integrate(past_[static_cast<std::size_t>(element)], material(element, state), strain(element, u));
+    const BarState& past = past_[static_cast<std::size_t>(element)];
+    if (extrapolation_) return extrapolate_flow(past, material(element, state), strain(element, u), *extrapolation_);
+    return integrate(past, material(element, state), strain(element, u));
   }
 
   Matrix matrix(int element, double tangent) const {
@@ -260,6 +283,7 @@ class InelasticBar final : public ElementBlock {
   ElementMap map_;
   std::vector<Member> members_;
   std::vector<BarState> past_;
+  std::optional<double> extrapolation_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "solver/elements/inelastic_bar.hpp"
 
+#include <optional>
+
 #include <catch2/catch.hpp>
 
 #include "sample_meshes.hpp"
@@ -69,6 +71,26 @@ TEST_CASE("a bar goes on from its force and its variables as if it had never sto
   const Eigen::VectorXd expected = whole.internal_forces(moved(-0.002));
   CHECK((resumed.internal_forces(moved(-0.002)) - expected).norm() <= 1e-12 * expected.norm());
   CHECK((whole.forces_of_stresses(moved(0.006), stresses) - whole.internal_forces(moved(0.006))).norm() <= 1e-12 * expected.norm());
+}
+
+TEST_CASE("a bar that has flowed goes on by the tangent of the flow where steps extrapolate it", "[elements]") {
+  const Body body = bar(Formulation::bar);
+  const BehaviourOfCells isotropic = {{Kinematics::small, Relation::isotropic_linear}};
+  Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &isotropic);
+  const auto force = [&](double strain) { return assembler.internal_forces(moved(strain)).tail<3>().norm(); };
+  const double at_yield = yield / young;
+  assembler.extrapolate(1.0);
+  CHECK(force(0.004) == Approx(area * young * 0.004));
+  assembler.extrapolate(std::nullopt);
+  CHECK(force(0.004) == Approx(area * (yield + slope * (0.004 - at_yield))));
+  assembler.accept(moved(0.004));
+  assembler.extrapolate(0.5);
+  // Forwards as the law, and backwards where the law would be elastic.
+  for (const double strain : {0.006, 0.003}) CHECK(force(strain) == Approx(area * (yield + slope * (strain - at_yield))));
+  assembler.extrapolate(std::nullopt);
+  CHECK(force(0.003) == Approx(area * (yield + slope * (0.004 - at_yield) - young * 0.001)));
+  Assembler kinematic(body.model, body.materials, body.properties, *body.dofs, &mixed);
+  CHECK_THROWS_WITH(kinematic.extrapolate(1.0), Catch::Contains("IMPLEX"));
 }
 
 TEST_CASE("beams do not flow, and bars in small strains only", "[elements]") {
