@@ -49,7 +49,7 @@ constexpr std::array classes{
     ErrorClass{contact, aster, "ContactError", "contact-failed"},
     ErrorClass{solver, aster, "SolverError", "singular-matrix"},
     ErrorClass{time_limit, aster, "TimeLimitError", "time-limit"},
-    ErrorClass{integration, aster, "IntegrationError", "integration-failed"},
+    ErrorClass{integration, aster, "IntegrationError", "integration-failure"},
 };
 
 std::vector<Value> one_text(std::string message) {
@@ -81,11 +81,11 @@ bool is_subclass(ErrorKind kind, ErrorKind ancestor) {
 }
 
 ErrorKind kind_of_failure(std::string_view code) {
-  if (code == "no-convergence") return ErrorKind::convergence;
+  if (code == "no-convergence" || code == "increment-too-large" || code.substr(0, 9) == "residual-") return ErrorKind::convergence;
   if (code.substr(0, 8) == "contact-") return ErrorKind::contact;
   if (code == "singular-matrix") return ErrorKind::solver;
   if (code == "time-limit") return ErrorKind::time_limit;
-  if (code == "integration-failed") return ErrorKind::integration;
+  if (code == "integration-failure") return ErrorKind::integration;
   return ErrorKind::aster;
 }
 
