@@ -36,14 +36,16 @@ void check_rising(const std::vector<double>& values, const Keywords& list) {
   }
 }
 
-std::optional<solver::StepCutting> cutting(const Call& call) {
-  std::optional<solver::StepCutting> result;
-  for (const Keywords& failure : call.factors("ECHEC")) {
-    if (failure.text("ACTION") != "DECOUPE") continue;
-    result = solver::StepCutting{static_cast<int>(failure.integer("SUBD_PAS")), static_cast<int>(failure.integer("SUBD_NIVEAU")),
-                                 failure.real("SUBD_PAS_MINI")};
-  }
-  return result;
+// DECOUPE, or ITER_SUPPL, which cuts where more iterations do not help.
+std::optional<solver::StepCutting> cutting(const Keywords& failure) {
+  if (failure.text("ACTION") != "DECOUPE" && failure.text("ACTION") != "ITER_SUPPL") return std::nullopt;
+  solver::StepCutting rule;
+  rule.automatic = failure.text("SUBD_METHODE") == "AUTO";
+  rule.shortest = failure.real("SUBD_PAS_MINI");
+  if (rule.automatic) return rule;
+  rule.parts = static_cast<int>(failure.integer("SUBD_PAS"));
+  rule.depth = static_cast<int>(failure.integer("SUBD_NIVEAU"));
+  return rule;
 }
 
 solver::WatchedIncrement watched_increment(const Call& call, const Keywords& given) {
@@ -60,33 +62,90 @@ solver::WatchedIncrement watched_increment(const Call& call, const Keywords& giv
   return watched;
 }
 
-// Of several ADAPTATION the last one counts; with EVENEMENT='AUCUN' steps keep the length of the first.
-solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
-  solver::StepAdaptation rule;
-  if (list.has("PAS_MINI")) rule.shortest = list.real("PAS_MINI");
-  if (list.has("PAS_MAXI")) rule.longest = list.real("PAS_MAXI");
-  rule.most_steps = static_cast<long>(list.integer("NB_PAS_MAXI"));
-  for (const Keywords& given : call.factors("ADAPTATION")) {
-    const std::string event = given.text("EVENEMENT");
-    rule.wanted_iterations.reset();
-    rule.increment.reset();
-    rule.growth = 0.0;
-    if (event == "AUCUN") continue;
-    if (event == "SEUIL") {
-      rule.in_a_row = static_cast<int>(given.integer("NB_INCR_SEUIL"));
-      rule.few_iterations = static_cast<int>(given.integer("VALE_I")) - (given.text("CRIT_COMP") == "LT" ? 1 : 0);
-    } else {
-      rule.in_a_row = 1;
-      rule.few_iterations = std::numeric_limits<int>::max();
-    }
-    if (given.text("MODE_CALCUL_TPLUS") == "DELTA_GRANDEUR")
-      rule.increment = watched_increment(call, given);
-    else if (given.text("MODE_CALCUL_TPLUS") == "ITER_NEWTON")
-      rule.wanted_iterations = static_cast<int>(given.integer("NB_ITER_NEWTON_REF"));
-    else
-      rule.growth = given.real("PCENT_AUGM") / 100.0;
-  }
+// Without VALE_I it is half of ITER_GLOB_MAXI, which STAT_NON_LINE knows.
+void read_threshold(const Keywords& given, solver::AdaptationRule& rule) {
+  const std::string comparison = given.text("CRIT_COMP");
+  rule.in_a_row = static_cast<int>(given.integer("NB_INCR_SEUIL"));
+  rule.strict = comparison == "LT" || comparison == "GE";
+  rule.beyond = comparison == "GT" || comparison == "GE";
+  if (given.has("VALE_I")) rule.few_iterations = static_cast<int>(given.integer("VALE_I"));
+}
+
+solver::AdaptationRule adaptation_rule(const Call& call, const Keywords& given) {
+  solver::AdaptationRule rule;
+  rule.always = given.text("EVENEMENT") == "TOUT_INST";
+  if (!rule.always) read_threshold(given, rule);
+  const std::string mode = given.text("MODE_CALCUL_TPLUS");
+  if (mode == "DELTA_GRANDEUR")
+    rule.increment = watched_increment(call, given);
+  else if (mode == "ITER_NEWTON")
+    rule.wanted_iterations = static_cast<int>(given.integer("NB_ITER_NEWTON_REF"));
+  else
+    rule.growth = given.real("PCENT_AUGM") / 100.0;
   return rule;
+}
+
+// With EVENEMENT='AUCUN' steps keep the length that they have.
+solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
+  solver::StepAdaptation steps;
+  if (list.has("PAS_MINI")) steps.shortest = list.real("PAS_MINI");
+  if (list.has("PAS_MAXI")) steps.longest = list.real("PAS_MAXI");
+  steps.most_steps = static_cast<long>(list.integer("NB_PAS_MAXI"));
+  steps.rules.clear();
+  for (const Keywords& given : call.factors("ADAPTATION"))
+    if (given.text("EVENEMENT") != "AUCUN") steps.rules.push_back(adaptation_rule(call, given));
+  return steps;
+}
+
+constexpr std::pair<std::string_view, solver::StepEventKind> event_kinds[] = {
+    {"DIVE_RESI", solver::StepEventKind::divergence}, {"RESI_MAXI", solver::StepEventKind::residual},     {"DELTA_GRANDEUR", solver::StepEventKind::increment},
+    {"COLLISION", solver::StepEventKind::collision},  {"INTERPENETRATION", solver::StepEventKind::depth},
+};
+
+// Steps around a collision have a length of their own where the user gives one.
+void read_collision(const Keywords& given, solver::StepEvent& event) {
+  if (given.text("ACTION") != "DECOUPE" || given.text("SUBD_METHODE") != "AUTO") {
+    event.cutting = cutting(given);
+    return;
+  }
+  event.around = solver::CollisionSteps{given.real("SUBD_INST"), given.real("SUBD_DUREE")};
+}
+
+void read_depth(const Keywords& given, solver::StepEvent& event) {
+  event.limit = given.real("PENE_MAXI");
+  if (given.text("ACTION") == "ADAPT_COEF_PENA") event.most_stiffening = given.real("COEF_MAXI");
+}
+
+solver::StepEvent event_of(const Call& call, const Keywords& given, solver::StepEventKind kind) {
+  solver::StepEvent event;
+  event.kind = kind;
+  if (kind == solver::StepEventKind::collision) {
+    read_collision(given, event);
+    return event;
+  }
+  if (kind == solver::StepEventKind::depth) {
+    read_depth(given, event);
+    return event;
+  }
+  if (kind == solver::StepEventKind::residual) event.limit = given.real("RESI_GLOB_MAXI");
+  if (kind == solver::StepEventKind::increment) event.increment = watched_increment(call, given);
+  event.cutting = cutting(given);
+  return event;
+}
+
+// Of several occurrences for an event the last one counts; without one for ERREUR steps that fail are cut all the same (U4.34.03).
+void read_failures(const Call& call, solver::StepPlan& plan) {
+  plan.cutting = solver::StepCutting{};
+  for (const Keywords& given : call.factors("ECHEC")) {
+    const auto kind = std::ranges::find(event_kinds, given.text("EVENEMENT"), &std::pair<std::string_view, solver::StepEventKind>::first);
+    if (kind != std::end(event_kinds)) {
+      std::erase_if(plan.events, [&](const solver::StepEvent& known) { return known.kind == kind->second; });
+      plan.events.push_back(event_of(call, given, kind->second));
+      continue;
+    }
+    plan.cutting = cutting(given);
+    plan.further_iterations = given.text("ACTION") == "ITER_SUPPL" ? static_cast<double>(given.integer("PCENT_ITER_PLUS")) / 100.0 : 0.0;
+  }
 }
 
 }  // namespace
@@ -96,7 +155,7 @@ Product defi_list_inst(const Call& call, Context&) {
   auto product = std::make_shared<StepPlanConcept>();
   product->plan.instants = instants(list);
   check_rising(product->plan.instants, list);
-  product->plan.cutting = cutting(call);
+  read_failures(call, product->plan);
   if (call.text("METHODE") == "AUTO") product->plan.adaptation = adaptation(call, list);
   return product;
 }

@@ -130,6 +130,8 @@ solver::TangentPolicy tangent_policy(const Keywords& newton) {
   const std::string prediction = newton.has("PREDICTION") ? newton.text("PREDICTION") : newton.text("MATRICE");
   policy.prediction = prediction == "TANGENTE" || prediction == "ELASTIQUE" ? kind_named(prediction) : policy.correction;
   policy.steps = static_cast<int>(newton.integer("REAC_INCR"));
+  policy.elastic_below = newton.real("PAS_MINI_ELAS");
+  policy.elastic_iterations = static_cast<int>(newton.integer("REAC_ITER_ELAS"));
   if (newton.given("REAC_ITER")) policy.iterations = static_cast<int>(newton.integer("REAC_ITER"));
   return policy;
 }
@@ -200,8 +202,8 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
     if ((absolute || options.referred_residual) && !relative) options.relative_residual.reset();
     options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
-    if (options.tangent.correction == solver::TangentKind::elastic && convergence.has("ITER_GLOB_ELAS"))
-      options.max_iterations = std::max(options.max_iterations, static_cast<int>(convergence.integer("ITER_GLOB_ELAS")));
+    if (convergence.has("ITER_GLOB_ELAS")) options.max_elastic_iterations = static_cast<int>(convergence.integer("ITER_GLOB_ELAS"));
+    if (options.tangent.correction == solver::TangentKind::elastic) options.max_iterations = std::max(options.max_iterations, options.max_elastic_iterations);
   }
   const SolverChoice choice = solver_choice(call);
   options.method = choice.method;
@@ -252,7 +254,9 @@ Product stat_non_line(const Call& call, Context& context) {
   product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
   check_driven(call, product->problem);
-  const auto steps = steps_of(call.factor("INCREMENT"), initial.instant);
+  const solver::NewtonOptions options = newton_options(call, product->result.mesh());
+  solver::StepPlan steps = steps_of(call.factor("INCREMENT"), initial.instant);
+  if (steps.adaptation) steps.adaptation->usual_iterations = options.max_iterations / 2;
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
@@ -268,7 +272,7 @@ Product stat_non_line(const Call& call, Context& context) {
   };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
-    return solver::solve_static(product->problem, steps, newton_options(call, product->result.mesh()), product->result, context.counters, live_table(context), after_step);
+    return solver::solve_static(product->problem, steps, options, product->result, context.counters, live_table(context), after_step);
   };
   const auto doubts = solve();
   warn_of_indefinite_stiffness(call, before, context);

@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace comma::solver {
+namespace {
+
+/// The least limit is above 0: what is no larger than it passes.
+double excess_over(double limit, double value) { return value / std::max(limit, std::numeric_limits<double>::min()); }
+
+}  // namespace
 
 ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred) const {
   Measure result;
@@ -13,14 +20,14 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   result.relative = vanished ? -1.0 : residual / load;
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
   const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
-  const bool passes_relative = is_rounding || (vanished ? residual <= vanished_limit : result.relative <= relative_limit());
+  const double to_loads = is_rounding ? 0.0 : vanished ? excess_over(vanished_limit, residual) : excess_over(relative_limit(), result.relative);
   // One that is not given neither holds nor fails.
-  std::vector<bool> passed;
-  if (options_.absolute_residual) passed.push_back(residual <= *options_.absolute_residual);
-  if (options_.referred_residual) passed.push_back(is_rounding || referred <= *options_.referred_residual);
-  if (options_.relative_residual || passed.empty()) passed.push_back(passes_relative);
-  const auto holds = [](bool each) { return each; };
-  result.converged = options_.one_criterion ? std::ranges::any_of(passed, holds) : std::ranges::all_of(passed, holds);
+  std::vector<double> excesses;
+  if (options_.absolute_residual) excesses.push_back(excess_over(*options_.absolute_residual, residual));
+  if (options_.referred_residual) excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.referred_residual, referred));
+  if (options_.relative_residual || excesses.empty()) excesses.push_back(to_loads);
+  result.excess = options_.one_criterion ? std::ranges::min(excesses) : std::ranges::max(excesses);
+  result.converged = result.excess <= 1.0;
   return result;
 }
 

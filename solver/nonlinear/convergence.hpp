@@ -20,6 +20,7 @@ class ConvergenceCriterion {
     double absolute = 0.0;
     double relative = 0.0;  ///< -1 where the loads vanish
     bool converged = false;
+    double excess = 0.0;    ///< by what factor the residual exceeds what is asked; at most 1 where it has converged
   };
 
   /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes of it.

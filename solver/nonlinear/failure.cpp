@@ -1,5 +1,6 @@
 #include "solver/nonlinear/failure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -49,7 +50,7 @@ void throw_no_convergence(double time, std::span<const IterationReport> history,
   const IterationReport& last = history.back();
   throw Error("no-convergence",
               fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}, largest residual {:.3e} ({}){}", time,
-                          last.iteration, options.max_iterations, likely_cause(history, is_linear), last.absolute_residual,
+                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, is_linear), last.absolute_residual,
                           last.worst, table(history)),
               remedy(history, is_linear));
 }

@@ -40,8 +40,6 @@ constexpr double least_raise = 2.0;
 /// other: between the two, updates of the geometry do not go to and fro.
 constexpr double far_slide = 0.2;
 constexpr double short_slide = 0.1;
-/// Beyond, rounding of the gaps makes pressures.
-constexpr double most_raise = 1e12;
 
 double largest_entry(const RowMatrix& rows, int row) {
   double largest = 0.0;
@@ -517,15 +515,16 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
-    if (!mixed.penalised || !mixed.largest_depth || problem_.points[p].rows == 0) continue;
-    excess[zone] = std::max(excess[zone], -now[problem_.points[p].first_row] / *mixed.largest_depth);
+    const std::optional<double> limit = depth_limit_ ? depth_limit_ : mixed.largest_depth;
+    if (!mixed.penalised || !limit || problem_.points[p].rows == 0) continue;
+    excess[zone] = std::max(excess[zone], -now[problem_.points[p].first_row] / *limit);
   }
   bool raised = false;
   for (std::size_t zone = 0; zone < excess.size(); ++zone) {
     if (excess[zone] <= 1.0) continue;
     stiffening_[zone] *= std::max(least_raise, raise_margin * excess[zone]);
-    if (stiffening_[zone] > most_raise)
-      throw Error("no-convergence", fmt::format("a contact penalty {:g} times the one given does not keep points from going deeper than allowed", most_raise),
+    if (stiffening_[zone] > most_raise_)
+      throw Error("no-convergence", fmt::format("a contact penalty {:g} times the one given does not keep points from going deeper than allowed", most_raise_),
                   "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'");
     raised = true;
   }
@@ -535,6 +534,16 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     if (mixed.penalised) problem_.points[p].law.augmentation = mixed.augmentation * stiffening_[static_cast<std::size_t>(points_[p].zone)];
   }
   return true;
+}
+
+bool MixedContact::has_penalties() const {
+  return std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.penalised; });
+}
+
+std::vector<char> MixedContact::closed_points() const {
+  std::vector<char> closed;
+  for (const ContactStatus status : state_.statuses) closed.push_back(status != ContactStatus::open);
+  return closed;
 }
 
 int MixedContact::closed_count() const {

@@ -71,6 +71,15 @@ class MixedContact {
   int correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected);
 
   int closed_count() const;
+  /// Whether each point is closed, in the order of the points.
+  std::vector<char> closed_points() const;
+  /// Whether a zone gives way (ALGO_CONT='PENALISATION').
+  bool has_penalties() const;
+  /// From now on penalties are raised, at most by a factor, until no point is deeper than this (a length).
+  void limit_depth(double depth, double most_stiffening) {
+    depth_limit_ = depth;
+    most_raise_ = most_stiffening;
+  }
   /// The largest depth of a point at u (a length).
   double penetration(const Eigen::VectorXd& u) const;
   const std::vector<ContactPoint>& points() const { return points_; }
@@ -139,6 +148,8 @@ class MixedContact {
   std::map<Key, int> multiplier_numbers_;
   int dimension_ = 3;
   std::vector<double> stiffening_;  ///< by which the penalty of each zone is raised, >= 1
+  std::optional<double> depth_limit_;  ///< of all zones, in place of their own
+  double most_raise_ = 1e12;           ///< beyond, rounding of the gaps makes pressures
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;

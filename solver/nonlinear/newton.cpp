@@ -55,7 +55,19 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       observer_(observer),
       criterion_(options),
       reference_(reference),
-      prediction_(options.tangent.prediction) {}
+      prediction_(options.tangent.prediction),
+      policy_(options.tangent),
+      most_iterations_(options.max_iterations) {}
+
+void NewtonSolver::start_step(double duration) {
+  policy_ = options_.tangent;
+  most_iterations_ = options_.max_iterations;
+  is_short_ = duration < policy_.elastic_below;
+  if (!is_short_) return;
+  policy_.correction = TangentKind::elastic;
+  policy_.iterations = policy_.elastic_iterations;
+  most_iterations_ = std::max(most_iterations_, options_.max_elastic_iterations);
+}
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
                         const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
@@ -63,8 +75,9 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
   take_conditions(conditions, offset, state);
   start(external, offset, state);
   std::vector<IterationReport> history;
-  for (int iteration = 1; iteration <= std::max(1, options_.max_iterations - earlier); ++iteration) {
-    if (iteration > 1 && is_tangent_due(options_.tangent, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
+  int most = std::max(1, most_iterations_ - earlier);
+  for (int iteration = 1; iteration <= most; ++iteration) {
+    if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
     Correction correction = correct(state, offset);
@@ -82,8 +95,19 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;
+    look_at_residuals(watch_, history);
+    if (iteration == most && earlier + most == most_iterations_) most += further_iterations(time, history, measure.excess);
   }
   fail(time, history);
+}
+
+/// Beyond the most, where the residuals promise to get there in so many.
+int NewtonSolver::further_iterations(double time, const std::vector<IterationReport>& history, double excess) const {
+  const int allowed = static_cast<int>(watch_.further * most_iterations_);
+  const std::optional<int> needed = allowed > 0 ? iterations_to_go(history, excess) : std::nullopt;
+  if (!needed || *needed > allowed) return 0;
+  if (observer_) observer_(event_of_step(time, fmt::format("{} more iterations are allowed: the residual shrinks as if it took {}", allowed, *needed)));
+  return allowed;
 }
 
 /// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the conditions on
@@ -93,7 +117,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
-  if (is_tangent_due(options_.tangent, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   evaluate(state, external);
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }

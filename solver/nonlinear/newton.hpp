@@ -15,6 +15,7 @@
 #include "solver/nonlinear/convergence.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
+#include "solver/nonlinear/residual_watch.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 #include "solver/unilateral/active_set.hpp"
@@ -46,7 +47,7 @@ class NewtonSolver {
   /// Iterates to convergence at a time. `earlier`: iterations of the same step before, which count among those allowed, though one is
   /// always. `active_set_limit`: changes of the active set allowed in one iteration.
   /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
-  /// `singular-matrix`.
+  /// `singular-matrix`, and what look_at_residuals throws.
   int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
             int earlier, int active_set_limit, NewtonState& state);
 
@@ -55,6 +56,12 @@ class NewtonSolver {
 
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
+
+  /// The next solutions belong to a step of this length (s), which may be short enough for the elastic stiffness.
+  void start_step(double duration);
+
+  /// What residuals may do from now on.
+  void watch(const ResidualWatch& residuals) { watch_ = residuals; }
 
   /// How far contact forces move the conditions' nodes, at most (a length).
   double pushed_back();
@@ -77,11 +84,12 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
-  TangentKind kind_of(int iteration) const { return iteration == 1 ? prediction_ : options_.tangent.correction; }
+  TangentKind kind_of(int iteration) const { return iteration == 1 && !is_short_ ? prediction_ : policy_.correction; }
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
+  int further_iterations(double time, const std::vector<IterationReport>& history, double excess) const;
   bool searches(int iteration) const;
   void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
@@ -128,6 +136,10 @@ class NewtonSolver {
   double applied_ = 0.0;  ///< the largest component of the external forces
   int steps_ = 0;                    ///< accepted so far
   TangentKind prediction_;
+  TangentPolicy policy_;         ///< of this step
+  bool is_short_ = false;        ///< this step takes the elastic stiffness because of its length
+  int most_iterations_;          ///< of this step
+  ResidualWatch watch_;
 };
 
 }  // namespace comma::solver

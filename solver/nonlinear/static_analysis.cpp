@@ -28,6 +28,8 @@ using Eigen::Vector3d;
 constexpr int cycle_length_limit = 4;
 /// Displacements of a step below this share of the whole ones are rounding.
 constexpr double rounding_share = 1e-11;
+/// Where nothing tells how far a step might have gone.
+constexpr double half_a_step = 0.5;
 
 class StaticAnalysis {
  public:
@@ -66,6 +68,7 @@ class StaticAnalysis {
 
   void run(const StepPlan& plan) {
     if (plan.instants.empty()) return;
+    plan_ = &plan;
     start(plan.instants.front());
     watch(plan);
     if (mixed_) mixed_->iterate_jointly(iterates_jointly(plan));
@@ -85,7 +88,7 @@ class StaticAnalysis {
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
       last_duration_ = instant - from;
-      sequence.accept(*iterations, watched_change());
+      sequence.accept(*iterations, watched_changes());
       if (path_ && path_->has_ended()) return;
     }
     if (passed_master_) passed_master_->conclude(doubts_);
@@ -103,19 +106,90 @@ class StaticAnalysis {
     ConditionSet conditions;
   };
 
-  /// The number of iterations; nothing when the step has failed and is cut. Throws what a step that cannot be cut throws.
+  /// One whose change adapts steps.
+  struct WatchedField {
+    WatchedIncrement increment;
+    std::vector<double> before;
+  };
+
+  /// The number of iterations; nothing when the step has failed, or does what it must not, and is cut. Throws what a step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence) {
     const Progress before = now_;
+    const std::vector<char> closed_before = closed_points();
+    share_of_step_ = half_a_step;
     if (mixed_) mixed_->remember();
     try {
-      return solve_from_either_side(instant, before);
+      const int iterations = solve_from_either_side(instant, before);
+      check_increment(instant);
+      check_depth(instant);
+      if (!refines_collision(closed_before, sequence)) return iterations;
+      return take_again(instant, before, sequence, "meets a change of contact");
     } catch (const Error& error) {
-      if (!is_failure_of_step(error.code())) throw advised(error);
-      if (!sequence.cut()) return solve_as_last_resort(instant, before, error);
-      take_back(before);
-      if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and is cut: on to {:.6g}", instant, sequence.target())));
-      return std::nullopt;
+      const StepEvent* event = event_behind(error.code());
+      if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error);
+      if (event ? !event->cutting || !sequence.cut(*event->cutting, share_of_step_) : !sequence.cut()) {
+        if (event) throw;
+        return solve_as_last_resort(instant, before, error);
+      }
+      return take_again(instant, before, sequence, event ? fmt::format("has failed ({})", error.code()) : "has failed");
     }
+  }
+
+  std::nullopt_t take_again(double instant, const Progress& before, const StepSequence& sequence, std::string_view why) {
+    take_back(before);
+    if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
+    return std::nullopt;
+  }
+
+  /// The event of the plan that an error stands for; null: none.
+  const StepEvent* event_behind(std::string_view code) const {
+    if (code == "residual-diverges") return plan_->event(StepEventKind::divergence);
+    if (code == "residual-too-large") return plan_->event(StepEventKind::residual);
+    if (code == "increment-too-large") return plan_->event(StepEventKind::increment);
+    return code == "contact-too-deep" ? plan_->event(StepEventKind::depth) : nullptr;
+  }
+
+  void check_increment(double instant) {
+    const StepEvent* event = plan_->event(StepEventKind::increment);
+    if (event == nullptr) return;
+    const WatchedIncrement& watched = *event->increment;
+    const double change = largest_change(watched_values(watched, result_.steps.back(), mesh_), watched_values(watched, fields_now(instant), mesh_));
+    constexpr double rounding = 1e-9;
+    if (change <= watched.wanted * (1.0 + rounding)) return;
+    constexpr double least_share = 0.05;
+    share_of_step_ = std::clamp(watched.wanted / change, least_share, 1.0 - least_share);
+    throw Error("increment-too-large", fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant, watched.component, watched.field,
+                                                   change, watched.wanted),
+                "take smaller steps, or allow more (VALE_REF)");
+  }
+
+  void check_depth(double instant) const {
+    const StepEvent* event = plan_->event(StepEventKind::depth);
+    if (event == nullptr || !mixed_) return;
+    const double depth = mixed_->penetration(now_.state.u);
+    if (depth <= event->limit) return;
+    throw Error("contact-too-deep", fmt::format("t = {:.6g}: a point of contact is {:.4g} deep, more than the {:.4g} allowed", instant, depth, event->limit),
+                "take a larger penalty, or let it be raised (ACTION='ADAPT_COEF_PENA')");
+  }
+
+  /// Which points of contact are closed, one after the other.
+  std::vector<char> closed_points() const {
+    if (mixed_) return mixed_->closed_points();
+    std::vector<char> closed;
+    for (const double multiplier : now_.state.multipliers) closed.push_back(multiplier > 0.0);
+    return closed;
+  }
+
+  /// A step in which points close or open is taken again, shorter, as long as it may be: then it stands.
+  bool refines_collision(const std::vector<char>& before, StepSequence& sequence) const {
+    const StepEvent* event = plan_->event(StepEventKind::collision);
+    if (event == nullptr) return false;
+    const std::vector<char> now = closed_points();
+    if (before.size() != now.size() || before == now) return false;
+    if (event->around) return sequence.refine(*event->around);
+    if (event->cutting) return sequence.cut(*event->cutting);
+    throw Error("contact-changes", fmt::format("points of contact close or open in the step to t = {:.6g}, and the computation is to stop there", sequence.target()),
+                "write ACTION='DECOUPE' to go on in shorter steps");
   }
 
   /// Bodies that remember and steps that may be cut: where Newton's method takes statuses and geometry along, as Code_Aster does, steps are cut where
@@ -146,7 +220,7 @@ class StaticAnalysis {
       if (!may_unload || !is_failure_of_step(error.code())) throw;
     }
     take_back(before);
-    if (observer_) observer_(event(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
+    if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
     newton_.predict_with(TangentKind::elastic);
     const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
     return solve_and_check(instant);
@@ -179,40 +253,56 @@ class StaticAnalysis {
     return Error(error.code(), error.what(), otherwise + error.hint());
   }
 
-  static IterationReport event(double instant, std::string text) {
-    IterationReport report;
-    report.instant = instant;
-    report.event = std::move(text);
-    return report;
-  }
-
   void require_symmetry() const {
     if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
     throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
                 "leave out the unsymmetric element or the conditions");
   }
 
-  /// Continua alone know how.
+  /// Continua and bars alone know how.
   void require_extrapolation() const {
     for (std::size_t cell = 0; problem_.behaviours && cell < problem_.behaviours->size(); ++cell) {
       const Formulation formulation = problem_.model->formulations[cell];
-      if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || (*problem_.behaviours)[cell].relation == Relation::elastic) continue;
-      throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua alone", mesh_.cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
+      const bool is_bar = formulation == Formulation::bar || formulation == Formulation::bar_2d;
+      if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || is_bar || (*problem_.behaviours)[cell].relation == Relation::elastic) continue;
+      throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua and bars alone", mesh_.cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
     }
   }
 
   void watch(const StepPlan& plan) {
-    if (!plan.adaptation || !plan.adaptation->increment) return;
-    watched_ = plan.adaptation->increment;
-    watched_before_ = watched_values(*watched_, result_.steps.back(), mesh_);
+    const bool watches_residuals = plan.event(StepEventKind::divergence) || plan.event(StepEventKind::residual) || plan.further_iterations > 0.0;
+    if (path_ && (watches_residuals || options_.tangent.elastic_below > 0.0))
+      throw Error("unsupported", "where the intensity of loads is sought, residuals are not watched on the way and steps take one kind of stiffness",
+                  "leave out DIVE_RESI, RESI_MAXI, ITER_SUPPL and PAS_MINI_ELAS");
+    newton_.watch(residual_watch(plan));
+    require_contact_to_watch(plan);
+    limit_depth(plan.event(StepEventKind::depth));
+    if (!plan.adaptation) return;
+    for (const AdaptationRule& rule : plan.adaptation->rules)
+      if (rule.increment) watched_.push_back({*rule.increment, watched_values(*rule.increment, result_.steps.back(), mesh_)});
   }
 
-  /// Of the watched field in the step that has just been archived; 0 where none is.
-  double watched_change() {
-    if (!watched_) return 0.0;
-    auto now = watched_values(*watched_, result_.steps.back(), mesh_);
-    std::swap(now, watched_before_);
-    return largest_change(now, watched_before_);
+  void require_contact_to_watch(const StepPlan& plan) const {
+    if (plan.event(StepEventKind::collision) == nullptr || problem_.contact || !problem_.unilateral.empty()) return;
+    throw Error("contradictory-keywords", "nothing here can close or open, which is watched (EVENEMENT='COLLISION')", "give CONTACT, or leave out the event");
+  }
+
+  void limit_depth(const StepEvent* event) {
+    if (event == nullptr) return;
+    if (!mixed_ || !mixed_->has_penalties())
+      throw Error("contradictory-keywords", "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')", "take ALGO_CONT='PENALISATION', or leave out the event");
+    if (event->most_stiffening) mixed_->limit_depth(event->limit, *event->most_stiffening);
+  }
+
+  /// Of the watched fields in the step that has just been archived.
+  std::vector<double> watched_changes() {
+    std::vector<double> changes;
+    for (WatchedField& each : watched_) {
+      auto now = watched_values(each.increment, result_.steps.back(), mesh_);
+      std::swap(now, each.before);
+      changes.push_back(largest_change(now, each.before));
+    }
+    return changes;
   }
 
   /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
@@ -462,6 +552,7 @@ class StaticAnalysis {
   int solve_step(double time) {
     assembler_.set_time(time);
     followers_.set_time(time);
+    newton_.start_step(time - last_instant_);
     if (path_) {
       start_ = now_.state.u;
       return path_->solve(time, time - last_instant_, driven_loads(time), now_.state.reduced, now_.state.u);
@@ -491,7 +582,7 @@ class StaticAnalysis {
         const auto balance = [&] { return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state); };
         iterations = earlier + balance();
         while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
-          if (observer_) observer_(event(time, "contact is deeper than allowed: its penalty is raised"));
+          if (observer_) observer_(event_of_step(time, "contact is deeper than allowed: its penalty is raised"));
           iterations += balance();
         }
       }
@@ -577,13 +668,19 @@ class StaticAnalysis {
     return field;
   }
 
-  void archive(double instant, int iterations) {
+  /// Displacements, stresses and internal variables.
+  ResultStep fields_now(double instant) const {
     ResultStep step;
     step.order = result_.steps.back().order + 1;
     step.instant = instant;
     step.fields.emplace("DEPL", displacements());
     step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
     add_internal_variables(step);
+    return step;
+  }
+
+  void archive(double instant, int iterations) {
+    ResultStep step = fields_now(instant);
     if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
     add_patch_state(step);
     step.parameters["ITER_GLOB"] = iterations;
@@ -681,8 +778,9 @@ class StaticAnalysis {
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
-  std::optional<WatchedIncrement> watched_;
-  std::vector<double> watched_before_;
+  const StepPlan* plan_ = nullptr;
+  double share_of_step_ = half_a_step;  ///< how much of it a step that failed might have gone
+  std::vector<WatchedField> watched_;
 };
 
 }  // namespace

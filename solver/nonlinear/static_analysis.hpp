@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/contact/definition.hpp"
@@ -65,6 +66,8 @@ struct TangentPolicy {
   TangentKind correction = TangentKind::tangent;  ///< of the others
   int steps = 1;       ///< REAC_INCR: made again for the first iteration of so many steps; 0: never
   int iterations = 1;  ///< REAC_ITER: and after so many iterations within a step; 0: never
+  double elastic_below = 0.0;  ///< s, PAS_MINI_ELAS: shorter steps take the elastic stiffness ...
+  int elastic_iterations = 0;  ///< ... and REAC_ITER_ELAS in place of REAC_ITER
 };
 
 /// How far to go along a correction d of Newton's method (R5.03.01, RECH_LINEAIRE): where the work of the residual on d, g(rho) = d . R(u + rho d),
@@ -99,6 +102,7 @@ struct NewtonOptions {
   ReferenceEfforts reference;
   bool one_criterion = false;                      ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
+  int max_elastic_iterations = 25;                 ///< ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
   TangentPolicy tangent;
@@ -123,6 +127,14 @@ struct IterationReport {
   std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 
+/// A line that tells what happened to the step to an instant.
+inline IterationReport event_of_step(double instant, std::string text) {
+  IterationReport report;
+  report.instant = instant;
+  report.event = std::move(text);
+  return report;
+}
+
 /// Called after each Newton iteration and when a step is cut; may be empty.
 using IterationObserver = std::function<void(const IterationReport&)>;
 
@@ -135,7 +147,8 @@ using StepObserver = std::function<void(Result& result)>;
 /// intensity of loads is an unknown (whose last step is the one that reaches a bound). Steps already appended stay when it throws.
 /// A pressure that follows the body makes the tangent unsymmetric; with contact or unilateral conditions its symmetric half is taken.
 /// Errors: `integration-failure` (the law at a point), `no-convergence` (residual history, worst node and component, likely cause), `singular-matrix` (nodes,
-/// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`.
+/// components, the rigid motion that nothing holds, what would hold it), `contradictory-conditions`, `contact-cycling`; of the plan's events
+/// `residual-diverges`, `residual-too-large`, `increment-too-large`, `contact-too-deep`, `contact-changes`, where steps may not be cut (any more).
 /// Returns what may be wrong with the contact of the solution although its equations are solved.
 ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                            Result& result, Counters& counters, const IterationObserver& observer = {}, const StepObserver& after_step = {});

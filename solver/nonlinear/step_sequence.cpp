@@ -14,12 +14,31 @@ namespace {
 /// A step that ends this close before an instant of the list goes to that instant.
 constexpr double same_instant = 1e-9;
 
+bool is_easy(const AdaptationRule& rule, int usual_iterations, int iterations) {
+  // GE counts from one less on, as LT counts up to one less.
+  const int few = rule.few_iterations.value_or(usual_iterations) - (rule.strict ? 1 : 0);
+  return (iterations <= few) != rule.beyond;
+}
+
+double factor_of(const AdaptationRule& rule, int iterations, double change) {
+  if (rule.increment) return change > 0.0 ? rule.increment->wanted / change : 1.0;
+  if (rule.wanted_iterations) return std::sqrt(static_cast<double>(*rule.wanted_iterations) / (iterations + 1));
+  return 1.0 + rule.growth;
+}
+
 }  // namespace
 
-StepSequence::StepSequence(StepPlan plan) : plan_(std::move(plan)), now_(plan_.instants.front()), length_(0.0) {
+const StepEvent* StepPlan::event(StepEventKind kind) const {
+  const auto found = std::ranges::find(events, kind, &StepEvent::kind);
+  return found == events.end() ? nullptr : &*found;
+}
+
+StepSequence::StepSequence(StepPlan plan) : plan_(std::move(plan)), now_(plan_.instants.front()), length_(0.0), fine_until_(now_) {
   for (std::size_t k = plan_.instants.size(); k-- > 1;) pending_.push_back({plan_.instants[k], 0});
   if (!pending_.empty()) length_ = pending_.back().instant - now_;
-  if (plan_.adaptation) length_ = std::min(length_, plan_.adaptation->longest);
+  if (!plan_.adaptation) return;
+  length_ = std::min(length_, plan_.adaptation->longest);
+  easy_steps_.assign(plan_.adaptation->rules.size(), 0);
 }
 
 double StepSequence::adapted_target() const {
@@ -28,11 +47,24 @@ double StepSequence::adapted_target() const {
   return wanted >= wall - same_instant * (wall - now_) ? wall : wanted;
 }
 
-double StepSequence::target() const {
+double StepSequence::planned_target() const {
   return plan_.adaptation && pending_.back().depth == 0 ? adapted_target() : pending_.back().instant;
 }
 
-void StepSequence::accept(int iterations, double increment) {
+double StepSequence::target() const {
+  const double planned = planned_target();
+  const double fine = now_ + around_.length;
+  return now_ < fine_until_ && fine < planned - same_instant * around_.length ? fine : planned;
+}
+
+bool StepSequence::refine(const CollisionSteps& around) {
+  if (target() - now_ <= around.length * (1.0 + same_instant)) return false;
+  around_ = around;
+  fine_until_ = now_ + around.duration;
+  return true;
+}
+
+void StepSequence::accept(int iterations, std::span<const double> changes) {
   const double reached = target();
   const double length = reached - now_;
   now_ = reached;
@@ -42,38 +74,47 @@ void StepSequence::accept(int iterations, double increment) {
   if (++steps_ >= plan_.adaptation->most_steps && !finished())
     throw Error("too-many-steps", fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
                 "raise NB_PAS_MAXI or PAS_MINI");
-  // A step cut short by an instant of the list says nothing about the length to take.
-  adapt(whole && !plan_.adaptation->increment ? std::max(length_, length) : length, iterations, increment);
+  // A step that an instant of the list made shorter leaves the length as it was planned; the change of a field counts as it was (ssnp140g).
+  adapt(whole ? length_ : length, iterations, changes);
 }
 
-void StepSequence::adapt(double length, int iterations, double increment) {
-  const StepAdaptation& rule = *plan_.adaptation;
-  length_ = length;
-  if (rule.increment) {
-    if (increment > 0.0) length_ *= rule.increment->wanted / increment;
-  } else if (rule.wanted_iterations) {
-    length_ *= std::sqrt(static_cast<double>(*rule.wanted_iterations) / (iterations + 1));
-  } else {
-    easy_steps_ = iterations <= rule.few_iterations ? easy_steps_ + 1 : 0;
-    if (easy_steps_ < rule.in_a_row) return;
-    easy_steps_ = 0;
-    length_ *= 1.0 + rule.growth;
+void StepSequence::adapt(double length, int iterations, std::span<const double> changes) {
+  const StepAdaptation& adaptation = *plan_.adaptation;
+  std::optional<double> factor;
+  std::size_t read = 0;
+  for (std::size_t k = 0; k < adaptation.rules.size(); ++k) {
+    const AdaptationRule& rule = adaptation.rules[k];
+    const double change = rule.increment && read < changes.size() ? changes[read++] : 0.0;
+    easy_steps_[k] = is_easy(rule, adaptation.usual_iterations, iterations) ? easy_steps_[k] + 1 : 0;
+    if (!rule.always && easy_steps_[k] < rule.in_a_row) continue;
+    easy_steps_[k] = 0;
+    factor = std::min(factor.value_or(std::numeric_limits<double>::infinity()), factor_of(rule, iterations, change));
   }
-  length_ = std::clamp(length_, rule.shortest, std::max(rule.shortest, rule.longest));
+  length_ = length;
+  if (factor) length_ = std::clamp(length_ * *factor, adaptation.shortest, std::max(adaptation.shortest, adaptation.longest));
 }
 
-bool StepSequence::cut() {
-  if (!plan_.cutting) return false;
+bool StepSequence::cut() { return plan_.cutting && cut(*plan_.cutting); }
+
+bool StepSequence::cut(const StepCutting& rule, double share) {
   const double end = target();
   const int depth = pending_.back().depth;
-  const StepCutting& rule = *plan_.cutting;
-  const double part = (end - now_) / rule.parts;
+  const double first = (end - now_) * (rule.automatic ? share : 1.0 / rule.parts);
   const double shortest = std::max(rule.shortest, plan_.adaptation ? plan_.adaptation->shortest : 0.0);
-  if (depth >= rule.depth || part < shortest || now_ + part <= now_) return false;
+  if (depth >= (rule.automatic ? automatic_depth : rule.depth) || first < shortest || now_ + first <= now_) return false;
   if (end >= pending_.back().instant) pending_.pop_back();
-  for (int k = rule.parts; k > 0; --k) pending_.push_back({k == rule.parts ? end : now_ + k * part, depth + 1});
-  easy_steps_ = 0;
+  push_parts(rule, end, depth + 1, share);
+  std::ranges::fill(easy_steps_, 0);
   return true;
+}
+
+void StepSequence::push_parts(const StepCutting& rule, double end, int depth, double share) {
+  pending_.push_back({end, depth});
+  if (rule.automatic) {
+    pending_.push_back({now_ + share * (end - now_), depth});
+    return;
+  }
+  for (int k = rule.parts - 1; k > 0; --k) pending_.push_back({now_ + k * ((end - now_) / rule.parts), depth});
 }
 
 }  // namespace comma::solver

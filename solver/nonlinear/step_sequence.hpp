@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,11 @@ struct StepCutting {
   int parts = 4;          ///< SUBD_PAS
   int depth = 3;          ///< SUBD_NIVEAU: how often a step and its parts may be cut
   double shortest = 0.0;  ///< s, SUBD_PAS_MINI: no part may be shorter
+  bool automatic = false;  ///< SUBD_METHODE='AUTO': into two, the first as long as what went wrong suggests, half where it does not, `automatic_depth` times
 };
+
+/// How often a step may be cut where the program chooses the parts.
+inline constexpr int automatic_depth = 20;
 
 /// A field whose change in a step is watched.
 struct WatchedIncrement {
@@ -25,26 +31,64 @@ struct WatchedIncrement {
   double wanted = 0.0;     ///< VALE_REF: the largest change of a step that is aimed at
 };
 
-/// Steps between the instants of the list adapt to the number of Newton iterations (U4.34.03, ADAPTATION).
+/// What a step must not do besides failing to converge (U4.34.03, EVENEMENT).
+enum class StepEventKind : std::uint8_t {
+  divergence,  ///< DIVE_RESI: neither of the last two residuals is below the one before them
+  residual,    ///< RESI_MAXI: a residual beyond a limit
+  increment,   ///< DELTA_GRANDEUR: a field changes by more than a limit
+  collision,   ///< COLLISION: points of contact close or open
+  depth        ///< INTERPENETRATION: a penalised point goes deeper than a limit
+};
+
+/// Around a collision steps are no longer than a length, for a while (SUBD_INST, SUBD_DUREE).
+struct CollisionSteps {
+  double length = 0.0;    ///< s
+  double duration = 0.0;  ///< s
+};
+
+struct StepEvent {
+  StepEventKind kind = StepEventKind::divergence;
+  double limit = 0.0;                         ///< N of a residual, m of a depth
+  std::optional<WatchedIncrement> increment;  ///< of `increment`: its `wanted` is the limit
+  std::optional<StepCutting> cutting;         ///< absent: the computation ends, unless one of the two below says what is done
+  std::optional<CollisionSteps> around;       ///< of `collision`
+  std::optional<double> most_stiffening;      ///< of `depth`: the penalty is raised, at most by this factor (COEF_MAXI)
+};
+
+/// By what factor the next step is longer, and when (U4.34.03, an occurrence of ADAPTATION).
+struct AdaptationRule {
+  bool always = false;                ///< TOUT_INST: after each step; else after some with few iterations
+  std::optional<int> few_iterations;  ///< VALE_I: with at most so many; absent: `usual_iterations`
+  bool strict = false;                ///< CRIT_COMP LT, GE: with fewer
+  bool beyond = false;                ///< CRIT_COMP GT, GE: with more instead
+  int in_a_row = 2;                   ///< NB_INCR_SEUIL: in so many steps one after the other
+  double growth = 1.0;                ///< PCENT_AUGM: longer by this share
+  std::optional<int> wanted_iterations;       ///< NB_ITER_NEWTON_REF: instead, by sqrt(wanted / (taken + 1))
+  std::optional<WatchedIncrement> increment;  ///< DELTA_GRANDEUR: instead, by wanted / largest change in the last
+};
+
+/// Steps between the instants of the list adapt: of the rules whose time has come the one with the smallest factor counts.
 struct StepAdaptation {
   double shortest = 0.0;                                   ///< s, PAS_MINI
   double longest = std::numeric_limits<double>::infinity();  ///< s, PAS_MAXI
   long most_steps = 1000000;                               ///< NB_PAS_MAXI
-  int few_iterations = 5;  ///< VALE_I: with at most so many ...
-  int in_a_row = 2;        ///< NB_INCR_SEUIL: ... in so many steps one after the other ...
-  double growth = 1.0;     ///< PCENT_AUGM: ... the next is longer by this share
-  std::optional<int> wanted_iterations;  ///< NB_ITER_NEWTON_REF: instead, each step is longer by sqrt(wanted / (taken + 1))
-  std::optional<WatchedIncrement> increment;  ///< DELTA_GRANDEUR: instead, each step is longer by wanted / largest change in the last
+  int usual_iterations = 5;  ///< half of the most that Newton's method may take
+  std::vector<AdaptationRule> rules = {AdaptationRule()};
 };
 
 struct StepPlan {
   std::vector<double> instants;  ///< s, rising; the first is the initial state
   std::optional<StepCutting> cutting;
   std::optional<StepAdaptation> adaptation;
+  std::vector<StepEvent> events;
+  double further_iterations = 0.0;  ///< PCENT_ITER_PLUS: share of the most iterations that is allowed beyond them where the residuals promise to get there
 
   StepPlan() = default;
   /// The instants as they are; a step that fails ends the computation.
   StepPlan(std::vector<double> given) : instants(std::move(given)) {}
+
+  /// The first of a kind; null where there is none.
+  const StepEvent* event(StepEventKind kind) const;
 };
 
 /// Walks through a plan.
@@ -55,10 +99,15 @@ class StepSequence {
   bool finished() const { return pending_.empty(); }
   /// Where the next step goes to.
   double target() const;
-  /// It has converged, in so many iterations and with such a largest change of the watched field. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
-  void accept(int iterations, double increment = 0.0);
-  /// It has failed: false when it may not be cut, else the next target is nearer.
+  /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that watches one. Throws Error `too-many-steps` beyond
+  /// StepAdaptation::most_steps.
+  void accept(int iterations, std::span<const double> changes = {});
+  /// It has failed: false when it may not be cut, else the next target is nearer. By the plan's rule, or by another; `share`: how long the first part
+  /// of an automatic cut should be.
   bool cut();
+  bool cut(const StepCutting& rule, double share = 0.5);
+  /// Steps from here on are no longer than these; false where this one is not.
+  bool refine(const CollisionSteps& around);
 
  private:
   struct Stop {
@@ -66,14 +115,18 @@ class StepSequence {
     int depth;  ///< how often the step towards it has been cut
   };
 
+  double planned_target() const;
   double adapted_target() const;
-  void adapt(double length, int iterations, double increment);
+  void push_parts(const StepCutting& rule, double end, int depth, double share);
+  void adapt(double length, int iterations, std::span<const double> changes);
 
   StepPlan plan_;
   double now_;
   std::vector<Stop> pending_;  ///< the nearest last
   double length_;              ///< s, of the next adapted step
-  int easy_steps_ = 0;
+  CollisionSteps around_;
+  double fine_until_;  ///< s: no step before it is longer than that of `around_`
+  std::vector<int> easy_steps_;  ///< one after the other, by rule
   long steps_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "solver/nonlinear/step_sequence.hpp"
 
+#include <array>
+
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
@@ -57,6 +59,50 @@ TEST_CASE("cutting ends at the depth and at the shortest step allowed") {
   CHECK(last == 0.25);
 }
 
+TEST_CASE("a step may be cut in two where the program chooses the parts") {
+  StepSequence sequence(StepPlan({0.0, 1.0}));
+  StepCutting rule;
+  rule.automatic = true;
+  CHECK(sequence.cut(rule, 0.3));
+  CHECK(sequence.target() == 0.3);
+  sequence.accept(1);
+  CHECK(sequence.target() == 1.0);
+  CHECK(sequence.cut(rule));
+  CHECK(sequence.target() == Approx(0.65));
+  int cuts = 2;
+  while (sequence.cut(rule)) ++cuts;
+  CHECK(cuts > 10);
+  CHECK(cuts <= automatic_depth + 1);
+}
+
+TEST_CASE("for a while steps are no longer than a length, and meet the instants of the list") {
+  StepSequence sequence(StepPlan({0.0, 1.0, 2.0}));
+  CHECK(sequence.refine({0.4, 1.5}));
+  CHECK_FALSE(sequence.refine({0.4, 1.5}));
+  std::vector<double> reached;
+  while (!sequence.finished()) {
+    reached.push_back(sequence.target());
+    sequence.accept(1);
+  }
+  const std::vector<double> expected = {0.4, 0.8, 1.0, 1.4, 1.8, 2.0};
+  REQUIRE(reached.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == Approx(expected[k]));
+}
+
+TEST_CASE("hard steps make the next ones shorter where that is asked for") {
+  StepPlan plan({0.0, 1.0, 2.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->rules[0].beyond = true;
+  plan.adaptation->rules[0].few_iterations = 5;
+  plan.adaptation->rules[0].in_a_row = 1;
+  plan.adaptation->rules[0].growth = -0.5;
+  CHECK(walk(plan, 5, never) == std::vector<double>{1.0, 2.0});
+  const std::vector<double> hard = walk(plan, 6, [](double now, double) { return now > 1.9; });
+  REQUIRE(hard.size() > 3);
+  CHECK(hard[1] == 1.5);
+  CHECK(hard[2] == 1.75);
+}
+
 TEST_CASE("easy steps grow, and still meet the instants of the list") {
   StepPlan plan({0.0, 1.0, 8.0, 9.0});
   plan.adaptation = StepAdaptation{};
@@ -68,23 +114,38 @@ TEST_CASE("easy steps grow, and still meet the instants of the list") {
   CHECK_THROWS_WITH(walk(plan, 3, never), Catch::Contains("after 4 steps"));
 }
 
+TEST_CASE("of several rules for steps the one that makes them shortest counts") {
+  StepPlan plan({0.0, 1.0, 20.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->rules.assign(2, AdaptationRule());
+  plan.adaptation->rules[0].in_a_row = 1;
+  plan.adaptation->rules[1].growth = 0.5;
+  // Doubled after the first step; after the second both rules hold.
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 3.0, 6.0, 12.0, 20.0});
+  // Where none holds steps keep their length.
+  plan.adaptation->usual_iterations = 2;
+  CHECK(walk(plan, 3, never).size() == 20);
+}
+
 TEST_CASE("steps aim at a number of iterations") {
   StepPlan plan({0.0, 1.0, 10.0});
   plan.adaptation = StepAdaptation{};
-  plan.adaptation->wanted_iterations = 4;
+  plan.adaptation->rules[0].always = true;
+  plan.adaptation->rules[0].wanted_iterations = 4;
   CHECK(walk(plan, 0, never) == std::vector<double>{1.0, 3.0, 7.0, 10.0});
 }
 
 TEST_CASE("steps adapt so that a watched field changes by as much as is wanted") {
   StepPlan plan({0.0, 0.5, 2.0});
   plan.adaptation = StepAdaptation{};
-  plan.adaptation->increment = WatchedIncrement{"DEPL", "DX", {}, {}, 0.3};
+  plan.adaptation->rules[0].always = true;
+  plan.adaptation->rules[0].increment = WatchedIncrement{"DEPL", "DX", {}, {}, 0.3};
   StepSequence sequence(plan);
   std::vector<double> reached;
   // The field is t^2: from 0.1 on a step of length h aims at h * 0.3 / change for the next.
   for (double now = 0.0; !sequence.finished();) {
     const double target = sequence.target();
-    sequence.accept(1, target * target - now * now);
+    sequence.accept(1, std::array{target * target - now * now});
     reached.push_back(now = target);
   }
   REQUIRE(reached.size() > 3);
@@ -96,6 +157,24 @@ TEST_CASE("steps adapt so that a watched field changes by as much as is wanted")
     before = reached[k];
   }
   CHECK(reached.back() == 2.0);
+}
+
+TEST_CASE("after a step that an instant of the list made shorter the planned length goes on") {
+  StepPlan plan({0.0, 0.2, 0.5, 2.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->rules[0].always = true;
+  plan.adaptation->rules[0].increment = WatchedIncrement{"DEPL", "DX", {}, {}, 0.2};
+  StepSequence sequence(plan);
+  std::vector<double> reached;
+  // The field is t: steps of 0.2 are wanted. That from 0.4 ends at 0.5, half as long; its change is half of what is wanted, and the next is twice as long as planned.
+  for (double now = 0.0; !sequence.finished();) {
+    const double target = sequence.target();
+    sequence.accept(1, std::array{target - now});
+    reached.push_back(now = target);
+  }
+  const std::vector<double> expected = {0.2, 0.4, 0.5, 0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.0};
+  REQUIRE(reached.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == Approx(expected[k]));
 }
 
 TEST_CASE("the change of a field is the largest over the places that are watched") {
