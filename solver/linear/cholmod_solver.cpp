@@ -137,6 +137,7 @@ class CholmodSolver final : public RefinedSolver {
     cholmod_.free_factor(&factor_, &common_);
     cholmod_.free_factor(&indefinite_factor_, &common_);
     factor_ = symbolic_factor(matrix, CHOLMOD_AUTO);
+    operations_ = common_.fl;
   }
 
   FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) override {
