@@ -9,6 +9,7 @@
 
 #include "solver/error.hpp"
 #include "solver/linear/blas_threads.hpp"
+#include "solver/linear/dense_solve.hpp"
 #include "solver/linear/equilibration.hpp"
 #include "solver/linear/shared_library.hpp"
 
@@ -121,9 +122,10 @@ Eigen::MatrixXd bordered_compliance(const SymmetricMatrix& stiffness, const Eige
   const int count = static_cast<int>(rows.rows());
   if (count == 0) return {};
   Bordered matrix(stiffness, rows, equilibration_factors(stiffness));
-  const Eigen::MatrixXd schur = SchurFactorisation().schur(matrix, static_cast<int>(stiffness.rows()) + count, count);
-  Eigen::MatrixXd compliance = schur.selfadjointView<Eigen::Upper>();
-  return -compliance;
+  Eigen::MatrixXd schur = SchurFactorisation().schur(matrix, static_cast<int>(stiffness.rows()) + count, count);
+  schur *= -1.0;
+  fill_lower(schur);
+  return schur;
 }
 
 }  // namespace comma::solver

@@ -1,5 +1,6 @@
 #include "solver/linear/dense_solve.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -13,6 +14,8 @@ namespace {
 
 /// A pivot below this share of the largest leaves the solution to the least-squares method.
 constexpr double singular_pivot = 1e-14;
+/// Rows from which products gain by more than one thread.
+constexpr Eigen::Index large_product = 1000;
 
 /// The LAPACK that CHOLMOD is built on.
 struct Lapack {
@@ -23,7 +26,13 @@ struct Lapack {
   using Cholesky = void(const char* triangle, const int* n, double* a, const int* lda, int* info);
   Factorise* factorise = library.function<Factorise>("dgetrf_");
   Solve* solve = library.function<Solve>("dgetrs_");
+  using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* x_step,
+                       const double* beta, double* y, const int* y_step);
   Cholesky* cholesky = library.function<Cholesky>("dpotrf_");
+  Product* product = library.function<Product>("dsymv_");
+  using SingleProduct = void(const char* triangle, const int* n, const float* alpha, const float* a, const int* lda, const float* x, const int* x_step,
+                             const float* beta, float* y, const int* y_step);
+  SingleProduct* single_product = library.function<SingleProduct>("ssymv_");
   BlasThreads threads{library};
 };
 
@@ -69,6 +78,16 @@ Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& b) const {
   return x;
 }
 
+/// All i > j, those of a tile that fits the cache one after the other.
+template <class Function>
+void for_pairs(Eigen::Index n, const Function& function) {
+  constexpr Eigen::Index tile = 64;
+  for (Eigen::Index column = 0; column < n; column += tile)
+    for (Eigen::Index row = column; row < n; row += tile)
+      for (Eigen::Index j = column; j < std::min(n, column + tile); ++j)
+        for (Eigen::Index i = std::max(row, j + 1); i < std::min(n, row + tile); ++i) function(i, j);
+}
+
 }  // namespace
 
 bool factorise_dense(Eigen::MatrixXd& lower) {
@@ -79,6 +98,43 @@ bool factorise_dense(Eigen::MatrixXd& lower) {
   lapack().cholesky("L", &n, lower.data(), &n, &info);
   lapack().threads.use(1);
   return info == 0;
+}
+
+Eigen::VectorXd symmetric_product(const Eigen::MatrixXd& lower, const Eigen::VectorXd& x) {
+  if (lower.rows() < large_product) return lower.selfadjointView<Eigen::Lower>() * x;
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+  const int n = static_cast<int>(lower.rows()), step = 1;
+  const double plus = 1.0;
+  lapack().threads.use_all();
+  lapack().product("L", &n, &plus, lower.data(), &n, x.data(), &step, &plus, product.data(), &step);
+  lapack().threads.use(1);
+  return product;
+}
+
+void fill_upper(Eigen::MatrixXd& matrix) {
+  for_pairs(matrix.rows(), [&](Eigen::Index i, Eigen::Index j) { matrix(j, i) = matrix(i, j); });
+}
+
+void fill_lower(Eigen::MatrixXd& matrix) {
+  for_pairs(matrix.rows(), [&](Eigen::Index i, Eigen::Index j) { matrix(i, j) = matrix(j, i); });
+}
+
+SingleTriangle::SingleTriangle(const Eigen::MatrixXd& lower) : values_(lower.rows(), lower.cols()) {
+  for (Eigen::Index column = 0; column < lower.cols(); ++column)
+    values_.col(column).tail(lower.rows() - column) = lower.col(column).tail(lower.rows() - column).cast<float>();
+}
+
+Eigen::VectorXd SingleTriangle::operator*(const Eigen::VectorXd& x) const {
+  const double size = x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
+  if (!(size > 0.0)) return Eigen::VectorXd::Zero(x.size());
+  const Eigen::VectorXf given = (x / size).cast<float>();
+  Eigen::VectorXf product = Eigen::VectorXf::Zero(x.size());
+  const int n = static_cast<int>(values_.rows()), step = 1;
+  const float plus = 1.0F;
+  lapack().threads.use_all();
+  lapack().single_product("L", &n, &plus, values_.data(), &n, given.data(), &step, &plus, product.data(), &step);
+  lapack().threads.use(1);
+  return size * product.cast<double>();
 }
 
 Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {

@@ -13,6 +13,25 @@ Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs);
 /// pivot is not positive.
 bool factorise_dense(Eigen::MatrixXd& lower);
 
+/// S x (n) for a symmetric S (n x n) of which the lower triangle counts.
+Eigen::VectorXd symmetric_product(const Eigen::MatrixXd& lower, const Eigen::VectorXd& x);
+
+/// What is above the diagonal becomes what is below, or the other way round, in place.
+void fill_upper(Eigen::MatrixXd& matrix);
+void fill_lower(Eigen::MatrixXd& matrix);
+
+/// The lower triangle of a symmetric matrix (n x n) in single precision.
+class SingleTriangle {
+ public:
+  SingleTriangle() = default;
+  explicit SingleTriangle(const Eigen::MatrixXd& lower);
+  Eigen::Index size() const { return values_.rows(); }
+  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
+
+ private:
+  Eigen::MatrixXf values_;  ///< what is above the diagonal is never written, and takes no memory where it is large
+};
+
 /// LAPACK gains more from here on than it takes to load it.
 inline constexpr int large_dense = 200;
 

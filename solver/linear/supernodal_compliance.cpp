@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/linear/dense_solve.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -44,7 +46,8 @@ class SupernodalCompliance {
 
   Eigen::MatrixXd run() {
     for (int node = 0; node < factor_.count; ++node) eliminate(node);
-    return compliance_.selfadjointView<Eigen::Lower>();
+    fill_upper(compliance_);
+    return std::move(compliance_);
   }
 
  private:

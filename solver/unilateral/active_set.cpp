@@ -47,7 +47,7 @@ class ActiveSetSolver {
   double tolerance(int row) const { return violation_tolerance * problem_.scale[row]; }
 
   Eigen::VectorXd coupling(int row) const {
-    const Eigen::VectorXd& column = schur_.column(row);
+    const SchurComplement::Column column = schur_.column(row);
     Eigen::VectorXd values(static_cast<Eigen::Index>(active_.size()));
     for (std::size_t i = 0; i < active_.size(); ++i) values[static_cast<Eigen::Index>(i)] = column[active_[i]];
     return values;
@@ -74,7 +74,7 @@ class ActiveSetSolver {
     Eigen::MatrixXd couplings(count, static_cast<Eigen::Index>(active_.size()));
     Eigen::MatrixXd block(count, count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::VectorXd& column = schur_.column(rows[i]);
+      const SchurComplement::Column column = schur_.column(rows[i]);
       for (std::size_t j = 0; j < active_.size(); ++j) couplings(i, static_cast<Eigen::Index>(j)) = column[active_[j]];
       for (Eigen::Index j = i; j < count; ++j) block(j, i) = column[rows[j]];
     }

@@ -30,7 +30,7 @@ SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vect
 }
 
 bool SchurComplement::has_columns() const {
-  return std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
+  return whole_matrix_.size() != 0 || std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
 }
 
 void SchurComplement::require(std::span<const int> indices) {
@@ -43,7 +43,8 @@ void SchurComplement::require(std::span<const int> indices) {
 
 void SchurComplement::store(int row, Eigen::VectorXd column) {
   if (softness_.size()) column[row] += softness_[row];
-  columns_[row] = std::move(column);
+  if (whole_matrix_.size()) whole_matrix_.col(row) = column;
+  else columns_[row] = std::move(column);
 }
 
 void SchurComplement::solve_rows(const std::vector<int>& missing) {
@@ -61,12 +62,14 @@ void SchurComplement::solve_rows(const std::vector<int>& missing) {
 
 bool SchurComplement::solve_whole(const std::vector<int>& missing) {
   if (!whole_ || missing.size() < many_columns || static_cast<double>(missing.size()) < many_share * size()) return false;
-  const Eigen::MatrixXd whole = whole_(rows_);
-  if (whole.size() == 0) return false;
+  single_ = {};
+  whole_matrix_ = whole_(rows_);
+  if (whole_matrix_.size() == 0) return false;
+  columns_.assign(columns_.size(), Eigen::VectorXd());
+  if (softness_.size()) whole_matrix_.diagonal() += softness_;
   source_ = rows_;
   exact_ = true;
   ++version_;
-  for (int row = 0; row < size(); ++row) store(row, whole.col(row));
   return true;
 }
 
@@ -107,9 +110,14 @@ bool SchurComplement::build_from_compliance(const std::vector<int>& missing) {
   return true;
 }
 
-const Eigen::VectorXd& SchurComplement::column(int index) const {
+SchurComplement::Column SchurComplement::column(int index) const {
   assert(known(index));
-  return columns_[index];
+  const double* first = whole_matrix_.size() ? whole_matrix_.col(index).data() : columns_[index].data();
+  return {first, size()};
+}
+
+Eigen::Map<Eigen::VectorXd> SchurComplement::entries(int row) {
+  return {whole_matrix_.size() ? whole_matrix_.col(row).data() : columns_[row].data(), static_cast<Eigen::Index>(columns_.size())};
 }
 
 Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
@@ -117,9 +125,16 @@ Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
   for (int row = 0; row < size(); ++row)
     if (x[row] != 0.0) taken.push_back(row);
   require(taken);
+  if (whole_matrix_.size() && static_cast<double>(taken.size()) >= many_share * size()) return symmetric_product(whole_matrix_, x);
   Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
-  for (const int row : taken) product += x[row] * columns_[row];
+  for (const int row : taken) product += x[row] * column(row);
   return product;
+}
+
+Eigen::VectorXd SchurComplement::times_roughly(const Eigen::VectorXd& x) {
+  if (whole_matrix_.rows() < many_products) return times(x);
+  if (single_.size() == 0) single_ = SingleTriangle(whole_matrix_);
+  return single_ * x;
 }
 
 void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen::VectorXd softness) {
@@ -139,6 +154,8 @@ void SchurComplement::clear() {
   ++version_;
   source_ = rows_;
   columns_.assign(static_cast<std::size_t>(rows_.rows()), Eigen::VectorXd());
+  whole_matrix_.resize(0, 0);
+  single_ = {};
 }
 
 /// Rows that stay keep their columns. False where half of them are new.
@@ -156,30 +173,45 @@ bool SchurComplement::take_over(const RowMatrix& rows, const std::vector<int>& k
   if (2 * added.size() > static_cast<std::size_t>(count)) return false;
 
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(count));
   for (int row = 0; row < count; ++row) {
     const bool stays = origin[row] >= 0;
     for (RowMatrix::InnerIterator it(stays ? source_ : rows, stays ? origin[row] : row); it; ++it)
       entries.emplace_back(row, static_cast<int>(it.col()), it.value());
-    if (!stays || !known(origin[row])) continue;
-    columns[row] = Eigen::VectorXd::Zero(count);
-    for (int other = 0; other < count; ++other)
-      if (origin[other] >= 0) columns[row][other] = columns_[origin[row]][origin[other]];
   }
+  take_columns(origin);
   source_.resize(count, rows.cols());
   source_.setFromTriplets(entries.begin(), entries.end());
-  columns_ = std::move(columns);
   ++version_;
   complete_columns(added);
   return true;
 }
 
+/// `origin`: the row before of each row, or -1.
+void SchurComplement::take_columns(const std::vector<int>& origin) {
+  const auto count = static_cast<Eigen::Index>(origin.size());
+  Eigen::MatrixXd whole;
+  if (whole_matrix_.size()) whole = Eigen::MatrixXd::Zero(count, count);
+  std::vector<Eigen::VectorXd> columns(origin.size());
+  for (std::size_t row = 0; row < origin.size(); ++row) {
+    if (origin[row] < 0 || !known(origin[row])) continue;
+    const Column before = column(origin[row]);
+    Eigen::VectorXd taken = Eigen::VectorXd::Zero(count);
+    for (std::size_t other = 0; other < origin.size(); ++other)
+      if (origin[other] >= 0) taken[static_cast<Eigen::Index>(other)] = before[origin[other]];
+    if (whole.size()) whole.col(static_cast<Eigen::Index>(row)) = taken;
+    else columns[row] = std::move(taken);
+  }
+  columns_ = std::move(columns);
+  whole_matrix_ = std::move(whole);
+  single_ = {};
+}
+
 /// The columns of added rows, and by symmetry their entries in the others.
 void SchurComplement::complete_columns(const std::vector<int>& added) {
   solve_rows(added);
-  for (std::size_t row = 0; row < columns_.size(); ++row)
+  for (int row = 0; row < static_cast<int>(columns_.size()); ++row)
     for (const int other : added)
-      if (columns_[row].size()) columns_[row][other] = columns_[other][static_cast<Eigen::Index>(row)];
+      if (whole_matrix_.size() || columns_[row].size()) entries(row)[other] = entries(other)[row];
 }
 
 void SchurComplement::forget() {

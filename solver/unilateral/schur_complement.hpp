@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "solver/linear/dense_solve.hpp"
+
 namespace comma::solver {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -42,11 +44,14 @@ class SchurComplement {
 
   /// Makes the columns of these rows known, those that are not yet in batches of `batch_size` right-hand sides.
   void require(std::span<const int> indices);
+  using Column = Eigen::Map<const Eigen::VectorXd>;
   /// Column of S (m); it must have been required.
-  const Eigen::VectorXd& column(int index) const;
+  Column column(int index) const;
   /// S x (m); columns of entries that are not zero are required.
   Eigen::VectorXd times(const Eigen::VectorXd& x);
-  bool known(int index) const { return columns_[index].size() != 0 || size() == 0; }
+  /// The same to single precision, in half the time or less where all columns are known and many.
+  Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
+  bool known(int index) const { return whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0; }
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
@@ -65,6 +70,8 @@ class SchurComplement {
   static constexpr int batch_size = 32;
   /// The compliance is kept up to this many unknowns (8 MB): beyond, its solves cost more than corrections with an earlier S.
   static constexpr std::size_t largest_support = 1000;
+  /// Of as many columns products are made in single precision where that does.
+  static constexpr int many_products = 2000;
   /// From this many columns on, if they are this share of all, the whole is asked for at once.
   static constexpr std::size_t many_columns = 100;
   static constexpr double many_share = 0.25;
@@ -72,9 +79,11 @@ class SchurComplement {
  private:
   bool keeps_compliance() const { return support_.size() <= largest_support; }
   bool has_columns() const;
+  void take_columns(const std::vector<int>& origin);
   void clear();
   bool take_over(const RowMatrix& rows, const std::vector<int>& keys);
   void store(int row, Eigen::VectorXd column);
+  Eigen::Map<Eigen::VectorXd> entries(int row);
   void complete_columns(const std::vector<int>& added);
   void solve_rows(const std::vector<int>& missing);
   bool solve_whole(const std::vector<int>& missing);
@@ -87,6 +96,8 @@ class SchurComplement {
   ApplyInverse inverse_;
   WholeCompliance whole_;
   std::vector<Eigen::VectorXd> columns_;
+  Eigen::MatrixXd whole_matrix_;  ///< all columns, or none
+  SingleTriangle single_;         ///< of whole_matrix_, or nothing
   Eigen::VectorXd softness_;
   std::vector<int> support_;
   std::vector<Eigen::VectorXd> compliance_;  ///< one an unknown of the support: its column of C over the support, or empty

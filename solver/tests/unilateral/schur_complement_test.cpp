@@ -167,3 +167,21 @@ TEST_CASE("Many columns come from the whole where there is a way to it") {
   CHECK(schur.known(399));
   CHECK((schur.column(150) - beam.compliance(rows, rows).col(150)).norm() == 0.0);
 }
+
+TEST_CASE("Rows that come to a whole of columns get theirs, and products take all of them") {
+  LongBeam beam;
+  const std::vector<int> before = numbers(0, 399);
+  const std::vector<int> after = numbers(1, 399);
+  SchurComplement schur(beam.matrix(before, 0.3), beam.inverse(), numbers(0, LongBeam::unknowns), before);
+  schur.use_whole([&](const RowMatrix& all) { return beam.compliance(all, all); });
+  schur.soften(Eigen::VectorXd::Constant(399, 0.5));
+  schur.require(numbers(0, 399));
+  const RowMatrix rows = beam.matrix(after, 0.3);
+  schur.replace_rows(rows, after, Eigen::VectorXd::Constant(399, 0.5));
+  CHECK(beam.solves == 1);
+  const Eigen::MatrixXd expected = beam.compliance(rows, rows) + 0.5 * Eigen::MatrixXd::Identity(399, 399);
+  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(399, -1.0, 1.0);
+  CHECK((schur.times(x) - expected * x).norm() < 1e-14 * x.norm());
+  CHECK((schur.times_roughly(x) - expected * x).norm() < 1e-5 * x.norm());
+}
