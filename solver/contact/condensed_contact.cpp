@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "solver/contact/frictionless.hpp"
@@ -30,6 +31,10 @@ constexpr double rounding_share = 1e-13;
 /// rounding of displacements.
 constexpr double rounding_scale = 1e-6;
 
+/// What products with the compliance leave of a linear system, as a share: the next iteration of Newton's method takes the rest along. Products in single
+/// precision leave 1e-7.
+constexpr double product_tolerance = 1e-5;
+
 double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 /// By how much friction grows at first, and at least, as a share of the whole.
 constexpr double first_friction_step = 0.125;
@@ -37,10 +42,16 @@ constexpr double least_friction_step = 1.0 / 1024.0;
 /// It stops growing after as many iterations as so many attempts may take.
 constexpr int growth_attempts = 20;
 
+/// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
+int direct_rows(const CondensedProblem& problem) {
+  const bool has_penalty = std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
+  return problem.one_step || has_penalty ? std::max(problem.direct_rows, problem.most_direct_rows) : problem.direct_rows;
+}
+
 class CondensedSolver {
  public:
   CondensedSolver(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)) {
+      : schur_(schur), problem_(problem), state_(state), start_(state.statuses), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem)) {
     assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
     assert(state.statuses.size() == problem.points.size());
   }
@@ -94,6 +105,7 @@ class CondensedSolver {
     correct();
     evaluate();
     solution.forces = forces_;
+    if (is_lost_) solution.verdict = CondensedVerdict::too_many_iterations;
     return solution;
   }
 
@@ -162,7 +174,7 @@ class CondensedSolver {
   bool settle(Rubbing rubbing, int& iterations, Patience patience = Patience::to_the_end) {
     rubbing_ = rubbing;
     one_at_a_time_ = false;
-    led_away_ = false;
+    led_away_ = is_lost_ = false;
     visited_.clear();
     double last = 0.0, before_last = 0.0;
     for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
@@ -276,11 +288,26 @@ class CondensedSolver {
       forces_[spring.row] += spring.stiffness * jumps_[spring.row];
       step.add_spring(row_unknowns_[spring.row], spring.stiffness);
     }
-    const Eigen::VectorXd jumps = step.solve(schur_, unbalanced_jumps());
-    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= jumps[static_cast<Index>(k)];
+    const std::optional<Eigen::VectorXd> jumps = solved(step, unbalanced_jumps());
+    if (!jumps) {
+      is_lost_ = true;
+      return true;
+    }
+    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= (*jumps)[static_cast<Index>(k)];
     for (const NodalStep::Change& change : step.multiplier_changes())
       for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
     return true;
+  }
+
+  /// Many rows by products with the compliance; where these lead nowhere and for few rows, directly. Nothing where that takes too long as well.
+  std::optional<Eigen::VectorXd> solved(NodalStep& step, const Eigen::VectorXd& balance) {
+    const auto count = static_cast<int>(unknown_rows_.size());
+    if (count > direct_rows_) {
+      NearInverse& near = problem_.near_inverse ? *problem_.near_inverse : own_near_inverse_;
+      const auto jumps = step.solve_by_products(schur_, balance, near, {.tolerance = product_tolerance, .most_products = problem_.most_products});
+      if (jumps || count > problem_.most_direct_rows) return jumps;
+    }
+    return step.solve(schur_, balance);
   }
 
   /// What jumps of unknown rows exceed those that go with the forces by.
@@ -302,7 +329,7 @@ class CondensedSolver {
   /// d balance / d(unknown) where the force on a row is `derivative` times the unknown.
   void add_force_derivative(int row, int unknown, double derivative) {
     if (derivative == 0.0 || unknown < 0) return;
-    const Eigen::VectorXd& column = schur_.column(row);
+    const SchurComplement::Column column = schur_.column(row);
     for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
       matrix_(static_cast<Index>(k), unknown) -= column[unknown_rows_[k]] * derivative;
   }
@@ -341,12 +368,10 @@ class CondensedSolver {
 
   /// The jumps that go with the present forces.
   Eigen::VectorXd balanced_jumps() {
-    Eigen::VectorXd jumps = problem_.free;
-    for (Index row = 0; row < forces_.size(); ++row) {
-      const double change = forces_[row] - problem_.held[row];
-      if (change != 0.0) jumps += change * schur_.column(static_cast<int>(row));
-    }
-    return jumps;
+    if (balanced_forces_.size() == forces_.size() && balanced_forces_ == forces_) return balanced_;
+    balanced_ = problem_.free + schur_.times(forces_ - problem_.held);
+    balanced_forces_ = forces_;
+    return balanced_;
   }
 
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
@@ -378,7 +403,7 @@ class CondensedSolver {
         residual_ = std::max(residual_, std::abs(law_residual[i]) / (law_weight[i] + (scale_ > 0.0 ? share_weight[i] / scale_ : 0.0)));
     for (Index row = 0; row < balanced.size(); ++row)
       if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
-    if (!jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = std::numeric_limits<double>::infinity();
+    if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = std::numeric_limits<double>::infinity();
   }
 
   /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
@@ -444,6 +469,9 @@ class CondensedSolver {
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
   const bool is_nodal_;
+  const int direct_rows_;
+  NearInverse own_near_inverse_;
+  Eigen::VectorXd balanced_forces_, balanced_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd balance_;
   std::vector<int> row_unknowns_;         ///< unknown of a row of the Schur complement, or -1
@@ -457,6 +485,7 @@ class CondensedSolver {
   int same_statuses_ = 0;
   bool one_at_a_time_ = false;
   bool led_away_ = false;  ///< the last attempt ended for want of patience
+  bool is_lost_ = false;   ///< a linear system was not solved
   Rubbing rubbing_ = Rubbing::by_law;
   double friction_share_ = 1.0;
   std::set<std::vector<ContactStatus>> visited_;

@@ -8,6 +8,7 @@
 
 #include "solver/contact/contact_law.hpp"
 #include "solver/contact/facet.hpp"
+#include "solver/contact/near_inverse.hpp"
 #include "solver/unilateral/active_set.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
@@ -47,8 +48,12 @@ struct CondensedProblem {
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
+  int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and have no penalty (solver/contact/nodal_step.hpp)
+  int most_products = 150;      ///< a system
+  int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
   bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
   Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
+  NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
   ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };
 

@@ -78,24 +78,84 @@ void NodalStep::add_spring(int place, double stiffness) {
   changes_.emplace_back();
 }
 
+VectorXd NodalStep::rhs(const VectorXd& balance) const {
+  VectorXd result = VectorXd::Zero(balance.size());
+  for (const Point& point : points_) {
+    const int first = point.first, n = point.rows;
+    result.segment(first, n) = point.constant.head(n) - point.by_jump.topLeftCorner(n, n) * balance.segment(first, n);
+  }
+  return result;
+}
+
 VectorXd NodalStep::solve(const SchurComplement& schur, const VectorXd& balance) {
   const auto count = static_cast<Index>(rows_.size());
   MatrixXd compliance(count, count);
   for (Index k = 0; k < count; ++k) {
-    const VectorXd& column = schur.column(rows_[static_cast<std::size_t>(k)]);
+    const SchurComplement::Column column = schur.column(rows_[static_cast<std::size_t>(k)]);
     for (Index i = 0; i < count; ++i) compliance(i, k) = column[rows_[static_cast<std::size_t>(i)]];
   }
   MatrixXd matrix = MatrixXd::Zero(count, count);
-  VectorXd rhs = VectorXd::Zero(count);
   for (const Point& point : points_) {
     const int first = point.first, n = point.rows;
     matrix.middleRows(first, n).noalias() = point.by_jump.topLeftCorner(n, n) * compliance.middleRows(first, n);
     matrix.block(first, first, n, n) += point.by_force.topLeftCorner(n, n);
-    rhs.segment(first, n) = point.constant.head(n) - point.by_jump.topLeftCorner(n, n) * balance.segment(first, n);
   }
-  const VectorXd forces = solve_dense(std::move(matrix), std::move(rhs));
+  const VectorXd forces = solve_dense(std::move(matrix), rhs(balance));
   VectorXd jumps = balance;
   jumps.noalias() += compliance * forces;
+  take_multipliers(forces, jumps);
+  return jumps;
+}
+
+/// What forces on the unknown rows do to their jumps.
+VectorXd NodalStep::response(SchurComplement& schur, const VectorXd& forces) const {
+  VectorXd all = VectorXd::Zero(schur.size());
+  all(rows_) = forces;
+  return schur.times_roughly(all)(rows_);
+}
+
+/// Of equations that are pressures: as forces.
+VectorXd NodalStep::weighted(VectorXd pressures) const {
+  for (const Point& point : points_) pressures.segment(point.first, point.rows) *= point.weight;
+  return pressures;
+}
+
+/// A_f f + A_d d, as forces.
+VectorXd NodalStep::combined(const VectorXd& forces, const VectorXd& jumps) const {
+  VectorXd result(forces.size());
+  for (const Point& point : points_) {
+    const int first = point.first, n = point.rows;
+    result.segment(first, n) =
+        point.weight * (point.by_force.topLeftCorner(n, n) * forces.segment(first, n) + point.by_jump.topLeftCorner(n, n) * jumps.segment(first, n));
+  }
+  return result;
+}
+
+std::vector<ForceBlock> NodalStep::blocks() const {
+  std::vector<ForceBlock> result;
+  for (const Point& point : points_)
+    result.push_back({.place = point.first, .row = rows_[static_cast<std::size_t>(point.first)], .size = point.rows,
+                      .by_force = point.weight * point.by_force, .by_jump = point.weight * point.by_jump});
+  return result;
+}
+
+std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, const VectorXd& balance, NearInverse& near, const GmresOptions& options) {
+  std::vector<VectorXd> responses;
+  near.update(schur, blocks());
+  const GmresSolution solution = solve_gmres(
+      [&](const VectorXd& forces) {
+        responses.push_back(response(schur, forces));
+        return combined(forces, responses.back());
+      },
+      [&](const VectorXd& b) { return near(b); }, weighted(rhs(balance)), options);
+  if (!solution.reached) return std::nullopt;
+  VectorXd jumps = balance;
+  for (Index k = 0; k < solution.shares.size(); ++k) jumps += solution.shares[k] * responses[static_cast<std::size_t>(k)];
+  take_multipliers(solution.x, jumps);
+  return jumps;
+}
+
+void NodalStep::take_multipliers(const VectorXd& forces, const VectorXd& jumps) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     Vector3d force = Vector3d::Zero(), jump = Vector3d::Zero();
@@ -105,7 +165,6 @@ VectorXd NodalStep::solve(const SchurComplement& schur, const VectorXd& balance)
     left << force / point.weight - point.law.traction_by_jump * jump, point.law.residual - point.law.residual_by_jump * jump;
     changes_[p].value = point.inverse * left;
   }
-  return jumps;
 }
 
 }  // namespace comma::solver

@@ -1,11 +1,14 @@
 // A step of Newton's method for contact whose points lie on nodes.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "solver/contact/condensed_contact.hpp"
+#include "solver/contact/near_inverse.hpp"
+#include "solver/linear/gmres.hpp"
 
 namespace comma::solver {
 
@@ -33,7 +36,9 @@ class NodalStep {
 
   /// The jumps (one an unknown row) for what exceeds them now; columns of S must have been required.
   Eigen::VectorXd solve(const SchurComplement& schur, const Eigen::VectorXd& balance);
-  /// After `solve`.
+  /// The same by products with S, in single precision; nothing where the tolerance is not reached.
+  std::optional<Eigen::VectorXd> solve_by_products(SchurComplement& schur, const Eigen::VectorXd& balance, NearInverse& near, const GmresOptions& options);
+  /// After a solution.
   const std::vector<Change>& multiplier_changes() const { return changes_; }
 
  private:
@@ -47,6 +52,13 @@ class NodalStep {
     ContactLawValue law;          ///< residual and its derivatives as pressures
     Eigen::Matrix<double, 3, 6> inverse;  ///< (traction, residual) -> multiplier
   };
+
+  Eigen::VectorXd rhs(const Eigen::VectorXd& balance) const;
+  Eigen::VectorXd weighted(Eigen::VectorXd pressures) const;
+  Eigen::VectorXd response(SchurComplement& schur, const Eigen::VectorXd& forces) const;
+  Eigen::VectorXd combined(const Eigen::VectorXd& forces, const Eigen::VectorXd& jumps) const;
+  std::vector<ForceBlock> blocks() const;
+  void take_multipliers(const Eigen::VectorXd& forces, const Eigen::VectorXd& jumps);
 
   const std::vector<int>& rows_;
   std::vector<Point> points_;

@@ -12,6 +12,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int most_sweeps = 2000;
+/// Entries of the compliance that all of them may take together (about a minute).
+constexpr double most_entries = 5e10;
 /// Sweeps end when forces change by less than this share of the largest: statuses then are those of the solution.
 constexpr double force_tolerance = 1e-7;
 /// At one point.
@@ -27,7 +29,9 @@ class Relaxation {
 
   Eigen::VectorXd run() {
     start();
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    const double rows = static_cast<double>(forces_.size());
+    const int sweeps = static_cast<int>(std::min<double>(most_sweeps, most_entries / std::max(1.0, rows * rows)));
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
       double change = 0.0;
       for (std::size_t p = 0; p < problem_.points.size(); ++p) change = std::max(change, visit(p));
       for (const CondensedSpring& spring : problem_.springs) visit(spring);

@@ -104,6 +104,7 @@ void MixedContact::number_multipliers() {
   problem_.components = has_friction(definition_) ? dimension_ : 1;
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
+  problem_.near_inverse = &near_inverse_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
   rates_ = start_ = state_.multipliers;
 }
@@ -447,6 +448,7 @@ void MixedContact::update_schur() {
         std::vector<int>(support.begin(), support.end()), std::move(keys));
     schur_->use_whole([this](const RowMatrix& all) { return tangent_.compliance(all); });
     spring_count_ = springs.size();
+    near_inverse_ = {};
   } else {
     schur_->replace_rows(std::move(rows), std::move(keys));
   }

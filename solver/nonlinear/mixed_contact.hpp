@@ -153,6 +153,7 @@ class MixedContact {
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;
+  NearInverse near_inverse_;
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
