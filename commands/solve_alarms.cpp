@@ -57,6 +57,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                           friction_penalty, doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
               fmt::format("take {} = {:.0e}, or {}, where what sticks does not creep", friction_penalty, doubt.wanted,
                           is_mixed ? "ALGO_FROT='STANDARD'" : "FORMULATION='CONTINUE'")};
+    case solver::DoubtKind::unshared_friction:
+      return {"friction-by-shears",
+              fmt::format("no solution was found in which points of zone {} between nodes rub by a share of the limit of friction (R5.03.52): there friction is by shears "
+                          "interpolated between the nodes, which is another discretisation",
+                          zone),
+              "put points on the nodes, where both are the same (INTEGRATION='AUTO' on linear faces), or take smaller steps"};
     case solver::DoubtKind::held_overlap:
       return {"held-overlap",
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",

@@ -75,6 +75,7 @@ struct CondensedSolution {
   Eigen::VectorXd forces;  ///< on the rows
   int iterations = 0;
   int changes = 0;         ///< of status, beside the start
+  bool by_shears = false;  ///< points have a share_augmentation, and no solution by shares was found: it is one by shears
 };
 
 /// Newton's method with statuses held during an iteration (the primal-dual active set of Hintermueller, Ito and Kunisch, SIAM

@@ -16,6 +16,7 @@ enum class DoubtKind : std::uint8_t {
   soft_penalty,   ///< slave points sink in by a good part of what they would without contact
   deep_penalty,   ///< they sink in by a good part of the size of the slave side
   soft_friction,  ///< points that stick creep by a good part of what they would slip without contact
+  unshared_friction,  ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having been found
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired

@@ -51,6 +51,7 @@ class SharedFriction {
       solution.verdict = CondensedVerdict::too_many_iterations;
     } else {
       state = by_shears;
+      solution.by_shears = true;
     }
     return counted(start, state, solution);
   }

@@ -23,6 +23,7 @@ double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
 }  // namespace
 
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
+  if (rubs_by_shears_) note_unshared_friction(doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (rows_.rows() == 0 || std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
@@ -93,6 +94,11 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
   // With it, friction is at its limit after a small share of the present creep.
   doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
   doubts.note(doubt);
+}
+
+void MixedContact::note_unshared_friction(ContactDoubts& doubts) const {
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (problem_.points[p].rows > 1 && problem_.points[p].share_augmentation > 0.0) doubts.note({.kind = DoubtKind::unshared_friction, .zone = points_[p].zone});
 }
 
 void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {

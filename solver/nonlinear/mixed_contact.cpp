@@ -494,6 +494,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   counters_.contact_iterations += solution.iterations;
   problem_.expected.resize(0);
+  rubs_by_shears_ = solution.by_shears;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
     if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
     state_ = earlier;

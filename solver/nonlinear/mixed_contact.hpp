@@ -131,6 +131,7 @@ class MixedContact {
   Eigen::VectorXd jumps_without_contact(const Eigen::VectorXd& u);
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
+  void note_unshared_friction(ContactDoubts& doubts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
@@ -157,6 +158,7 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
+  bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   bool follows_ = false;  ///< what faces each other in the plane follows the bodies through the step, which slide far
   std::pair<CondensedState, bool> remembered_;
   std::size_t spring_count_ = 0;

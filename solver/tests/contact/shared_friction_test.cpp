@@ -1,0 +1,50 @@
+#include "solver/contact/shared_friction.hpp"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace comma::solver;
+
+namespace {
+
+bool by_shares(const CondensedProblem& problem) {
+  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.share_pressure > 0.0; });
+}
+
+/// A point between two nodes.
+CondensedProblem between_nodes() {
+  CondensedPoint point;
+  point.first_row = 0;
+  point.rows = point.components = 2;
+  point.nodes = {0, 1};
+  point.shape = {0.5, 0.5};
+  point.node_count = 2;
+  point.weight = 1.0;
+  point.law.friction = 0.3;
+  point.share_augmentation = 10.0;
+  CondensedProblem problem;
+  problem.points = {point};
+  problem.node_count = problem.components = 2;
+  problem.free = problem.held = Eigen::VectorXd::Zero(2);
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("A solution by shears says that it is one where none by shares of the limit is found") {
+  const CondensedProblem problem = between_nodes();
+  for (const bool finds_shares : {true, false}) {
+    const auto method = [&](const CondensedProblem& each, CondensedState& state) {
+      CondensedSolution solution;
+      if (by_shares(each) && !finds_shares) solution.verdict = CondensedVerdict::too_many_iterations;
+      state.multipliers = Eigen::Vector4d(2.0, 0.1, 2.0, 0.1);
+      state.statuses = {ContactStatus::sticking};
+      return solution;
+    };
+    CondensedState state{.multipliers = Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), .statuses = {ContactStatus::sticking}};
+    const CondensedSolution solution = solve_shared_friction(problem, state, {method, method});
+    REQUIRE(solution.verdict == CondensedVerdict::solved);
+    CHECK(solution.by_shears == !finds_shares);
+  }
+}
