@@ -44,6 +44,10 @@ class TimedRuns:
     runs: list[Measurement] = field(default_factory=list)
 
     @property
+    def friction(self) -> str:
+        return self.label.partition("COULOMB=")[2]
+
+    @property
     def wall(self) -> float:
         return statistics.median(run.wall for run in self.runs)
 
@@ -60,6 +64,7 @@ class TimedRuns:
 SMALL, BLOCK = TimedScene("6^3", (6, 6), (8, 4)), TimedScene("20^3", (20, 20), (17, 8))
 SUPPORTED = TimedScene("20^3 on a support", (20, 20), (0, 0))
 LARGE = TimedScene("large", (71, 7), (61, 6), height=0.4)
+FRICTION = 0.3
 BETWEEN = ("CONTRAINTE", "GCP", "PENALISATION", "CONTINUE AUTO")
 
 
@@ -89,20 +94,23 @@ def _case(scene: TimedScene, values: dict[str, object]) -> Case:
     return Case(scene.name, scene.folder, "HEXA8", "3D", "MULT_FRONT", scene.block[0], values, None)
 
 
-def variants(scene: TimedScene, names: tuple[str, ...]) -> list[tuple[str, dict[str, object]]]:
-    """The runs of a scene: its formulations, or the two ways to impose the displacement of the block on a support."""
+def variants(scene: TimedScene, names: tuple[str, ...], rubbing: tuple[str, ...]) -> list[tuple[str, dict[str, object]]]:
+    """The runs of a scene: its formulations, without friction and with it, or the two ways to impose the displacement of the block on a support."""
     if not scene.base[0]:
         return [(f"LIAISON_UNIL, by {by}", {"imposed_by": by}) for by in ("DDL_IMPO", "CINE")]
     scale = Scale(YOUNG, 1.0, 1.0 / scene.block[0], solid=True)
-    return [(name, FORMULATIONS[name].values(scale)) for name in names]
+    smooth = [(name, FORMULATIONS[name].values(scale)) for name in names]
+    return smooth + [(f"{name}, COULOMB={FRICTION}", FORMULATIONS[name].values(scale, FRICTION)) for name in rubbing]
 
 
-def time_scene(options: argparse.Namespace, scene: TimedScene, names: tuple[str, ...], repeat: int) -> list[TimedRuns]:
+def time_scene(
+    options: argparse.Namespace, scene: TimedScene, names: tuple[str, ...], repeat: int, rubbing: tuple[str, ...] = ()
+) -> list[TimedRuns]:
     folder = options.output / "work"
     folder.mkdir(parents=True, exist_ok=True)
     unknowns = _mesh_apart(scene, folder / "case.mail")
     results = []
-    for label, values in variants(scene, names):
+    for label, values in variants(scene, names, rubbing):
         timed = TimedRuns(scene, label)
         for _ in range(repeat):
             timed.runs.append(run_comma(options.comma, _case(scene, values), unknowns, folder, TIMEOUT))
@@ -140,7 +148,7 @@ def run(options: argparse.Namespace, chosen: list[str]) -> None:
         (options.output / "peer.md").write_text(_peer_page(results), encoding="utf-8")
     if "large" in chosen:
         bare = time_bare(options, LARGE)
-        results = time_scene(options, LARGE, ("CONTRAINTE", "GCP", "CONTINUE AUTO"), options.repeat)
+        results = time_scene(options, LARGE, ("CONTRAINTE", "GCP", "CONTINUE AUTO"), options.repeat, rubbing=("CONTINUE AUTO",))
         (options.output / "large.md").write_text(_large_page(bare, results), encoding="utf-8")
     shutil.rmtree(options.output / "work")
     if options.publish:
@@ -154,8 +162,8 @@ def _publish(folder: Path, chosen: list[str]) -> None:
 
 
 def _difference(timed: TimedRuns, results: list[TimedRuns]) -> str:
-    """Of the force through the contact, from that of the first run of the scene."""
-    first = next(other for other in results if other.scene == timed.scene).force
+    """Of the force through the contact, from that of the first run of the scene with as much friction."""
+    first = next(other for other in results if other.scene == timed.scene and other.friction == timed.friction).force
     if first is None or timed.force is None or timed.force == first:
         return ""
     return f"{abs(timed.force / first - 1.0):.0e}"
