@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -13,6 +14,23 @@ namespace {
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// Where a body has so many times fewer unknowns that rows touch than it has such rows, these are combined from the compliance of the unknowns: the side
+/// of a contact whose mesh is coarser.
+constexpr double few_unknowns = 1.5;
+
+std::vector<int> supernodes_of(const SupernodalFactor& factor) {
+  std::vector<int> supernodes(static_cast<std::size_t>(factor.size));
+  for (int node = 0; node < factor.count; ++node)
+    std::fill(supernodes.begin() + factor.first_columns[node], supernodes.begin() + factor.first_columns[node + 1], node);
+  return supernodes;
+}
+
+std::vector<int> places_of(const SupernodalFactor& factor) {
+  std::vector<int> places(static_cast<std::size_t>(factor.size));
+  for (int place = 0; place < factor.size; ++place) places[factor.order[place]] = place;
+  return places;
+}
+
 /// What a subtree leaves to its ancestors: rows below it, of the conditions that it touches.
 struct Contribution {
   std::vector<int> rows;        ///< places in L, rising
@@ -22,7 +40,8 @@ struct Contribution {
 
 class SupernodalCompliance {
  public:
-  SupernodalCompliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows)
+  /// Adds to the lower triangle of `compliance`.
+  SupernodalCompliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows, Eigen::MatrixXd& compliance)
       : factor_(factor),
         blas_(blas),
         entries_(static_cast<std::size_t>(factor.count)),
@@ -30,13 +49,10 @@ class SupernodalCompliance {
         row_places_(static_cast<std::size_t>(factor.size), -1),
         condition_places_(static_cast<std::size_t>(rows.rows()), -1),
         all_(static_cast<std::size_t>(rows.rows())),
-        compliance_(Eigen::MatrixXd::Zero(rows.rows(), rows.rows())) {
+        compliance_(compliance) {
     std::iota(all_.begin(), all_.end(), 0);
-    supernodes_.resize(static_cast<std::size_t>(factor.size));
-    for (int node = 0; node < factor.count; ++node)
-      std::fill(supernodes_.begin() + factor.first_columns[node], supernodes_.begin() + factor.first_columns[node + 1], node);
-    std::vector<int> places(static_cast<std::size_t>(factor.size));
-    for (int place = 0; place < factor.size; ++place) places[factor.order[place]] = place;
+    supernodes_ = supernodes_of(factor);
+    const std::vector<int> places = places_of(factor);
     for (int row = 0; row < rows.outerSize(); ++row)
       for (Rows::InnerIterator it(rows, row); it; ++it) {
         const int place = places[it.col()];
@@ -44,10 +60,8 @@ class SupernodalCompliance {
       }
   }
 
-  Eigen::MatrixXd run() {
+  void run() {
     for (int node = 0; node < factor_.count; ++node) eliminate(node);
-    fill_upper(compliance_);
-    return std::move(compliance_);
   }
 
  private:
@@ -125,8 +139,71 @@ class SupernodalCompliance {
   std::vector<std::vector<Contribution>> children_;
   std::vector<int> row_places_, condition_places_;  ///< in the front at hand
   std::vector<int> all_;
-  Eigen::MatrixXd compliance_;
+  Eigen::MatrixXd& compliance_;
 };
+
+/// The tree of each unknown: those of bodies that nothing connects are different ones.
+std::vector<int> trees_of(const SupernodalFactor& factor) {
+  const std::vector<int> supernodes = supernodes_of(factor);
+  std::vector<int> roots(static_cast<std::size_t>(factor.count));
+  for (int node = factor.count - 1; node >= 0; --node) {
+    const int below = factor.row_starts[node] + factor.first_columns[node + 1] - factor.first_columns[node];
+    roots[node] = below < factor.row_starts[node + 1] ? roots[supernodes[factor.rows[below]]] : node;
+  }
+  std::vector<int> trees(static_cast<std::size_t>(factor.size));
+  for (int place = 0; place < factor.size; ++place) trees[factor.order[place]] = roots[supernodes[place]];
+  return trees;
+}
+
+/// What rows have of the unknowns of one tree.
+struct Part {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> unknowns;  ///< rising
+  int rows = 0;               ///< that have any
+};
+
+std::map<int, Part> parts_of(const SupernodalFactor& factor, const Rows& rows) {
+  const std::vector<int> trees = trees_of(factor);
+  std::map<int, Part> parts;
+  for (int row = 0; row < rows.outerSize(); ++row)
+    for (Rows::InnerIterator it(rows, row); it; ++it) {
+      Part& part = parts[trees[it.col()]];
+      if (part.entries.empty() || part.entries.back().row() != row) ++part.rows;
+      part.entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+      part.unknowns.push_back(static_cast<int>(it.col()));
+    }
+  for (auto& [tree, part] : parts) {
+    std::ranges::sort(part.unknowns);
+    part.unknowns.erase(std::unique(part.unknowns.begin(), part.unknowns.end()), part.unknowns.end());
+  }
+  return parts;
+}
+
+Rows matrix_of(const std::vector<Eigen::Triplet<double>>& entries, Eigen::Index rows, Eigen::Index columns) {
+  Rows result(rows, columns);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// By the compliance of the unknowns themselves: rows C rows^T.
+void add_by_unknowns(const SupernodalFactor& factor, const BlasKernels& blas, const Part& part, Eigen::MatrixXd& compliance) {
+  const auto count = static_cast<Eigen::Index>(part.unknowns.size());
+  std::vector<Eigen::Triplet<double>> units, entries;
+  for (Eigen::Index k = 0; k < count; ++k) units.emplace_back(static_cast<int>(k), part.unknowns[static_cast<std::size_t>(k)], 1.0);
+  for (const auto& entry : part.entries)
+    entries.emplace_back(entry.row(), static_cast<int>(std::ranges::lower_bound(part.unknowns, entry.col()) - part.unknowns.begin()), entry.value());
+  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(count, count);
+  SupernodalCompliance(factor, blas, matrix_of(units, count, factor.size), between).run();
+  fill_upper(between);
+  const Rows rows = matrix_of(entries, compliance.rows(), count);
+  Eigen::VectorXd moved(count);
+  for (int column = 0; column < rows.outerSize(); ++column) {
+    moved.setZero();
+    for (Rows::InnerIterator it(rows, column); it; ++it) moved += it.value() * between.col(it.col());
+    const auto below = rows.rows() - column;
+    compliance.col(column).tail(below) += rows.bottomRows(below) * moved;
+  }
+}
 
 }  // namespace
 
@@ -134,7 +211,14 @@ BlasKernels::BlasKernels(const SharedLibrary& library)
     : solve(library.function<Solve>("dtrsm_")), multiply(library.function<Multiply>("dgemm_")), square(library.function<Square>("dsyrk_")) {}
 
 Eigen::MatrixXd supernodal_compliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows) {
-  return SupernodalCompliance(factor, blas, rows).run();
+  Eigen::MatrixXd compliance(rows.rows(), rows.rows());
+  compliance.setZero();
+  for (const auto& [tree, part] : parts_of(factor, rows)) {
+    if (few_unknowns * static_cast<double>(part.unknowns.size()) < part.rows) add_by_unknowns(factor, blas, part, compliance);
+    else SupernodalCompliance(factor, blas, matrix_of(part.entries, rows.rows(), rows.cols()), compliance).run();
+  }
+  fill_upper(compliance);
+  return compliance;
 }
 
 }  // namespace comma::solver

@@ -60,6 +60,32 @@ TEST_CASE("The compliance out of a Cholesky factor is that of a solution for eac
   CHECK_FALSE(solver->factorises_for_compliance());
 }
 
+TEST_CASE("Conditions on few unknowns of a block get their compliance from that of the unknowns") {
+  const int n = 14, block = n * n * n;
+  const SymmetricMatrix matrix = two_blocks(n);
+  const auto solver = make_linear_solver(LinearMethod::cholmod, {});
+  REQUIRE(solver->factorise(matrix).verdict == FactorVerdict::ok);
+
+  // The top of one block against a third as many unknowns of the other; the last conditions are on one block alone.
+  std::vector<Eigen::Triplet<double>> entries;
+  const int conditions = n * n;
+  for (int k = 0; k < conditions; ++k) {
+    entries.emplace_back(k, block - n * n + k, 1.0);
+    if (k > conditions - 5) continue;
+    entries.emplace_back(k, block + k / 3, -0.7);
+    entries.emplace_back(k, block + k / 3 + 1, -0.3 - 0.01 * (k % 3));
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows(conditions, 2 * block);
+  rows.setFromTriplets(entries.begin(), entries.end());
+
+  const Eigen::MatrixXd compliance = solver->compliance(rows);
+  Eigen::MatrixXd columns = rows.transpose();
+  solver->solve(columns);
+  const Eigen::MatrixXd expected = rows * columns;
+  CHECK((compliance - expected).norm() < 1e-12 * expected.norm());
+  CHECK((compliance - compliance.transpose()).norm() == 0.0);
+}
+
 TEST_CASE("MUMPS gives the same compliance with a border") {
   const SymmetricMatrix matrix = two_blocks(5);
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows(2, matrix.rows());
