@@ -136,7 +136,9 @@ Product recu_fonction(const Call& call, Context& context) {
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_PARA_RESU", "PARA_Y"}) {
     if (!call.given(name)) continue;
-    function.result = call.text(name);
+    // Code_Aster's names of results have eight characters: a table of the function has a column ETA_PILO (ssnl133d).
+    constexpr std::size_t longest = 8;
+    function.result = call.text(name).substr(0, longest);
     break;
   }
   read_shape(call, function);
