@@ -43,6 +43,8 @@ class PathFollowing {
   void accept_step(const Eigen::VectorXd& u);
   double intensity() const { return intensity_; }
   void set_intensity(double value) { intensity_ = accepted_ = value; }
+  /// The path came here by such an increment of displacement, and goes on in its direction where the choice is by the angle.
+  void set_direction(const Eigen::VectorXd& increment) { last_step_ = motions(increment); }
   /// Whether the last step has reached a bound of the intensity.
   bool has_ended() const { return ended_; }
 

@@ -410,6 +410,12 @@ class StaticAnalysis {
   }
 
   void take_last_step() {
+    if (result_.steps.size() < 2) return;
+    const auto before = result_.steps[result_.steps.size() - 2].fields.find("DEPL");
+    if (before == result_.steps[result_.steps.size() - 2].fields.end()) return;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
+    take_displacements(std::get<NodalField>(before->second), u);
+    path_->set_direction(now_.state.u - u);
     const auto found = result_.steps.back().fields.find("DEPL");
     if (found == result_.steps.back().fields.end())
       throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
