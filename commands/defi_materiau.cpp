@@ -169,6 +169,10 @@ solver::Plasticity plasticity_of(const Call& call) {
   return plasticity;
 }
 
+solver::ContactSpring contact_spring(const Keywords& law) {
+  return {law.real("RIGI_NOR"), law.real("RIGI_TAN"), law.real("COULOMB"), law.real("DIST_1"), law.real("DIST_2"), law.real("JEU")};
+}
+
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
@@ -179,6 +183,7 @@ Product defi_materiau(const Call& call, Context&) {
   if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
   if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
   material->plasticity = plasticity_of(call);
+  if (call.has("DIS_CONTACT")) material->contact_spring = contact_spring(call.factor("DIS_CONTACT"));
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
   return product;

@@ -1,6 +1,7 @@
 // What the commands that solve tell about a solution that may be far from that of the body although the equations were solved.
 #pragma once
 
+#include "commands/concepts.hpp"
 #include "commands/context.hpp"
 #include "interpreter/call.hpp"
 #include "solver/nonlinear/static_analysis.hpp"

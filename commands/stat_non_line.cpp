@@ -32,6 +32,8 @@ constexpr std::pair<std::string_view, solver::Relation> relations[] = {
     {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
 };
 constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
+    {"DIS_CONTACT", solver::Relation::contact_spring},
+    {"DIS_CHOC", solver::Relation::contact_spring},
     {"PETIT", solver::Kinematics::small},
     {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
     {"GDEF_LOG", solver::Kinematics::logarithmic},

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
 #include "solver/elements/imposed_strains.hpp"
@@ -41,7 +42,9 @@ CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
-  const bool flows = input.behaviour_of(cells.front()).relation != Relation::elastic;
+  const Relation relation = input.behaviour_of(cells.front()).relation;
+  if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
+  const bool flows = relation != Relation::elastic;
   if (flows && (formulation == Formulation::bar || formulation == Formulation::bar_2d)) return make_inelastic_bar_block(input, std::move(cells));
   if (flows)
     throw Error("unsupported", fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),

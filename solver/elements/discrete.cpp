@@ -4,17 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/element_block.hpp"
+#include "solver/elements/discrete_forces.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 2> plane_forces = {"N", "VY"};
-constexpr std::array<std::string_view, 3> plane_forces_moment = {"N", "VY", "MFZ"};
-constexpr std::array<std::string_view, 3> space_forces = {"N", "VY", "VZ"};
-constexpr std::array<std::string_view, 6> space_forces_moments = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
 
 class DiscreteBlock final : public ElementBlock {
  public:
@@ -23,7 +18,6 @@ class DiscreteBlock final : public ElementBlock {
         node_count_(static_cast<int>(input.model.mesh->cell(cells.front()).size())),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh, cells_)) {
-    const int size = node_count_ * map_.components();
     for (const int cell : cells_) {
       const auto found = input.properties.discrete.find(cell);
       if (found == input.properties.discrete.end()) {
@@ -81,19 +75,12 @@ class DiscreteBlock final : public ElementBlock {
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return 1; }
 
-  std::span<const std::string_view> stress_names() const override {
-    switch (formulation_) {
-      case Formulation::spring_2d: return plane_forces;
-      case Formulation::spring_rotation_2d: return plane_forces_moment;
-      case Formulation::spring_3d: return space_forces;
-      default: return space_forces_moments;
-    }
-  }
+  std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
 
   /// The force with which the part beyond the element pulls at its last node, in the element's own axes: N > 0 in tension.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
-    const int translations = formulation_ == Formulation::spring_2d || formulation_ == Formulation::spring_rotation_2d ? 2 : 3;
+    const int translations = discrete_translations(formulation_);
     std::array<int, max_size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element, target += k) {

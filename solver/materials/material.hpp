@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/materials/command_variables.hpp"
+#include "solver/materials/contact_spring.hpp"
 #include "solver/materials/plasticity.hpp"
 #include "solver/materials/property.hpp"
 
@@ -59,6 +60,7 @@ using Elasticity = std::variant<IsotropicElasticity, OrthotropicElasticity>;
 struct Material {
   std::optional<Elasticity> elasticity;
   Plasticity plasticity{};
+  std::optional<ContactSpring> contact_spring;  ///< of discrete elements
 };
 
 /// The material of each cell; null where none is given.

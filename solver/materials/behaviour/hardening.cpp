@@ -181,7 +181,8 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
     point.kinematic = (*plasticity.prager)(at);
   }
   switch (relation) {
-    case Relation::elastic: return point;
+    case Relation::elastic:
+    case Relation::contact_spring: return point;
     case Relation::hyperelastic:
       if (!plasticity.hyperelasticity) throw_missing("ELAS_HYPER");
       point.hyperelasticity = &*plasticity.hyperelasticity;

@@ -1,0 +1,27 @@
+// What discrete elements of all kinds share: the names of their forces, and their stiffness.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "solver/elements/element_block.hpp"
+
+namespace comma::solver {
+
+/// The force and moment components that a discrete element has, in its own axes.
+std::span<const std::string_view> discrete_force_names(Formulation formulation);
+
+/// How many of the components at a node are translations.
+int discrete_translations(Formulation formulation);
+
+/// The stiffness of the discrete element on a cell. Throws Error `missing-properties`, `wrong-size`.
+const DiscreteStiffness& discrete_stiffness(const BlockInput& input, int cell);
+
+/// Contact with friction inside discrete elements, in small displacements (Relation::contact_spring). The stiffness of the element holds rotations
+/// alone; translations are those of the contact spring of its material, along and across the first own axis: between the nodes of a segment, whose gap is the
+/// difference of their places less the two distances, or from the node of a point to an obstacle, whose gap is displacement + clearance - first distance.
+/// Internal variables: the slip along the second and third own axis, the ContactSpringStatus, the gap.
+/// Throws Error `missing-material`, `missing-properties`, `wrong-size`, `unsupported`.
+std::unique_ptr<ElementBlock> make_discrete_contact_block(const BlockInput& input, std::vector<int> cells);
+
+}  // namespace comma::solver
