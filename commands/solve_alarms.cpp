@@ -100,6 +100,31 @@ void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinit
   }
 }
 
+void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context) {
+  // Beyond, displacements are off in the third digit where a beam is free to change its length, and forces by E A times this where it is not.
+  constexpr double noticeable = 1e-3;
+  const auto& behaviours = product.problem.behaviours;
+  if (!behaviours || product.result.steps.empty()) return;
+  const auto found = product.result.steps.back().fields.find("VARI_ELGA");
+  if (found == product.result.steps.back().fields.end()) return;
+  const auto& variables = std::get<solver::ElementField>(found->second);
+  const int column = variables.component("V3");
+  double largest = 0.0;
+  int worst = 0;
+  for (int cell = 0; column >= 0 && cell < static_cast<int>(behaviours->size()); ++cell) {
+    if ((*behaviours)[static_cast<std::size_t>(cell)].kinematics != solver::Kinematics::large_rotations || variables.points(cell) == 0) continue;
+    if (const double left = variables.at(cell, 0, column); left > largest) {
+      largest = left;
+      worst = cell;
+    }
+  }
+  if (largest <= noticeable) return;
+  context.diagnostics.alarm("coarse-turns",
+                            fmt::format("{}: beams turn so far in a step (DEFORMATION='GROT_GDEP') that {} is taken for {:.2g} % longer than it is", call.command,
+                                        product.result.mesh().cell_name(worst), 100.0 * largest),
+                            call.span, "take more steps: half as long ones leave half as much");
+}
+
 void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   const auto risk = solver::find_locking(*problem.model, *problem.materials);
   if (!risk) return;

@@ -17,4 +17,7 @@ void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::C
 /// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave` on what may be wrong with the contact of a solution.
 void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& contact, const solver::ContactDoubts& doubts, Context& context);
 
+/// Alarm `coarse-turns`, where beams in large rotations have turned so far in their steps that they are longer for it.
+void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context);
+
 }  // namespace comma::commands

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "commands/archiving.hpp"
 #include "commands/commands.hpp"
@@ -40,6 +41,7 @@ constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"SIMO_MIEHE", solver::Kinematics::multiplicative},
     {"PETIT_REAC", solver::Kinematics::updated},
 };
+    {"GROT_GDEP", solver::Kinematics::large_rotations},
 
 solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
@@ -283,3 +285,4 @@ Product stat_non_line(const Call& call, Context& context) {
 }
 
 }  // namespace comma::commands
+  warn_of_turns(call, *product, context);

@@ -14,6 +14,8 @@
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/inelastic_bar.hpp"
 #include "solver/elements/sparse_pattern.hpp"
+#include "solver/elements/rotating_beam.hpp"
+#include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
 

@@ -14,9 +14,6 @@ namespace comma::solver {
 namespace {
 
 constexpr std::array<std::string_view, 1> bar_forces = {"N"};
-constexpr std::array<std::string_view, 6> beam_forces = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
-
-using BeamMatrix = Eigen::Matrix<double, 12, 12>;
 
 struct Segment {
   double length;
@@ -35,66 +32,9 @@ bool is_complete(const BeamSection& section, bool bends) {
                                            section.shear_y >= 0.0 && section.shear_z >= 0.0));
 }
 
-/// The section of a cell, with the values that the element needs positive.
-const BeamSection& section_of(const BlockInput& input, int cell) {
-  const std::string name = input.model.mesh->cell_name(cell);
-  const auto found = input.properties.sections.find(cell);
-  if (found == input.properties.sections.end()) {
-    throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", name));
-  }
-  const BeamSection& section = found->second;
-  const bool bends = input.model.formulations[cell] == Formulation::euler_beam || input.model.formulations[cell] == Formulation::timoshenko_beam;
-  if (!is_complete(section, bends) || (varies(section) && !is_complete(*section.end, bends))) {
-    throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area{}", name,
-                                                  bends ? ", second moments of area and torsion constant" : ""));
-  }
-  return section;
-}
-
-/// Bending of a uniform beam in one plane: deflection and slope at both ends. `softening` is the ratio of shear to bending
-/// flexibility, 12 E I / (G A_reduced L^2); 0 for Euler's beam.
-Eigen::Matrix4d uniform_bending(double rigidity, double l, double softening) {
-  Eigen::Matrix4d plane;
-  plane << 12, 6 * l, -12, 6 * l,                                            //
-      6 * l, (4 + softening) * l * l, -6 * l, (2 - softening) * l * l,       //
-      -12, -6 * l, 12, -6 * l,                                               //
-      6 * l, (2 - softening) * l * l, -6 * l, (4 + softening) * l * l;
-  return rigidity / (l * l * l * (1 + softening)) * plane;
-}
-
-/// Adds bending in one plane: deflections at rows v1, v2 and rotations at r1, r2, with rotation = sign * slope.
-void add_bending(BeamMatrix& k, const Eigen::Matrix4d& plane, const std::array<int, 4>& rows, double sign) {
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) k(rows[i], rows[j]) += (i % 2 == j % 2 ? 1.0 : sign) * plane(i, j);
-  }
-}
-
-void add_spring(BeamMatrix& k, double stiffness, int first, int second) {
-  k(first, first) += stiffness;
-  k(second, second) += stiffness;
-  k(first, second) -= stiffness;
-  k(second, first) -= stiffness;
-}
-
-/// The transverse displacements that bend a beam are those of its centre of torsion: they are the centroid's plus what the
-/// torsion of the section adds (R3.08.01, eccentric centre of torsion).
-BeamMatrix from_centre_to_centroid(const BeamMatrix& k, const BeamSection& section) {
-  BeamMatrix shift = BeamMatrix::Identity();
-  for (const int node : {0, 6}) {
-    shift(node + 1, node + 3) = -section.centre_z;
-    shift(node + 2, node + 3) = section.centre_y;
-  }
-  return shift.transpose() * k * shift;
-}
-
-/// Bending in the planes (x, y) and (x, z).
+/// Bending in the planes (x, y) and (x, z) of a beam whose section varies.
 std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const IsotropicModuli& material, double shear_modulus,
                                               double length, bool shear) {
-  if (!varies(section)) {
-    const double scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
-    return {uniform_bending(material.young * section.inertia_z, length, scale * section.inertia_z * section.shear_y),
-            uniform_bending(material.young * section.inertia_y, length, scale * section.inertia_y * section.shear_z)};
-  }
   const BeamSection& end = *section.end;
   const auto plane = [&](double inertia, double end_inertia, int power, double factor, double end_factor) {
     const bool softens = shear && factor > 0.0 && end_factor > 0.0;
@@ -109,13 +49,15 @@ std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const 
 BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
   BeamMatrix k = BeamMatrix::Zero();
-  add_spring(k, material.young * axial_area(section) / length, 0, 6);
-  add_spring(k, shear_modulus * torsion_constant(section) / length, 3, 9);
+  if (!varies(section)) return uniform_beam<double>(section, material, length, shear);
+  add_beam_spring<double>(k, material.young * axial_area(section) / length, 0, 6);
+  add_beam_spring<double>(k, shear_modulus * torsion_constant(section) / length, 3, 9);
   const auto planes = bending_planes(section, material, shear_modulus, length, shear);
-  add_bending(k, planes[0], {1, 5, 7, 11}, 1.0);
-  add_bending(k, planes[1], {2, 4, 8, 10}, -1.0);
-  const bool eccentric = section.centre_y != 0.0 || section.centre_z != 0.0;
-  return eccentric ? from_centre_to_centroid(k, section) : k;
+  add_bending<double>(k, planes[0], {1, 5, 7, 11}, 1.0);
+  add_bending<double>(k, planes[1], {2, 4, 8, 10}, -1.0);
+  if (!is_eccentric(section)) return k;
+  const BeamMatrix shift = centre_from_centroid(section);
+  return shift.transpose() * k * shift;
 }
 
 /// What the stiffness of one element is made from.
@@ -165,7 +107,7 @@ class SlenderBlock final : public ElementBlock {
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
-      const BeamSection& section = section_of(input, cell);
+      const BeamSection& section = slender_section(input, cell);
       members_.push_back({segment_of(mesh_, cell, is_beam ? section.roll : 0.0), &section, &isotropic_material(input, cell)});
       const bool constant = is_constant_material(*members_.back().material);
       constant_ = constant_ && constant;
@@ -193,7 +135,7 @@ class SlenderBlock final : public ElementBlock {
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return is_beam ? 2 : 1; }
   std::span<const std::string_view> stress_names() const override {
-    if constexpr (is_beam) return beam_forces;
+    if constexpr (is_beam) return beam_force_names;
     return bar_forces;
   }
 
@@ -397,3 +339,18 @@ std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::v
 }
 
 }  // namespace comma::solver
+const BeamSection& slender_section(const BlockInput& input, int cell) {
+  const std::string name = input.model.mesh->cell_name(cell);
+  const auto found = input.properties.sections.find(cell);
+  if (found == input.properties.sections.end()) {
+    throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", name));
+  }
+  const BeamSection& section = found->second;
+  const bool bends = input.model.formulations[cell] == Formulation::euler_beam || input.model.formulations[cell] == Formulation::timoshenko_beam;
+  if (!is_complete(section, bends) || (varies(section) && !is_complete(*section.end, bends))) {
+    throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area{}", name,
+                                                  bends ? ", second moments of area and torsion constant" : ""));
+  }
+  return section;
+}
+

@@ -11,7 +11,8 @@ enum class Kinematics : std::uint8_t {
   green_lagrange,  ///< large displacements and rotations, on the initial geometry
   logarithmic,     ///< ln(F^T F) / 2, with laws of small strains (R5.03.24)
   multiplicative,  ///< F = F^e F^p, for isotropic hardening (R5.03.21)
-  updated          ///< small strains of each step's displacement, on the geometry where it ends (PETIT_REAC, U4.51.11)
+  updated,         ///< small strains of each step's displacement, on the geometry where it ends (PETIT_REAC, U4.51.11)
+  large_rotations  ///< large displacements and rotations of beams, small strains (GROT_GDEP, U4.51.11)
 };
 
 enum class Relation : std::uint8_t {
@@ -40,7 +41,8 @@ struct CellBehaviour {
 constexpr bool has_memory(const CellBehaviour& behaviour) {
   return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && behaviour.kinematics == Kinematics::small) ||
          behaviour.kinematics == Kinematics::logarithmic ||
-         behaviour.kinematics == Kinematics::multiplicative || behaviour.kinematics == Kinematics::updated;
+         behaviour.kinematics == Kinematics::multiplicative || behaviour.kinematics == Kinematics::updated ||
+         behaviour.kinematics == Kinematics::large_rotations;
 }
 
 /// One a cell; empty: linear elasticity in small strains everywhere.

@@ -249,6 +249,7 @@ Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d
 Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const {
   switch (behaviour_.kinematics) {
     case Kinematics::small:
+    case Kinematics::large_rotations:  // of beams
     case Kinematics::updated: return reported;
     case Kinematics::green_lagrange: return second_stress(past.gradient, reported, past);
     case Kinematics::logarithmic:

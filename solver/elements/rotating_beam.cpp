@@ -1,0 +1,344 @@
+#include "solver/elements/rotating_beam.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/slender.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr int variables_of_beam = 3;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+/// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the rotations of both.
+using Motion = Eigen::Matrix<double, 6, 1>;
+using Derivative = Eigen::AutoDiffScalar<Motion>;
+
+template <class Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+template <class Scalar>
+using Axes = Eigen::Matrix<Scalar, 3, 3>;
+
+/// The axes (rows) along a direction whose second is horizontal, then turned about the first, as own_axes() has them.
+Eigen::Matrix3d rolled_axes(const Eigen::Vector3d& along, double roll) {
+  const Eigen::Vector3d x = along.normalized();
+  const double level = std::hypot(x[0], x[1]);
+  const Eigen::Vector3d y = level > 0.0 ? Eigen::Vector3d(-x[1] / level, x[0] / level, 0.0) : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = x.cross(y);
+  Eigen::Matrix3d axes;
+  axes << x.transpose(), (std::cos(roll) * y + std::sin(roll) * z).transpose(), (std::cos(roll) * z - std::sin(roll) * y).transpose();
+  return axes;
+}
+
+/// The axes of `before`, moved along with their first direction the shortest way to another one, then turned about it.
+template <class Scalar>
+Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length, const Vector3<Scalar>& rotation) {
+  using std::cos, std::sin;
+  const Vector3<Scalar> x = along / length;
+  const Vector3<Scalar> old = before.row(0).transpose().template cast<Scalar>();
+  const Scalar share = 1.0 + old.dot(x);
+  const Vector3<Scalar> sum = old + x;
+  const Scalar twist = rotation.dot(x);
+  const Scalar c = cos(twist), s = sin(twist);
+  Axes<Scalar> axes;
+  std::array<Vector3<Scalar>, 2> carried;
+  for (int k = 0; k < 2; ++k) {
+    const Vector3<Scalar> own = before.row(k + 1).transpose().template cast<Scalar>();
+    carried[static_cast<std::size_t>(k)] = own - (own.dot(x) / share) * sum;
+  }
+  axes.row(0) = x;
+  axes.row(1) = c * carried[0] + s * carried[1];
+  axes.row(2) = c * carried[1] - s * carried[0];
+  return axes;
+}
+
+/// Where a step begins.
+struct BeamPast {
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< from the first node to the second
+  double roll = 0.0;
+  Vector12d displacement = Vector12d::Zero();
+  Vector12d force = Vector12d::Zero();  ///< on both ends, in own axes
+  double elongation = 0.0;              ///< left by the turns of all steps
+};
+
+template <class Scalar>
+struct BeamGeometry {
+  Axes<Scalar> axes;
+  Scalar length;
+};
+
+template <class Scalar>
+BeamGeometry<Scalar> geometry(const BeamPast& past, const Eigen::Matrix<Scalar, 6, 1>& motion) {
+  using std::sqrt;
+  const Vector3<Scalar> along = past.along.template cast<Scalar>() + motion.template head<3>();
+  const Vector3<Scalar> rotation = motion.template tail<3>();
+  const Scalar length = sqrt(along.dot(along));
+  return {carried_axes<Scalar>(rolled_axes(past.along, past.roll), along, length, rotation), length};
+}
+
+/// By how much axes are rolled against those of own_axes() without roll.
+double roll_of(const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d level = rolled_axes(axes.row(0).transpose(), 0.0);
+  return std::atan2(axes.row(1).dot(level.row(2)), axes.row(1).dot(level.row(1)));
+}
+
+template <class Scalar, class Vector>
+Eigen::Matrix<Scalar, 12, 1> turned(const Axes<Scalar>& axes, const Vector& parts) {
+  Eigen::Matrix<Scalar, 12, 1> result;
+  for (int part = 0; part < 12; part += 3) result.template segment<3>(part) = axes * parts.template segment<3>(part);
+  return result;
+}
+
+class RotatingBeam final : public ElementBlock {
+ public:
+  RotatingBeam(const BlockInput& input, std::vector<int> cells)
+      : mesh_(*input.model.mesh),
+        shear_(input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::timoshenko_beam),
+        cells_(std::move(cells)),
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(mesh_, cells_)) {
+    for (const int cell : cells_) {
+      members_.push_back(member(input, cell));
+      BeamPast past;
+      past.along = initial_chord(cell);
+      past.roll = members_.back().section->roll;
+      past_.push_back(past);
+    }
+  }
+
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    require_no_strains(state);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const BeamMatrix k = tangent(element, u);
+      const BeamMatrix symmetric = 0.5 * (k + k.transpose());
+      map_.add(element, symmetric.data(), column_starts, values);
+    }
+  }
+  bool is_symmetric() const override { return false; }
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&, std::vector<Eigen::Triplet<double>>& entries) const override {
+    std::array<int, 12> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const BeamMatrix k = tangent(element, u);
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+          const int row = dofs[static_cast<std::size_t>(i)], column = dofs[static_cast<std::size_t>(j)];
+          if (row > column) entries.emplace_back(row, column, 0.5 * (k(i, j) - k(j, i)));
+        }
+      }
+    }
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    require_no_strains(state);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Trial now = trial(element, u);
+      add(element, turned<double>(now.axes.transpose(), now.force), forces);
+    }
+  }
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add(element, turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + 12 * element)), forces);
+  }
+
+  std::span<const int> cells() const override { return cells_; }
+  int point_count() const override { return 2; }
+  std::span<const std::string_view> stress_names() const override { return beam_force_names; }
+  bool is_linear() const override { return false; }
+  bool is_constant() const override { return true; }
+  bool has_memory() const override { return true; }
+
+  void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Vector12d force = trial(element, u).force;
+      for (int i = 0; i < 12; ++i) out[static_cast<std::size_t>(12 * element + i)] = i < 6 ? -force[i] : force[i];
+    }
+  }
+
+  int variable_count() const override { return variables_of_beam; }
+  void variables(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Trial now = trial(element, u);
+      for (int point = 0; point < point_count(); ++point) {
+        double* own = out.data() + (point_count() * element + point) * variables_of_beam;
+        own[0] = 0.0;
+        own[1] = roll_of(now.axes);
+        own[2] = now.elongation;
+      }
+    }
+  }
+
+  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
+    throw Error("unsupported", fmt::format("comma does not compute energies of beams in large rotations, such as {}", mesh_.cell_name(cells_.front())), "name the cells without them");
+  }
+  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
+    std::ranges::fill(out, absent);
+  }
+
+  void accept(const Eigen::VectorXd& u, const VariableState&) override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Trial now = trial(element, u);
+      begin(element, u, roll_of(now.axes), now.force);
+      past_[static_cast<std::size_t>(element)].elongation = now.elongation;
+    }
+  }
+
+  /// Without variables the axes are those of the first geometry.
+  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, std::span<const double> variables) override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const double* own = variables.empty() ? nullptr : variables.data() + point_count() * variables_of_beam * element;
+      const double roll = own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[1];
+      begin(element, u, roll, reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + 12 * element));
+      past_[static_cast<std::size_t>(element)].elongation = own == nullptr ? 0.0 : own[2];
+    }
+  }
+
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
+    for (const int cell : cells_)
+      if (imposed.acts_on(cell)) throw Error("unsupported", fmt::format("cell {}: initial strains are known of beams in small rotations only", mesh_.cell_name(cell)));
+  }
+
+ private:
+  struct Member {
+    const BeamSection* section;
+    IsotropicModuli moduli;
+  };
+  struct Trial {
+    Eigen::Matrix3d axes;
+    Vector12d force;
+    double elongation;
+  };
+
+  Member member(const BlockInput& input, int cell) const {
+    const BeamSection& section = slender_section(input, cell);
+    const IsotropicElasticity& elasticity = isotropic_material(input, cell);
+    if (section.end || !elasticity.young.is_constant() || !elasticity.poisson.is_constant()) {
+      throw Error("unsupported", fmt::format("cell {}: beams in large rotations have a section and a material that do not vary", mesh_.cell_name(cell)),
+                  "give DEFORMATION='PETIT', or constant properties");
+    }
+    return {&section, moduli(elasticity, MaterialPoint())};
+  }
+
+  void require_no_strains(const VariableState& state) const {
+    if (state.empty()) return;
+    throw Error("unsupported", fmt::format("cell {}: beams in large rotations do not expand with command variables", mesh_.cell_name(cells_.front())), "leave out AFFE_VARC, or give DEFORMATION='PETIT'");
+  }
+
+  Eigen::Vector3d initial_chord(int cell) const {
+    const auto nodes = mesh_.cell(cell);
+    return Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(nodes[1])].data()) -
+           Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(nodes[0])].data());
+  }
+
+  void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force) {
+    BeamPast& past = past_[static_cast<std::size_t>(element)];
+    past.displacement = unknowns(element, u);
+    past.along = initial_chord(cells_[static_cast<std::size_t>(element)]) + past.displacement.segment<3>(6) - past.displacement.head<3>();
+    past.roll = roll;
+    past.force = force;
+  }
+
+  Vector12d unknowns(int element, const Eigen::VectorXd& u) const {
+    std::array<int, 12> dofs;
+    map_.dofs(element, dofs.data());
+    Vector12d own;
+    for (int i = 0; i < 12; ++i) own[i] = u[dofs[static_cast<std::size_t>(i)]];
+    return own;
+  }
+
+  /// Of the step, the first node standing still: a translation strains nothing.
+  Vector12d increment(int element, const Eigen::VectorXd& u) const {
+    Vector12d step = unknowns(element, u) - past_[static_cast<std::size_t>(element)].displacement;
+    step.segment<3>(6) -= step.head<3>();
+    step.head<3>().setZero();
+    return step;
+  }
+
+  static Motion motion_of(const Vector12d& step) {
+    Motion motion;
+    motion << step.segment<3>(6), 0.5 * (step.segment<3>(3) + step.segment<3>(9));
+    return motion;
+  }
+
+  Trial trial(int element, const Eigen::VectorXd& u) const {
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const Vector12d step = increment(element, u);
+    const auto now = geometry<double>(past, motion_of(step));
+    const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) * turned<double>(now.axes, step);
+    const double turn = now.axes.row(0).dot(past.along.normalized());
+    return {now.axes, force, past.elongation + 1.0 - turn};
+  }
+
+  /// By the increments at hand, and by what they do to the axes and the length.
+  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const Vector12d step = increment(element, u);
+    const Motion motion = motion_of(step);
+    Eigen::Matrix<Derivative, 6, 1> moving;
+    for (int i = 0; i < 6; ++i) moving[i] = Derivative(motion[i], 6, i);
+    const auto now = geometry<Derivative>(past, moving);
+    const BeamMatrixOf<Derivative> k = uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_);
+    const Eigen::Matrix<Derivative, 12, 1> local = past.force.cast<Derivative>() + k * turned<Derivative>(now.axes, step.cast<Derivative>().eval());
+    const Eigen::Matrix<Derivative, 12, 1> global = turned<Derivative>(now.axes.transpose(), local);
+    return of_increments(k, now.axes) + of_motion(global);
+  }
+
+  static BeamMatrix of_increments(const BeamMatrixOf<Derivative>& local, const Axes<Derivative>& axes) {
+    Eigen::Matrix3d turn;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) turn(i, j) = axes(i, j).value();
+    BeamMatrix k;
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j) k(i, j) = local(i, j).value();
+    for (int i = 0; i < 12; i += 3)
+      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (turn.transpose() * k.block<3, 3>(i, j) * turn).eval();
+    return k;
+  }
+
+  static BeamMatrix of_motion(const Eigen::Matrix<Derivative, 12, 1>& force) {
+    BeamMatrix k = BeamMatrix::Zero();
+    for (int i = 0; i < 12; ++i) {
+      const Motion by = force[i].derivatives();
+      k.block<1, 3>(i, 6) = by.head<3>().transpose();
+      k.block<1, 3>(i, 0) = -by.head<3>().transpose();
+      k.block<1, 3>(i, 3) = k.block<1, 3>(i, 9) = 0.5 * by.tail<3>().transpose();
+    }
+    return k;
+  }
+
+  /// From section forces at both ends, those of the part beyond upon the part before.
+  static Vector12d end_forces(const double* reported) {
+    Vector12d force = Eigen::Map<const Vector12d>(reported);
+    force.head<6>() = -force.head<6>();
+    return force;
+  }
+
+  void add(int element, const Vector12d& force, ForceSum forces) const {
+    std::array<int, 12> dofs;
+    map_.dofs(element, dofs.data());
+    for (int i = 0; i < 12; ++i) forces[static_cast<std::size_t>(dofs[static_cast<std::size_t>(i)])] += force[i];
+  }
+
+  const Mesh& mesh_;
+  bool shear_;
+  std::vector<int> cells_;
+  ElementMap map_;
+  std::vector<Member> members_;
+  std::vector<BeamPast> past_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells) {
+  return std::make_unique<RotatingBeam>(input, std::move(cells));
+}
+
+}  // namespace comma::solver
