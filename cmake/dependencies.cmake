@@ -35,6 +35,11 @@ add_library(comma_cholmod INTERFACE)
 target_include_directories(comma_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_compile_definitions(comma_cholmod INTERFACE COMMA_CHOLMOD_LIBRARY="${CHOLMOD_LIBRARY}")
 
+# Headers alone.
+find_path(SPECTRA_INCLUDE_DIR Spectra/GenEigsSolver.h REQUIRED)
+add_library(comma_spectra INTERFACE)
+target_include_directories(comma_spectra SYSTEM INTERFACE ${SPECTRA_INCLUDE_DIR})
+
 if(COMMA_TESTS)
   find_path(CATCH2_INCLUDE_DIR catch2/catch.hpp REQUIRED)
   add_library(comma_test_main STATIC ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)

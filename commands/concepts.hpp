@@ -72,6 +72,7 @@ struct ResultConcept : ConceptData {
   solver::Result result;
   solver::StaticProblem problem;
   std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
+  std::optional<Table> modes;         ///< the eigenvalues that CRIT_STAB asked for
 
   /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;

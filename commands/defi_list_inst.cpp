@@ -137,6 +137,10 @@ solver::StepEvent event_of(const Call& call, const Keywords& given, solver::Step
 void read_failures(const Call& call, solver::StepPlan& plan) {
   plan.cutting = solver::StepCutting{};
   for (const Keywords& given : call.factors("ECHEC")) {
+    if (given.text("EVENEMENT") == "INSTABILITE") {
+      plan.stops_when_unstable = given.text("ACTION") == "ARRET";
+      continue;
+    }
     const auto kind = std::ranges::find(event_kinds, given.text("EVENEMENT"), &std::pair<std::string_view, solver::StepEventKind>::first);
     if (kind != std::end(event_kinds)) {
       std::erase_if(plan.events, [&](const solver::StepEvent& known) { return known.kind == kind->second; });

@@ -37,7 +37,9 @@ Table named_table(const Call& call, const ResultConcept& data) {
   const std::string& name = call.text("NOM_TABLE");
   if (auto table = table_of_result(data, name)) return *std::move(table);
   throw DiagnosticError("unknown-table", fmt::format("RECU_TABLE: {} has no table {}", call.concept_of("CO")->name, name), call.span_of("NOM_TABLE"),
-                        name == "OBSERVATION" ? "ask for it by OBSERVATION in STAT_NON_LINE" : "results have the tables PARA_CALC and OBSERVATION");
+                        name == "OBSERVATION"      ? "ask for it by OBSERVATION in STAT_NON_LINE"
+                        : name == "ANALYSE_MODALE" ? "ask for it by CRIT_STAB in STAT_NON_LINE"
+                                                   : "results have the tables PARA_CALC, OBSERVATION and ANALYSE_MODALE");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ Table computation(const solver::Result& result) {
 
 std::optional<Table> table_of_result(const ResultConcept& data, std::string_view name) {
   if (name == "PARA_CALC") return computation(data.result);
+  if (name == "ANALYSE_MODALE") return data.modes;
   return name == "OBSERVATION" ? data.observations : std::nullopt;
 }
 

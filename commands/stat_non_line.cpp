@@ -12,6 +12,7 @@
 #include "commands/problem_building.hpp"
 #include "commands/selection.hpp"
 #include "commands/solve_alarms.hpp"
+#include "commands/stability_reading.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -31,17 +32,17 @@ constexpr std::pair<std::string_view, solver::Relation> relations[] = {
     {"VMIS_CINE_LINE", solver::Relation::kinematic_linear},
     {"VMIS_ECMI_LINE", solver::Relation::mixed_linear},
     {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
-};
-constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"DIS_CONTACT", solver::Relation::contact_spring},
     {"DIS_CHOC", solver::Relation::contact_spring},
+};
+constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"PETIT", solver::Kinematics::small},
     {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
     {"GDEF_LOG", solver::Kinematics::logarithmic},
     {"SIMO_MIEHE", solver::Kinematics::multiplicative},
     {"PETIT_REAC", solver::Kinematics::updated},
-};
     {"GROT_GDEP", solver::Kinematics::large_rotations},
+};
 
 solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
@@ -49,16 +50,33 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   return {deformation->second, relation->second};
 }
 
+// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11).
+solver::CellBehaviour behaviour_on(const Keywords& keywords, solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
+  const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
+  if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0) return behaviour;
+  if (behaviour.relation != solver::Relation::elastic && behaviour.relation != solver::Relation::hyperelastic) {
+    throw DiagnosticError("unsupported", fmt::format("STAT_NON_LINE: RELATION='{}' with DEFORMATION='GROT_GDEP' is not known of continua", keywords.text("RELATION")),
+                          keywords.span, "DEFORMATION='GDEF_LOG' has plasticity in large rotations");
+  }
+  behaviour.kinematics = solver::Kinematics::green_lagrange;
+  return behaviour;
+}
+
 // One behaviour a cell, the later occurrence winning; null where all are linear.
-std::shared_ptr<const solver::BehaviourOfCells> behaviours(const Call& call, const solver::Mesh& mesh) {
+std::shared_ptr<const solver::BehaviourOfCells> behaviours(const Call& call, const solver::Model& model) {
+  const solver::Mesh& mesh = *model.mesh;
   solver::CellBehaviour usual;
   usual.from_initial_state = call.has("ETAT_INIT");
   auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()), usual);
   for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
     solver::CellBehaviour behaviour = behaviour_of(keywords);
     behaviour.from_initial_state = usual.from_initial_state;
-    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) std::ranges::fill(*result, behaviour);
-    for (const int cell : selected_cells(keywords, mesh)) (*result)[static_cast<std::size_t>(cell)] = behaviour;
+    std::vector<int> cells = selected_cells(keywords, mesh);
+    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) {
+      cells.resize(result->size());
+      std::iota(cells.begin(), cells.end(), 0);
+    }
+    for (const int cell : cells) (*result)[static_cast<std::size_t>(cell)] = behaviour_on(keywords, behaviour, model, cell);
   }
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;
@@ -67,7 +85,7 @@ std::shared_ptr<const solver::BehaviourOfCells> behaviours(const Call& call, con
 solver::StaticProblem problem_of(const Call& call, const InitialStateChoice& initial) {
   solver::StaticProblem problem = static_problem(call);
   problem.initial = initial.state;
-  problem.behaviours = behaviours(call, *problem.model->mesh);
+  problem.behaviours = behaviours(call, *problem.model);
   if (!call.has("CONTACT")) return problem;
   const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
   if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
@@ -274,15 +292,17 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     archive.update(result);
   };
+  solver::NewtonOptions options = newton_options(call, product->result.mesh());
+  options.stability = stability_analysis(call, *product);
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
     return solver::solve_static(product->problem, steps, options, product->result, context.counters, live_table(context), after_step);
   };
   const auto doubts = solve();
   warn_of_indefinite_stiffness(call, before, context);
+  warn_of_turns(call, *product, context);
   if (product->problem.contact) warn_of_contact(call, *product->problem.contact, doubts, context);
   return product;
 }
 
 }  // namespace comma::commands
-  warn_of_turns(call, *product, context);

@@ -11,11 +11,12 @@
 #include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
+#include "solver/elements/geometric_stiffness.hpp"
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/inelastic_bar.hpp"
-#include "solver/elements/sparse_pattern.hpp"
 #include "solver/elements/rotating_beam.hpp"
 #include "solver/elements/slender_forces.hpp"
+#include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
 
@@ -43,6 +44,10 @@ CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
 
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
+  const bool is_discrete = discrete_components(formulation) > 0;
+  if (input.behaviour_of(cells.front()).relation == Relation::contact_spring && !is_discrete)
+    throw Error("unsupported", fmt::format("cell {}: the law of contact and friction is one of discrete elements", input.model.mesh->cell_name(cells.front())),
+                "give RELATION='DIS_CONTACT' or 'DIS_CHOC' to the groups of discrete elements alone");
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
   const Relation relation = input.behaviour_of(cells.front()).relation;
   if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
@@ -51,9 +56,11 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   if (flows)
     throw Error("unsupported", fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
                 "give these cells RELATION='ELAS'");
-  if (discrete_components(formulation) > 0) return make_discrete_block(input, std::move(cells));
-  if (input.behaviour_of(cells.front()).kinematics != Kinematics::small)
-    throw Error("unsupported", fmt::format("cell {}: bars, beams and plates know small strains only", input.model.mesh->cell_name(cells.front())),
+  if (is_discrete) return make_discrete_block(input, std::move(cells));
+  const Kinematics kinematics = input.behaviour_of(cells.front()).kinematics;
+  if (kinematics == Kinematics::large_rotations && is_beam(formulation)) return make_rotating_beam_block(input, std::move(cells));
+  if (kinematics != Kinematics::small)
+    throw Error("unsupported", fmt::format("cell {}: bars and plates know small displacements only, and beams besides large rotations (DEFORMATION='GROT_GDEP')", input.model.mesh->cell_name(cells.front())),
                 "give these cells small strains (DEFORMATION='PETIT')");
   if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
@@ -158,6 +165,10 @@ std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
   return nodes;
 }
 
+void ElementBlock::add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const {
+  throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
+}
+
 struct Assembler::Blocks {
   SparsePattern pattern;
   std::vector<std::unique_ptr<ElementBlock>> list;
@@ -189,6 +200,27 @@ SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
 SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
   for (const auto& block : blocks_->list) block->add_elastic_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
+  return matrix;
+}
+
+SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
+  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
+  const auto starts = blocks_->pattern.column_starts();
+  for (const auto& block : blocks_->list) {
+    const int cell = block->cells().front();
+    const Formulation formulation = model_.formulations[cell];
+    if (continuum_dimension(formulation) == 0 || mixed_field_count(formulation) > 0) {
+      try {
+        block->add_geometric_stiffness(u, state_, starts, matrix.valuePtr());
+      } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)), error.hint());
+      }
+      continue;
+    }
+    const int nodes = static_cast<int>(model_.mesh->cell(cell).size());
+    const ElementMap map(blocks_->pattern, dofs_, model_.components_of(cell), nodes, gather_nodes(*model_.mesh, block->cells()));
+    add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map, stresses_of(*block, u, state_, nullptr), starts, matrix.valuePtr());
+  }
   return matrix;
 }
 

@@ -48,6 +48,10 @@ class Assembler {
   /// The same as if materials could only answer elastically from where they are.
   SymmetricMatrix elastic_stiffness(const Eigen::VectorXd& u) const;
 
+  /// Lower triangle of what the stresses at u add to the stiffness of small displacements from there (initial stress stiffness, R7.05.01).
+  /// Throws Error `unsupported` where an element knows none.
+  SymmetricMatrix geometric_stiffness(const Eigen::VectorXd& u) const;
+
   /// Whether stiffness() is the whole tangent, for every u.
   bool is_symmetric() const;
   /// The rest of the tangent at u where it is not: (K - K^T) / 2 (n x n), entries only where elements are unsymmetric.

@@ -19,18 +19,9 @@ class DiscreteBlock final : public ElementBlock {
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
-      const auto found = input.properties.discrete.find(cell);
-      if (found == input.properties.discrete.end()) {
-        throw Error("missing-properties",
-                    fmt::format("the discrete element on cell {} has no stiffness", input.model.mesh->cell_name(cell)));
-      }
-      if (found->second.matrix.rows() != size || found->second.matrix.cols() != size) {
-        throw Error("wrong-size", fmt::format("the stiffness of the discrete element on cell {} is {} x {}, not {} x {}",
-                                              input.model.mesh->cell_name(cell), found->second.matrix.rows(),
-                                              found->second.matrix.cols(), size, size));
-      }
-      stiffnesses_.push_back(&found->second);
-      symmetric_ = symmetric_ && found->second.matrix == found->second.matrix.transpose();
+      const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
+      stiffnesses_.push_back(&stiffness);
+      symmetric_ = symmetric_ && stiffness.matrix == stiffness.matrix.transpose();
     }
   }
 
@@ -43,6 +34,8 @@ class DiscreteBlock final : public ElementBlock {
       map_.add(element, symmetric.data(), column_starts, values);
     }
   }
+
+  void add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const override {}
 
   bool is_symmetric() const override { return symmetric_; }
 

@@ -47,6 +47,9 @@ class ElementBlock {
   virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
+  /// What the stresses at u add to the stiffness when the element turns, in small displacements from u (R7.05.01). Throws Error `unsupported`
+  /// where the element knows none.
+  virtual void add_geometric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const;
   /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory. In plane stress
   /// with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
   virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {

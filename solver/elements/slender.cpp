@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/element_block.hpp"
+#include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/geometric_stiffness.hpp"
+#include "solver/elements/slender.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
@@ -47,9 +49,9 @@ std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const 
 }
 
 BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
+  if (!varies(section)) return uniform_beam<double>(section, material, length, shear);
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
   BeamMatrix k = BeamMatrix::Zero();
-  if (!varies(section)) return uniform_beam<double>(section, material, length, shear);
   add_beam_spring<double>(k, material.young * axial_area(section) / length, 0, 6);
   add_beam_spring<double>(k, shear_modulus * torsion_constant(section) / length, 3, 9);
   const auto planes = bending_planes(section, material, shear_modulus, length, shear);
@@ -120,6 +122,16 @@ class SlenderBlock final : public ElementBlock {
     Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.add(element, matrix_at(element, state, own).data(), column_starts, values);
+    }
+  }
+
+  void add_geometric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    std::vector<double> forces(cells_.size() * static_cast<std::size_t>(point_count()) * stress_names().size());
+    stresses(u, state, forces);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const double* own = forces.data() + static_cast<std::size_t>(element * point_count()) * stress_names().size();
+      const Matrix k = named(element, [&] { return geometric_matrix(element, own, state); });
+      map_.add(element, k.data(), column_starts, values);
     }
   }
 
@@ -244,6 +256,26 @@ class SlenderBlock final : public ElementBlock {
     else return bar_matrix<Components>(member, moduli(*member.material, at));
   }
 
+  /// What the section forces add: `forces` as stresses() gives those of the element.
+  Matrix geometric_matrix(int element, const double* forces, const VariableState& state) const {
+    const Member& member = members_[element];
+    if constexpr (is_beam) {
+      if (varies(*member.section) || is_eccentric(*member.section))
+        throw Error("unsupported", "the stiffness that stresses add is known of beams with a constant section alone whose centre of torsion is the centroid");
+      const auto section_forces = [](const double* f) { return SectionForces{f[0], f[1], f[2], f[3], f[4], f[5]}; };
+      Matrix k = beam_geometric_stiffness(*member.section, moduli(*member.material, material_point(element, state)), member.segment.length, shear_,
+                                          {section_forces(forces), section_forces(forces + 6)});
+      Matrix turn = Matrix::Zero();
+      for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = member.segment.axes;
+      return turn.transpose() * k * turn;
+    } else {
+      const Eigen::Matrix<double, Components, Components> block = forces[0] / member.segment.length * Eigen::Matrix<double, Components, Components>::Identity();
+      Matrix k;
+      k << block, -block, -block, block;
+      return k;
+    }
+  }
+
   const Matrix& matrix_at(int element, const VariableState& state, Matrix& own) const {
     if (is_constant_material(*members_[element].material)) return matrices_[element];
     own = named(element, [&] { return matrix(members_[element], material_point(element, state)); });
@@ -328,17 +360,6 @@ class SlenderBlock final : public ElementBlock {
 
 }  // namespace
 
-std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells) {
-  switch (input.model.formulations[cells.front()]) {
-    case Formulation::bar: return std::make_unique<SlenderBlock<3>>(input, std::move(cells));
-    case Formulation::bar_2d: return std::make_unique<SlenderBlock<2>>(input, std::move(cells));
-    case Formulation::euler_beam:
-    case Formulation::timoshenko_beam: return std::make_unique<SlenderBlock<6>>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
-  }
-}
-
-}  // namespace comma::solver
 const BeamSection& slender_section(const BlockInput& input, int cell) {
   const std::string name = input.model.mesh->cell_name(cell);
   const auto found = input.properties.sections.find(cell);
@@ -354,3 +375,14 @@ const BeamSection& slender_section(const BlockInput& input, int cell) {
   return section;
 }
 
+std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells) {
+  switch (input.model.formulations[cells.front()]) {
+    case Formulation::bar: return std::make_unique<SlenderBlock<3>>(input, std::move(cells));
+    case Formulation::bar_2d: return std::make_unique<SlenderBlock<2>>(input, std::move(cells));
+    case Formulation::euler_beam:
+    case Formulation::timoshenko_beam: return std::make_unique<SlenderBlock<6>>(input, std::move(cells));
+    default: throw_unsupported_element(input.model, cells.front());
+  }
+}
+
+}  // namespace comma::solver

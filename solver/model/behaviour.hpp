@@ -25,8 +25,8 @@ enum class Relation : std::uint8_t {
   kinematic_linear,       ///< von Mises, the centre of the yield surface moving with the plastic strain
   mixed_linear,           ///< both, the isotropic part linear (R5.03.16)
   mixed_traction,         ///< both, the isotropic part from a traction curve
-};
   contact_spring,         ///< contact and friction inside a discrete element (R5.03.17)
+};
 
 struct CellBehaviour {
   Kinematics kinematics = Kinematics::small;

@@ -13,6 +13,7 @@
 #include "solver/contact/contact_field.hpp"
 #include "solver/contact/straight_faces.hpp"
 #include "solver/error.hpp"
+#include "solver/nonlinear/critical_modes.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
@@ -56,6 +57,10 @@ class StaticAnalysis {
       newton_.follow(followers_);
     }
     require_symmetry();
+    if (options.stability) {
+      require_no_conditions();
+      require_small_displacements();
+    }
     if (options.path) follow_path();
     if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
       throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
@@ -85,11 +90,15 @@ class StaticAnalysis {
       note_doubts_about_surfaces(instant);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
+      const bool unstable = find_modes(instant, ++accepted_);
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
       last_duration_ = instant - from;
       sequence.accept(*iterations, watched_changes());
       if (path_ && path_->has_ended()) return;
+      if (unstable && plan.stops_when_unstable)
+        throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
+                    "the steps up to there are kept; ACTION='CONTINUE' goes on");
     }
     if (passed_master_) passed_master_->conclude(doubts_);
   }
@@ -401,6 +410,12 @@ class StaticAnalysis {
     if (!path_ || result_.steps.empty()) return;
     const auto& parameters = result_.steps.back().parameters;
     if (const auto known = parameters.find("ETA_PILOTAGE"); known != parameters.end()) path_->set_intensity(known->second);
+    if (result_.steps.size() < 2) return;
+    const auto before = result_.steps[result_.steps.size() - 2].fields.find("DEPL");
+    if (before == result_.steps[result_.steps.size() - 2].fields.end()) return;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
+    take_displacements(std::get<NodalField>(before->second), u);
+    path_->set_direction(now_.state.u - u);
   }
 
   /// The body starts without stress even where its first temperature is not that of reference.
@@ -410,12 +425,6 @@ class StaticAnalysis {
   }
 
   void take_last_step() {
-    if (result_.steps.size() < 2) return;
-    const auto before = result_.steps[result_.steps.size() - 2].fields.find("DEPL");
-    if (before == result_.steps[result_.steps.size() - 2].fields.end()) return;
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
-    take_displacements(std::get<NodalField>(before->second), u);
-    path_->set_direction(now_.state.u - u);
     const auto found = result_.steps.back().fields.find("DEPL");
     if (found == result_.steps.back().fields.end())
       throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
@@ -694,6 +703,34 @@ class StaticAnalysis {
     append(std::move(step));
   }
 
+  /// After a converged step, where they are asked for: whether they tell of an instability.
+  bool find_modes(double instant, int accepted) {
+    if (!options_.stability || !is_stability_due(*options_.stability, instant, accepted)) return false;
+    const StabilityReport report = critical_modes(*options_.stability, instant, now_.state.u, assembler_, elimination_, dofs_);
+    if (!report.modes.empty()) {
+      const auto smallest = std::ranges::min_element(report.modes, {}, [](const CriticalMode& mode) { return std::abs(mode.value); });
+      result_.steps.back().parameters["CHAR_CRIT"] = smallest->value;
+      result_.steps.back().fields.insert_or_assign("MODE_FLAMB", smallest->shape);
+    }
+    if (report.unstable && observer_) observer_(event_of_step(instant, fmt::format("at {:.6g} the body is unstable", instant)));
+    if (options_.stability->report) options_.stability->report(report);
+    return report.unstable;
+  }
+
+  /// Modes are those of the stiffness alone.
+  void require_no_conditions() const {
+    if (!problem_.contact && problem_.unilateral.empty() && problem_.followers.empty()) return;
+    throw Error("unsupported", "modes of buckling are not known together with contact, unilateral conditions or loads that follow", "leave out CRIT_STAB");
+  }
+  void require_small_displacements() const {
+    if (!problem_.behaviours || !options_.stability->geometric) return;
+    for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell) {
+      if (problem_.model->formulations[cell] == Formulation::none || (*problem_.behaviours)[cell].kinematics == Kinematics::small) continue;
+      throw Error("unsupported", fmt::format("cell {}: in large displacements what stresses add is part of the stiffness already", mesh_.cell_name(static_cast<int>(cell))),
+                  "give RIGI_GEOM='NON' in CRIT_STAB, or DEFORMATION='PETIT'");
+    }
+  }
+
   void append(ResultStep step) {
     result_.steps.push_back(std::move(step));
     if (after_step_) after_step_(result_);
@@ -782,6 +819,7 @@ class StaticAnalysis {
   ContactDoubts doubts_;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
+  int accepted_ = 0;  ///< steps
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
   const StepPlan* plan_ = nullptr;

@@ -17,6 +17,7 @@
 #include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nonlinear/path_control.hpp"
+#include "solver/nonlinear/stability_analysis.hpp"
 #include "solver/nonlinear/step_sequence.hpp"
 
 namespace comma::solver {
@@ -110,6 +111,7 @@ struct NewtonOptions {
   StepGuess guess = StepGuess::stay;
   std::shared_ptr<const Result> guessed;  ///< not null: instead, steps start from the displacements of this result at their instants, linear between its steps (DEPL_CALCULE)
   bool extrapolates_flow = false;   ///< steps are linear, with plastic strains that go on growing as in the step before, which the law then puts right (IMPLEX, R5.03.81)
+  std::optional<StabilityAnalysis> stability;  ///< of the steps that converge
   std::optional<PathControl> path;  ///< the intensity of driven loads is an unknown
   bool few_solutions = false;  ///< the tangent serves few right-hand sides: a method without a factor may be faster
 };

@@ -1,0 +1,17 @@
+// The eigenvalue problem behind a check of stability.
+#pragma once
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
+#include "solver/nonlinear/stability_analysis.hpp"
+
+namespace comma::solver {
+
+/// Whether the step to an instant, the one of this number (from 1), is one that modes are asked for.
+bool is_stability_due(const StabilityAnalysis& analysis, double instant, int number);
+
+/// The modes at u, a converged state of the assembler: see StabilityAnalysis. Throws Error `unsupported`, `singular-matrix`, `no-convergence`.
+StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u, const Assembler& assembler,
+                               const Elimination& elimination, const DofMap& dofs);
+
+}  // namespace comma::solver
