@@ -276,7 +276,7 @@ Product stat_non_line(const Call& call, Context& context) {
   product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
   check_driven(call, product->problem);
-  const solver::NewtonOptions options = newton_options(call, product->result.mesh());
+  solver::NewtonOptions options = newton_options(call, product->result.mesh());
   solver::StepPlan steps = steps_of(call.factor("INCREMENT"), initial.instant);
   if (steps.adaptation) steps.adaptation->usual_iterations = options.max_iterations / 2;
   show_header(call, context);
@@ -292,7 +292,6 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     archive.update(result);
   };
-  solver::NewtonOptions options = newton_options(call, product->result.mesh());
   options.stability = stability_analysis(call, *product);
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);

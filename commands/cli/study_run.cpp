@@ -26,9 +26,9 @@ namespace {
 // Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any other
 // error says that the file is wrong.
 constexpr std::array<std::string_view, 16> computation_codes = {
-    "no-convergence",      "instability", "singular-matrix",          "contradictory-conditions", "contact-cycling",  "not-finite",
-    "integration-failure", "contact-interpenetration", "contact-too-deep",         "contact-changes",  "residual-diverges",
-    "residual-too-large",  "increment-too-large",      "inaccurate-solution",      "too-many-steps",   "command-failed"};
+    "no-convergence",      "singular-matrix",     "contradictory-conditions", "contact-cycling",  "not-finite",      "instability",
+    "integration-failure", "inaccurate-solution", "contact-interpenetration", "contact-too-deep", "contact-changes", "residual-diverges",
+    "residual-too-large",  "increment-too-large", "too-many-steps",           "command-failed"};
 constexpr std::array<std::string_view, 4> machine_codes = {"internal-error", "out-of-memory", "unwritable-file", "missing-library"};
 
 template <class Codes>
