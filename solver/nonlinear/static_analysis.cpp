@@ -17,7 +17,7 @@
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
-#include "solver/nonlinear/watched_increment.hpp"
+#include "solver/nonlinear/step_watch.hpp"
 #include "solver/on_exit.hpp"
 
 namespace comma::solver {
@@ -29,8 +29,6 @@ using Eigen::Vector3d;
 constexpr int cycle_length_limit = 4;
 /// Displacements of a step below this share of the whole ones are rounding.
 constexpr double rounding_share = 1e-11;
-/// Where nothing tells how far a step might have gone.
-constexpr double half_a_step = 0.5;
 
 class StaticAnalysis {
  public:
@@ -94,7 +92,7 @@ class StaticAnalysis {
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
       last_duration_ = instant - from;
-      sequence.accept(*iterations, watched_changes());
+      sequence.accept(*iterations, watch_->changes(result_.steps.back()));
       if (path_ && path_->has_ended()) return;
       if (unstable && plan.stops_when_unstable)
         throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
@@ -115,28 +113,22 @@ class StaticAnalysis {
     ConditionSet conditions;
   };
 
-  /// One whose change adapts steps.
-  struct WatchedField {
-    WatchedIncrement increment;
-    std::vector<double> before;
-  };
-
   /// The number of iterations; nothing when the step has failed, or does what it must not, and is cut. Throws what a step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence) {
     const Progress before = now_;
     const std::vector<char> closed_before = closed_points();
-    share_of_step_ = half_a_step;
+    watch_->start_step();
     if (mixed_) mixed_->remember();
     try {
       const int iterations = solve_from_either_side(instant, before);
-      check_increment(instant);
-      check_depth(instant);
+      watch_->check_increment(instant, result_.steps.back(), [&] { return fields_now(instant); });
+      if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
       if (!refines_collision(closed_before, sequence)) return iterations;
       return take_again(instant, before, sequence, "meets a change of contact");
     } catch (const Error& error) {
-      const StepEvent* event = event_behind(error.code());
+      const StepEvent* event = watch_->event_behind(error.code());
       if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error);
-      if (event ? !event->cutting || !sequence.cut(*event->cutting, share_of_step_) : !sequence.cut()) {
+      if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
         if (event) throw;
         return solve_as_last_resort(instant, before, error);
       }
@@ -148,37 +140,6 @@ class StaticAnalysis {
     take_back(before);
     if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
     return std::nullopt;
-  }
-
-  /// The event of the plan that an error stands for; null: none.
-  const StepEvent* event_behind(std::string_view code) const {
-    if (code == "residual-diverges") return plan_->event(StepEventKind::divergence);
-    if (code == "residual-too-large") return plan_->event(StepEventKind::residual);
-    if (code == "increment-too-large") return plan_->event(StepEventKind::increment);
-    return code == "contact-too-deep" ? plan_->event(StepEventKind::depth) : nullptr;
-  }
-
-  void check_increment(double instant) {
-    const StepEvent* event = plan_->event(StepEventKind::increment);
-    if (event == nullptr) return;
-    const WatchedIncrement& watched = *event->increment;
-    const double change = largest_change(watched_values(watched, result_.steps.back(), mesh_), watched_values(watched, fields_now(instant), mesh_));
-    constexpr double rounding = 1e-9;
-    if (change <= watched.wanted * (1.0 + rounding)) return;
-    constexpr double least_share = 0.05;
-    share_of_step_ = std::clamp(watched.wanted / change, least_share, 1.0 - least_share);
-    throw Error("increment-too-large", fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant, watched.component, watched.field,
-                                                   change, watched.wanted),
-                "take smaller steps, or allow more (VALE_REF)");
-  }
-
-  void check_depth(double instant) const {
-    const StepEvent* event = plan_->event(StepEventKind::depth);
-    if (event == nullptr || !mixed_) return;
-    const double depth = mixed_->penetration(now_.state.u);
-    if (depth <= event->limit) return;
-    throw Error("contact-too-deep", fmt::format("t = {:.6g}: a point of contact is {:.4g} deep, more than the {:.4g} allowed", instant, depth, event->limit),
-                "take a larger penalty, or let it be raised (ACTION='ADAPT_COEF_PENA')");
   }
 
   /// Which points of contact are closed, one after the other.
@@ -286,9 +247,7 @@ class StaticAnalysis {
     newton_.watch(residual_watch(plan));
     require_contact_to_watch(plan);
     limit_depth(plan.event(StepEventKind::depth));
-    if (!plan.adaptation) return;
-    for (const AdaptationRule& rule : plan.adaptation->rules)
-      if (rule.increment) watched_.push_back({*rule.increment, watched_values(*rule.increment, result_.steps.back(), mesh_)});
+    watch_.emplace(plan, mesh_, result_.steps.back());
   }
 
   void require_contact_to_watch(const StepPlan& plan) const {
@@ -301,17 +260,6 @@ class StaticAnalysis {
     if (!mixed_ || !mixed_->has_penalties())
       throw Error("contradictory-keywords", "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')", "take ALGO_CONT='PENALISATION', or leave out the event");
     if (event->most_stiffening) mixed_->limit_depth(event->limit, *event->most_stiffening);
-  }
-
-  /// Of the watched fields in the step that has just been archived.
-  std::vector<double> watched_changes() {
-    std::vector<double> changes;
-    for (WatchedField& each : watched_) {
-      auto now = watched_values(each.increment, result_.steps.back(), mesh_);
-      std::swap(now, each.before);
-      changes.push_back(largest_change(now, each.before));
-    }
-    return changes;
   }
 
   /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
@@ -823,8 +771,7 @@ class StaticAnalysis {
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
   const StepPlan* plan_ = nullptr;
-  double share_of_step_ = half_a_step;  ///< how much of it a step that failed might have gone
-  std::vector<WatchedField> watched_;
+  std::optional<StepWatch> watch_;
 };
 
 }  // namespace

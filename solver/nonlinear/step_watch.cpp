@@ -1,0 +1,53 @@
+#include "solver/nonlinear/step_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+#include "solver/nonlinear/watched_increment.hpp"
+
+namespace comma::solver {
+
+StepWatch::StepWatch(const StepPlan& plan, const Mesh& mesh, const ResultStep& last) : plan_(plan), mesh_(mesh) {
+  if (!plan.adaptation) return;
+  for (const AdaptationRule& rule : plan.adaptation->rules)
+    if (rule.increment) adapting_.push_back({*rule.increment, watched_values(*rule.increment, last, mesh)});
+}
+
+const StepEvent* StepWatch::event_behind(std::string_view code) const {
+  if (code == "residual-diverges") return plan_.event(StepEventKind::divergence);
+  if (code == "residual-too-large") return plan_.event(StepEventKind::residual);
+  if (code == "increment-too-large") return plan_.event(StepEventKind::increment);
+  return code == "contact-too-deep" ? plan_.event(StepEventKind::depth) : nullptr;
+}
+
+void StepWatch::compare(const WatchedIncrement& watched, double instant, const ResultStep& last, const ResultStep& now) {
+  const double change = largest_change(watched_values(watched, last, mesh_), watched_values(watched, now, mesh_));
+  constexpr double rounding = 1e-9;
+  if (change <= watched.wanted * (1.0 + rounding)) return;
+  constexpr double least_share = 0.05;
+  share_ = std::clamp(watched.wanted / change, least_share, 1.0 - least_share);
+  throw Error("increment-too-large", fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant, watched.component, watched.field,
+                                                 change, watched.wanted),
+              "take smaller steps, or allow more (VALE_REF)");
+}
+
+std::vector<double> StepWatch::changes(const ResultStep& accepted) {
+  std::vector<double> changes;
+  for (WatchedField& each : adapting_) {
+    auto now = watched_values(each.increment, accepted, mesh_);
+    std::swap(now, each.before);
+    changes.push_back(largest_change(now, each.before));
+  }
+  return changes;
+}
+
+void check_depth(const StepEvent* event, double instant, double depth) {
+  if (event == nullptr || depth <= event->limit) return;
+  throw Error("contact-too-deep", fmt::format("t = {:.6g}: a point of contact is {:.4g} deep, more than the {:.4g} allowed", instant, depth, event->limit),
+              "take a larger penalty, or let it be raised (ACTION='ADAPT_COEF_PENA')");
+}
+
+}  // namespace comma::solver
