@@ -29,9 +29,7 @@ Component component(const Keywords& zone, const std::string& name, const std::ve
 solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model& model) {
   const solver::DofMap dofs(model);
   solver::UnilateralCondition condition;
-  condition.nodes = selected_nodes(zone, *model.mesh);
-  const auto left_out = selected_nodes(zone, *model.mesh, {"", "SANS_GROUP_NO", "", "", ""});
-  std::erase_if(condition.nodes, [&](int node) { return std::find(left_out.begin(), left_out.end(), node) != left_out.end(); });
+  condition.nodes = remaining_nodes(zone, *model.mesh);
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
