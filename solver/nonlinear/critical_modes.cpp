@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
 #include "solver/linear/generalised_eigen.hpp"
 
 namespace comma::solver {
@@ -61,6 +64,18 @@ bool is_instability(const StabilityAnalysis& analysis, double value) {
 constexpr double instant_tolerance = 1e-6;
 
 }  // namespace
+
+void require_modes(const StabilityAnalysis& analysis, const StaticProblem& problem) {
+  if (problem.contact || !problem.unilateral.empty() || !problem.followers.empty())
+    throw Error("unsupported", "modes of buckling are not known together with contact, unilateral conditions or loads that follow", "leave out CRIT_STAB");
+  if (!problem.behaviours || !analysis.geometric) return;
+  for (std::size_t cell = 0; cell < problem.behaviours->size(); ++cell) {
+    if (problem.model->formulations[cell] == Formulation::none || (*problem.behaviours)[cell].kinematics == Kinematics::small) continue;
+    throw Error("unsupported",
+                fmt::format("cell {}: in large displacements what stresses add is part of the stiffness already", problem.model->mesh->cell_name(static_cast<int>(cell))),
+                "give RIGI_GEOM='NON' in CRIT_STAB, or DEFORMATION='PETIT'");
+  }
+}
 
 bool is_stability_due(const StabilityAnalysis& analysis, double instant, int number) {
   if (analysis.instants.empty()) return number % std::max(1, analysis.period) == 0;

@@ -3,9 +3,13 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
-#include "solver/nonlinear/stability_analysis.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
+
+/// Throws Error `unsupported` where the problem has what modes are not known with: contact, unilateral conditions, loads that follow, and large
+/// displacements where the stiffness of the stresses is to be apart.
+void require_modes(const StabilityAnalysis& analysis, const StaticProblem& problem);
 
 /// Whether the step to an instant, the one of this number (from 1), is one that modes are asked for.
 bool is_stability_due(const StabilityAnalysis& analysis, double instant, int number);

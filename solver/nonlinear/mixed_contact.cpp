@@ -15,6 +15,7 @@
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/slave_cut.hpp"
+#include "solver/nonlinear/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/unilateral/rounds.hpp"
 
@@ -118,20 +119,8 @@ void MixedContact::number_patches(int zone) {
   }
 }
 
-std::vector<Vector3d> MixedContact::positions_at(const Eigen::VectorXd& u) const {
-  std::vector<Vector3d> positions;
-  for (int node = 0; node < mesh_.node_count(); ++node) {
-    Vector3d& place = positions.emplace_back(mesh_.nodes[node].data());
-    for (int axis = 0; axis < 3; ++axis) {
-      const int dof = dofs_.dof(node, translations[static_cast<std::size_t>(axis)]);
-      if (dof >= 0) place[axis] += u[dof];
-    }
-  }
-  return positions;
-}
-
 void MixedContact::pair(Positions positions, double time) {
-  const std::vector<Vector3d> start = positions_at(reference_);
+  const std::vector<Vector3d> start = positions_at(reference_, mesh_, dofs_);
   follows_ = largest_slide(definition_, mesh_, positions, start) > (follows_ ? short_slide : far_slide);
   points_ = contact_points(definition_, model_, positions, follows_ ? positions : Positions(start), time);
   ++counters_.pairings;
@@ -282,7 +271,7 @@ bool MixedContact::can_iterate_jointly() const {
 }
 
 int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
-  pair(positions_at(u), time);
+  pair(positions_at(u, mesh_, dofs_), time);
   const Eigen::VectorXd now = jumps(u);
   int changes = 0;
   forces_.setZero();

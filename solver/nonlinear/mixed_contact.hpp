@@ -109,7 +109,6 @@ class MixedContact {
 
   void number_multipliers();
   void number_patches(int zone);
-  std::vector<Eigen::Vector3d> positions_at(const Eigen::VectorXd& u) const;
   double initial_gap(const ContactPoint& point) const;
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);

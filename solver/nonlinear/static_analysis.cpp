@@ -1,9 +1,7 @@
 #include "solver/nonlinear/static_analysis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,9 +10,12 @@
 
 #include "solver/contact/contact_field.hpp"
 #include "solver/contact/straight_faces.hpp"
+#include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/critical_modes.hpp"
+#include "solver/nonlinear/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/geometry_updates.hpp"
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
 #include "solver/nonlinear/step_watch.hpp"
@@ -24,11 +25,6 @@ namespace comma::solver {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Pairings that return within this many updates are in a cycle.
-constexpr int cycle_length_limit = 4;
-/// Displacements of a step below this share of the whole ones are rounding.
-constexpr double rounding_share = 1e-11;
 
 class StaticAnalysis {
  public:
@@ -55,10 +51,7 @@ class StaticAnalysis {
       newton_.follow(followers_);
     }
     require_symmetry();
-    if (options.stability) {
-      require_no_conditions();
-      require_small_displacements();
-    }
+    if (options.stability) require_modes(*options.stability, problem);
     if (options.path) follow_path();
     if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
       throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
@@ -198,7 +191,7 @@ class StaticAnalysis {
 
   int solve_and_check(double instant) {
     const int iterations = solve_step(instant);
-    if (problem_.contact) check_watched_zones(instant);
+    if (problem_.contact) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
     return iterations;
   }
 
@@ -450,15 +443,7 @@ class StaticAnalysis {
     step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
   }
 
-  std::vector<Vector3d> positions() const { return positions_at(now_.state.u); }
-
-  std::vector<Vector3d> positions_at(const Eigen::VectorXd& u) const {
-    std::vector<Vector3d> result(static_cast<std::size_t>(mesh_.node_count()));
-    for (int node = 0; node < mesh_.node_count(); ++node) {
-      result[node] = Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]) + displacement(node, u);
-    }
-    return result;
-  }
+  std::vector<Vector3d> positions() const { return positions_at(now_.state.u, mesh_, dofs_); }
 
   void note_doubts_about_surfaces(double instant) {
     if (!problem_.contact || path_ || !now_.paired) return;
@@ -484,20 +469,8 @@ class StaticAnalysis {
   void note_geometry_left_behind(double instant, const std::vector<Vector3d>& now, double pushed_back) {
     const bool from_start = mixed_ && mixed_->is_left_behind();
     if (problem_.contact->geometry_update == GeometryUpdate::automatic && !from_start) return;
-    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(from_start ? start_ : now_.reference), instant) : now_.pairs;
+    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(from_start ? start_ : now_.reference, mesh_, dofs_), instant) : now_.pairs;
     note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
-  }
-
-  Vector3d displacement(int node) const { return displacement(node, now_.state.u); }
-
-  Vector3d displacement(int node, const Eigen::VectorXd& u) const {
-    Vector3d result = Vector3d::Zero();
-    constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
-    for (int axis = 0; axis < 3; ++axis) {
-      const int dof = dofs_.dof(node, translations[axis]);
-      if (dof >= 0) result[axis] = u[dof];
-    }
-    return result;
   }
 
   /// What the intensity multiplies, and what it does not.
@@ -532,8 +505,8 @@ class StaticAnalysis {
       return solve_extrapolated(time, external, offset);
     }
     int iterations = 0;
-    GeometryHistory history;
-    std::vector<ConditionSet> visited;
+    std::optional<GeometryUpdates> geometry;
+    if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
     for (int update = 0;; ++update) {
       if (updates || !now_.paired) pair(time);
       ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
@@ -549,11 +522,11 @@ class StaticAnalysis {
           iterations += balance();
         }
       }
-      const bool settled = !updates || geometry_settled(update, history);
+      const bool settled = !geometry || geometry->settled(now_.reference, now_.state.u);
       if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) return iterations;
-      note_cycle(visited, history);
-      if (problem_.contact->geometry_update == GeometryUpdate::automatic && update + 1 >= max_updates())
-        throw_geometry_failure(time, history, *problem_.contact);
+      if (!geometry) continue;
+      geometry->note_cycle(now_.pairs);
+      geometry->require_more(time);
     }
   }
 
@@ -564,8 +537,6 @@ class StaticAnalysis {
     for (const int slot : next.row_slots) kept[slot] = now_.state.multipliers[slot];
     now_.state.multipliers = std::move(kept);
   }
-
-  int max_updates() const { return std::max(1, problem_.contact->max_geometry_updates); }
 
   /// ITER_CONT_MULT changes a condition; unilateral conditions alone need no user's word on it.
   int active_set_limit() const {
@@ -588,40 +559,6 @@ class StaticAnalysis {
     }
     now_.paired = true;
     now_.reference = now_.state.u;
-  }
-
-  /// Whether no node has moved since the last pairing by more than RESI_GEOM of the largest displacement of this step (U4.44.11; all nodes
-  /// count, and displacements by their length: ssnv104h tells), or the prescribed number of updates is done.
-  bool geometry_settled(int update, GeometryHistory& history) const {
-    double moved = 0.0;
-    double largest = 0.0;
-    double whole = 0.0;
-    for (int node = 0; node < mesh_.node_count(); ++node) {
-      const Vector3d now = displacement(node);
-      const double change = (now - displacement(node, now_.reference)).norm();
-      if (change > moved) history.worst = mesh_.node_name(node);
-      moved = std::max(moved, change);
-      whole = std::max(whole, now.norm());
-      largest = std::max(largest, (now - displacement(node, start_)).norm());
-    }
-    // Nothing is asked of a step that only rounding moves.
-    history.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
-    if (problem_.contact->geometry_update == GeometryUpdate::controlled)
-      return update + 1 >= std::max(1, problem_.contact->controlled_updates);
-    return history.changes.back() <= problem_.contact->geometry_tolerance;
-  }
-
-  /// Facets that return after others took their place, several times over, will go on returning.
-  void note_cycle(std::vector<ConditionSet>& visited, GeometryHistory& history) const {
-    const auto same_facets = [&](const ConditionSet& other) {
-      return std::equal(other.pairs.begin(), other.pairs.end(), now_.pairs.begin(), now_.pairs.end(),
-                        [](const ContactPair& a, const ContactPair& b) { return a.facet == b.facet && a.status == b.status; });
-    };
-    const std::size_t count = visited.size();
-    history.cycles = false;
-    for (std::size_t back = 2; back <= std::min<std::size_t>(cycle_length_limit, count); ++back)
-      history.cycles |= same_facets(visited[count - back]) && !same_facets(visited[count - 1]);
-    visited.push_back(now_.conditions);
   }
 
   /// The multipliers of the mixed formulation are unknowns beside them.
@@ -665,52 +602,9 @@ class StaticAnalysis {
     return report.unstable;
   }
 
-  /// Modes are those of the stiffness alone.
-  void require_no_conditions() const {
-    if (!problem_.contact && problem_.unilateral.empty() && problem_.followers.empty()) return;
-    throw Error("unsupported", "modes of buckling are not known together with contact, unilateral conditions or loads that follow", "leave out CRIT_STAB");
-  }
-  void require_small_displacements() const {
-    if (!problem_.behaviours || !options_.stability->geometric) return;
-    for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell) {
-      if (problem_.model->formulations[cell] == Formulation::none || (*problem_.behaviours)[cell].kinematics == Kinematics::small) continue;
-      throw Error("unsupported", fmt::format("cell {}: in large displacements what stresses add is part of the stiffness already", mesh_.cell_name(static_cast<int>(cell))),
-                  "give RIGI_GEOM='NON' in CRIT_STAB, or DEFORMATION='PETIT'");
-    }
-  }
-
   void append(ResultStep step) {
     result_.steps.push_back(std::move(step));
     if (after_step_) after_step_(result_);
-  }
-
-  /// Of the surfaces themselves, without thicknesses.
-  double gap_now(const ContactPair& pair, const std::vector<Vector3d>& now) const { return gap_at(pair, mesh_, now) + pair.thickness; }
-
-  /// The pairs of zones where contact is not enforced, by their number, as they stand now.
-  std::map<std::size_t, ContactPair> watched_pairs(const std::vector<Vector3d>& now) const {
-    std::map<std::size_t, ContactPair> watched;
-    const auto& zones = problem_.contact->zones;
-    if (std::ranges::all_of(zones, [](const ContactZone& zone) { return zone.resolved; })) return watched;
-    const auto pairs = pair_surfaces(*problem_.contact, mesh_, now);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      if (pairs[k].status == PairingStatus::watched) watched.emplace(k, pairs[k]);
-    }
-    return watched;
-  }
-
-  /// STOP_INTERP (U4.44.11): the nodes of zones where contact is not enforced must not go too deep.
-  void check_watched_zones(double instant) const {
-    if (!problem_.contact->stop_on_interpenetration) return;
-    const std::vector<Vector3d> now = positions();
-    for (const auto& [k, pair] : watched_pairs(now)) {
-      const double depth = -gap_now(pair, now);
-      if (depth <= problem_.contact->zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
-      throw Error("contact-interpenetration",
-                  fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, where contact is not enforced", instant,
-                              mesh_.node_name(pair.slave), depth, mesh_.cell_name(pair.facet)),
-                  "enforce contact in that zone, or allow the depth");
-    }
   }
 
   /// How the surfaces stand before anything presses.
@@ -736,9 +630,9 @@ class StaticAnalysis {
     }
     const std::vector<Vector3d> now = positions();
     std::vector<ContactPair> pairs = now_.conditions.pairs;
-    for (const auto& [k, pair] : watched_pairs(now)) {
+    for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, now)) {
       pairs[k] = pair;
-      gaps[k] = gap_now(pair, now);
+      gaps[k] = surface_gap(pair, mesh_, now);
     }
     return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
   }

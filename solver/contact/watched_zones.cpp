@@ -1,0 +1,36 @@
+#include "solver/contact/watched_zones.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "solver/contact/doubts.hpp"
+#include "solver/error.hpp"
+
+namespace comma::solver {
+
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now) {
+  std::map<std::size_t, ContactPair> watched;
+  if (std::ranges::all_of(contact.zones, [](const ContactZone& zone) { return zone.resolved; })) return watched;
+  const auto pairs = pair_surfaces(contact, mesh, now);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs[k].status == PairingStatus::watched) watched.emplace(k, pairs[k]);
+  }
+  return watched;
+}
+
+double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now) { return gap_at(pair, mesh, now) + pair.thickness; }
+
+void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
+  if (!contact.stop_on_interpenetration) return;
+  for (const auto& [k, pair] : watched_pairs(contact, mesh, now)) {
+    const double depth = -surface_gap(pair, mesh, now);
+    if (depth <= contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
+    throw Error("contact-interpenetration",
+                fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
+                            mesh.cell_name(pair.facet)),
+                "enforce contact in that zone, or allow the depth");
+  }
+}
+
+}  // namespace comma::solver

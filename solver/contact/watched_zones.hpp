@@ -1,0 +1,20 @@
+// Zones where contact is not enforced but watched (U4.44.11, RESOLUTION='NON').
+#pragma once
+
+#include <cstddef>
+#include <map>
+
+#include "solver/contact/pairing.hpp"
+
+namespace comma::solver {
+
+/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Throws what pair_surfaces throws.
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now);
+
+/// The gap between the surfaces themselves (m), without the thicknesses that DIST_MAIT and DIST_ESCL add.
+double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now);
+
+/// STOP_INTERP: throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
+void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
+
+}  // namespace comma::solver

@@ -1,0 +1,58 @@
+#include "solver/nonlinear/geometry_updates.hpp"
+
+#include <algorithm>
+
+#include "solver/nonlinear/deformed_places.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Pairings that return within this many updates are in a cycle.
+constexpr std::size_t cycle_length_limit = 4;
+/// Displacements of a step below this share of the whole ones are rounding.
+constexpr double rounding_share = 1e-11;
+
+bool same_facets(const std::vector<ContactPair>& a, const std::vector<ContactPair>& b) {
+  return std::ranges::equal(a, b, [](const ContactPair& one, const ContactPair& other) { return one.facet == other.facet && one.status == other.status; });
+}
+
+}  // namespace
+
+GeometryUpdates::GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start)
+    : contact_(contact), mesh_(mesh), dofs_(dofs), start_(start) {}
+
+bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+  double moved = 0.0;
+  double largest = 0.0;
+  double whole = 0.0;
+  for (int node = 0; node < mesh_.node_count(); ++node) {
+    const Vector3d at = displacement_of(node, now, dofs_);
+    const double change = (at - displacement_of(node, paired, dofs_)).norm();
+    if (change > moved) history_.worst = mesh_.node_name(node);
+    moved = std::max(moved, change);
+    whole = std::max(whole, at.norm());
+    largest = std::max(largest, (at - displacement_of(node, start_, dofs_)).norm());
+  }
+  // Nothing is asked of a step that only rounding moves.
+  history_.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
+  if (contact_.geometry_update == GeometryUpdate::controlled)
+    return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);
+  return history_.changes.back() <= contact_.geometry_tolerance;
+}
+
+void GeometryUpdates::note_cycle(const std::vector<ContactPair>& pairs) {
+  const std::size_t count = visited_.size();
+  history_.cycles = false;
+  for (std::size_t back = 2; back <= std::min(cycle_length_limit, count); ++back)
+    history_.cycles |= same_facets(visited_[count - back], pairs) && !same_facets(visited_[count - 1], pairs);
+  visited_.push_back(pairs);
+}
+
+void GeometryUpdates::require_more(double time) const {
+  if (contact_.geometry_update != GeometryUpdate::automatic || static_cast<int>(history_.changes.size()) < std::max(1, contact_.max_geometry_updates)) return;
+  throw_geometry_failure(time, history_, contact_);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,37 @@
+// When the updates of the geometry within a step may end (RESI_GEOM, U4.44.11).
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/pairing.hpp"
+#include "solver/model/model.hpp"
+#include "solver/nonlinear/failure.hpp"
+
+namespace comma::solver {
+
+/// Follows the updates of one step.
+class GeometryUpdates {
+ public:
+  /// `start`: the displacements at the beginning of the step. All arguments are kept by reference.
+  GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start);
+
+  /// Whether no node has moved from `paired` (the displacements when surfaces were last paired) to `now` by more than RESI_GEOM of the largest displacement
+  /// of this step (all nodes count, and displacements by their length: ssnv104h tells), or the prescribed number of updates is done.
+  bool settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
+
+  /// To be told the pairs of each geometry: facets that return after others took their place, several times over, will go on returning.
+  void note_cycle(const std::vector<ContactPair>& pairs);
+
+  /// Error `contact-cycling` or `no-convergence` when as many updates are done as the definition allows.
+  void require_more(double time) const;
+
+ private:
+  const ContactDefinition& contact_;
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const Eigen::VectorXd& start_;
+  GeometryHistory history_;
+  std::vector<std::vector<ContactPair>> visited_;
+};
+
+}  // namespace comma::solver

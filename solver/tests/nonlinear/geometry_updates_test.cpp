@@ -1,0 +1,72 @@
+#include "solver/nonlinear/geometry_updates.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "scene.hpp"
+
+using namespace comma::solver;
+using comma::solver::testing::Scene;
+
+namespace {
+
+/// One square, whose first node alone moves along x.
+struct MovingCorner {
+  Scene scene;
+  Scene::Block block = scene.block("b", {0, 0}, {1, 1}, 1, 1, 1.0, 0.0);
+  const Model& model = *scene.problem.model;
+  DofMap dofs{model};
+  ContactDefinition contact;
+
+  Eigen::VectorXd at(double x) const {
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs.size());
+    u[dofs.dof(block.nodes[0][0], Component::dx)] = x;
+    return u;
+  }
+};
+
+std::vector<ContactPair> facing(int facet) {
+  ContactPair pair;
+  pair.facet = facet;
+  return {pair};
+}
+
+}  // namespace
+
+TEST_CASE("Updates of the geometry end when it moves by less than a share of the displacement of the step") {
+  MovingCorner corner;
+  corner.contact.geometry_tolerance = 0.02;
+  const Eigen::VectorXd start = corner.at(1.0);
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  CHECK_FALSE(updates.settled(start, corner.at(2.0)));
+  // 0.015 of the displacement itself, but 0.03 of that of the step.
+  CHECK_FALSE(updates.settled(corner.at(2.0), corner.at(2.03)));
+  CHECK(updates.settled(corner.at(2.03), corner.at(2.039)));
+}
+
+TEST_CASE("A prescribed number of updates is done, however far the geometry moves") {
+  MovingCorner corner;
+  corner.contact.geometry_update = GeometryUpdate::controlled;
+  corner.contact.controlled_updates = 2;
+  const Eigen::VectorXd start = corner.at(0.0);
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  CHECK_FALSE(updates.settled(start, corner.at(1.0)));
+  CHECK_NOTHROW(updates.require_more(1.0));
+  CHECK(updates.settled(corner.at(1.0), corner.at(5.0)));
+}
+
+TEST_CASE("Updates that run out tell of facets that return in turn, or of a geometry that does not settle") {
+  MovingCorner corner;
+  corner.contact.geometry_update = GeometryUpdate::automatic;
+  corner.contact.max_geometry_updates = 4;
+  const Eigen::VectorXd start = corner.at(0.0);
+  for (const bool cycles : {true, false}) {
+    GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+    for (int update = 0; update < 4; ++update) {
+      CHECK_NOTHROW(updates.require_more(1.0));
+      const double before = update % 2;
+      CHECK_FALSE(updates.settled(corner.at(before), corner.at(1.0 - before)));
+      updates.note_cycle(facing(cycles ? update % 2 : update));
+    }
+    CHECK_THROWS_WITH(updates.require_more(1.0), Catch::Contains(cycles ? "return in turn" : "did not settle within 4 updates"));
+  }
+}
