@@ -1,7 +1,6 @@
 #include "commands/concepts.hpp"
 
 #include "commands/extracted_table.hpp"
-#include "commands/result_tables.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 
@@ -40,24 +39,6 @@ Value TableConcept::subscript(const Value& key) const {
 Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return extracted_table(table);
   return ConceptData::method(name, arguments, keywords);
-}
-
-Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  if (name != "getTable") return ConceptData::method(name, arguments, keywords);
-  if (arguments.size() != 1 || !arguments.front().is_text() || !keywords.empty()) {
-    throw interpreter::DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
-  }
-  const std::string& wanted = arguments.front().as_text();
-  std::optional<Table> found = table_of_result(*this, wanted);
-  if (!found) return Value();
-  auto data = std::make_shared<TableConcept>();
-  data->table = *std::move(found);
-  auto handle = std::make_shared<interpreter::Concept>();
-  handle->name = wanted;
-  handle->type = "table_sdaster";
-  handle->id = interpreter::detached_concept;
-  handle->data = std::move(data);
-  return Value(std::move(handle));
 }
 
 }  // namespace comma::commands

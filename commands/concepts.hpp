@@ -74,7 +74,8 @@ struct ResultConcept : ConceptData {
   std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
   std::optional<Table> modes;         ///< the eigenvalues that CRIT_STAB asked for
 
-  /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have.
+  /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one value a step: LIST_VARI_ACCES()
+  /// and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the parameters); LIST_CHAMPS(): the orders that have each field.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 

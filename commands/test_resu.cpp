@@ -10,6 +10,8 @@
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_computation.hpp"
+#include "solver/fields/relation_multipliers.hpp"
 
 namespace comma::commands {
 
@@ -67,7 +69,8 @@ std::vector<int> components_tested(const Keywords& test, const std::vector<std::
   return all;
 }
 
-double nodal_value(const Keywords& test, const NodalField& field, const solver::Mesh& mesh) {
+// What stands beside the values at nodes: see multipliers_in.
+double nodal_value(const Keywords& test, const NodalField& field, const solver::Mesh& mesh, const Values& others) {
   const auto components = components_tested(test, field.components);
   if (test.given("TYPE_TEST")) {
     auto nodes = names_a_place(test) ? selected_nodes(test, mesh) : std::vector<int>();
@@ -82,6 +85,7 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
       }
     }
     if (values.empty()) not_carried(test, "the field");
+    values.insert(values.end(), others.begin(), others.end());
     return reduced(test, values);
   }
   const std::string keyword = place_keyword(test, node_places);
@@ -142,8 +146,8 @@ double element_value(const Keywords& test, const ElementField& field, const solv
   return value;
 }
 
-double field_value(const Keywords& test, const solver::Field& field, const solver::Mesh& mesh) {
-  if (const auto* nodal = std::get_if<NodalField>(&field)) return nodal_value(test, *nodal, mesh);
+double field_value(const Keywords& test, const solver::Field& field, const solver::Mesh& mesh, const Values& others = {}) {
+  if (const auto* nodal = std::get_if<NodalField>(&field)) return nodal_value(test, *nodal, mesh, others);
   return element_value(test, std::get<ElementField>(field), mesh);
 }
 
@@ -184,11 +188,24 @@ void report(const Keywords& test, const std::string& label, const TestedValue& v
   for (Verdict& verdict : judge(test, "TEST_RESU", full, value)) context.report(std::move(verdict));
 }
 
+// The multipliers of AFFE_CHAR_MECA stand among the values of DEPL: a test of all of them at once takes them in (ssnp140a).
+Values multipliers_in(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
+  if (!test.given("TYPE_TEST") || test.given("NOM_CMP") || names_a_place(test) || test.text("NOM_CHAM") != "DEPL") return {};
+  if (!data.problem.model || !data.problem.materials) return {};
+  solver::FieldComputation computation(data.problem, data.result);
+  const solver::Field reactions = computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
+  return solver::relation_multipliers(solver::DofMap(*data.problem.model), data.problem.loads, std::get<NodalField>(reactions));
+}
+
+TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
+  if (test.given("PARA")) return parameter_value(test, step);
+  return as_reference(test, field_value(test, field_of(test, step), data.result.mesh(), multipliers_in(test, data, step)));
+}
+
 void test_result(const Keywords& test, Context& context) {
   const auto& data = interpreter::data_of<ResultConcept>(test.concept_of("RESULTAT"), "RESULTAT");
   const solver::ResultStep& step = only_step(test, data.result, "a value is tested at one");
-  const TestedValue value = test.given("PARA") ? parameter_value(test, step)
-                                               : as_reference(test, field_value(test, field_of(test, step), data.result.mesh()));
+  const TestedValue value = result_value(test, data, step);
   const std::string& what = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
   report(test, label_of(test, what) + fmt::format(", INST={:g}", step.instant), value, context);
 }

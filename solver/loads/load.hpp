@@ -98,6 +98,8 @@ struct InitialSlenderStrain {
 
 struct Load {
   std::vector<LinearRelation> relations;
+  /// How many unknowns a relation adds where relations are not eliminated (U4.44.01, DOUBLE_LAGRANGE): see relation_multipliers.hpp.
+  int multipliers_per_relation = 2;
   std::vector<NodalForce> nodal_forces;
   std::vector<PressureLoad> pressures;
   std::vector<DistributedForce> distributed_forces;

@@ -1,0 +1,83 @@
+// What a command file may ask a result for (U1.03.02).
+#include <functional>
+
+#include "commands/concepts.hpp"
+#include "commands/result_tables.hpp"
+#include "interpreter/dict.hpp"
+#include "interpreter/diagnostic.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::Dict;
+using interpreter::DiagnosticError;
+
+Value table_handle(const ResultConcept& data, const std::string& name) {
+  std::optional<Table> found = table_of_result(data, name);
+  if (!found) return Value();
+  auto table = std::make_shared<TableConcept>();
+  table->table = *std::move(found);
+  auto handle = std::make_shared<interpreter::Concept>();
+  handle->name = name;
+  handle->type = "table_sdaster";
+  handle->id = interpreter::detached_concept;
+  handle->data = std::move(table);
+  return Value(std::move(handle));
+}
+
+/// One value a step.
+Value of_steps(const solver::Result& result, const std::function<Value(const solver::ResultStep&)>& value) {
+  std::vector<Value> values;
+  for (const solver::ResultStep& step : result.steps) values.push_back(value(step));
+  return Value::list(std::move(values));
+}
+
+std::shared_ptr<Dict> access_variables(const solver::Result& result) {
+  auto lists = std::make_shared<Dict>();
+  lists->set(Value("NUME_ORDRE"), of_steps(result, [](const auto& step) { return Value(static_cast<std::int64_t>(step.order)); }));
+  lists->set(Value("INST"), of_steps(result, [](const auto& step) { return Value(step.instant); }));
+  return lists;
+}
+
+/// The access variables and the parameters, None where a step has one not.
+std::shared_ptr<Dict> parameters(const solver::Result& result) {
+  std::shared_ptr<Dict> lists = access_variables(result);
+  for (const solver::ResultStep& described : result.steps)
+    for (const auto& entry : described.parameters) {
+      const std::string& name = entry.first;
+      if (lists->find(Value(name)) != nullptr) continue;
+      lists->set(Value(name), of_steps(result, [&](const solver::ResultStep& step) {
+                   const auto found = step.parameters.find(name);
+                   return found == step.parameters.end() ? Value() : Value(found->second);
+                 }));
+    }
+  return lists;
+}
+
+/// The order numbers of the steps that have each field.
+std::shared_ptr<Dict> fields(const solver::Result& result) {
+  std::map<std::string, std::vector<Value>, std::less<>> orders;
+  for (const solver::ResultStep& step : result.steps)
+    for (const auto& field : step.fields) orders[field.first].emplace_back(static_cast<std::int64_t>(step.order));
+  auto lists = std::make_shared<Dict>();
+  for (auto& [name, numbers] : orders) lists->set(Value(name), Value::list(std::move(numbers)));
+  return lists;
+}
+
+}  // namespace
+
+Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if (name == "getTable") {
+    if (arguments.size() == 1 && arguments.front().is_text() && keywords.empty()) return table_handle(*this, arguments.front().as_text());
+    throw DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
+  }
+  static const std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)> lists = {
+      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", parameters}, {"LIST_CHAMPS", fields}};
+  const auto list = lists.find(name);
+  if (list == lists.end()) return ConceptData::method(name, arguments, keywords);
+  if (arguments.empty() && keywords.empty()) return Value(list->second(result));
+  throw DiagnosticError("type-error", std::string(name) + "() takes no arguments", {}, "write RESULT." + std::string(name) + "()");
+}
+
+}  // namespace comma::commands
