@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
+#include "commands/field_extraction.hpp"
 #include "commands/field_types.hpp"
 #include "commands/input_field_reading.hpp"
 #include "commands/result_reading.hpp"
@@ -30,12 +31,6 @@ FieldPtr on_support(const Call& call) {
     product->mesh = call.data<MeshConcept>("MAILLAGE").mesh;
   }
   return product;
-}
-
-// Of a field on elements.
-solver::Support support_of(FieldPlace place) {
-  if (place == FieldPlace::element_node) return solver::Support::element_node;
-  return place == FieldPlace::gauss_point ? solver::Support::gauss_point : solver::Support::cell;
 }
 
 const solver::Model& needed_model(const Call& call, const FieldConcept& support, const FieldType& type) {
@@ -80,10 +75,14 @@ void finish(const Call& call, FieldConcept& product) {
 
 // The value to store: a number, or the index of a function that is kept beside the field.
 std::vector<double> values_of(const Keywords& occurrence, const FieldType& type, FieldConcept& product) {
-  const char* wanted = type.functions ? "VALE_F" : "VALE";
+  const char* wanted = type.functions ? "VALE_F" : type.integers ? "VALE_I" : "VALE";
   if (!occurrence.given(wanted)) {
-    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field of {} takes its values from {}", type.functions ? "functions" : "numbers", wanted),
-                          occurrence.span, type.functions ? "or ask for a TYPE_CHAM that ends in _R" : "or ask for a TYPE_CHAM that ends in _F");
+    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field of {} takes its values from {}", type.functions ? "functions" : type.integers ? "integers" : "numbers", wanted),
+                          occurrence.span, "or ask for a TYPE_CHAM that ends in _R (VALE), _I (VALE_I) or _F (VALE_F)");
+  }
+  if (type.integers) {
+    const auto integers = occurrence.integers("VALE_I");
+    return {integers.begin(), integers.end()};
   }
   if (!type.functions) return occurrence.reals("VALE");
   std::vector<double> indices;
@@ -211,15 +210,6 @@ FieldPtr of_normals(const Call& call) {
   return product;
 }
 
-FieldPtr of_result(const Call& call) {
-  const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
-  auto product = std::make_shared<FieldConcept>();
-  product->model = result.model;
-  product->mesh = result.model ? std::shared_ptr<const solver::Mesh>(result.model->mesh) : result.bare_mesh;
-  product->field = field_of(call, only_step(call, result, "a field is taken of one"));
-  return product;
-}
-
 // CHAM_GD at other places.
 FieldPtr brought(const Call& call, const FieldType& type) {
   const FieldConcept& from = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
@@ -238,8 +228,9 @@ FieldPtr brought(const Call& call, const FieldType& type) {
   return product;
 }
 
-FieldPtr extracted(const Call& call) {
-  if (call.has("RESULTAT")) return of_result(call);
+FieldPtr extracted(const Call& call, const FieldType& type) {
+  if (call.has("RESULTAT")) return field_of_result(call);
+  if (call.has("TABLE")) return field_of_table(call, type);
   if (call.has("CARA_ELEM")) return field_of_characteristics(call);
   return call.has("CHARGE") ? field_of_load(call) : of_mesh(call);
 }
@@ -251,7 +242,7 @@ FieldPtr made_by(const Call& call, const FieldType& type) {
   if (operation == "COMB") return from_terms(call);
   if (operation == "EVAL") return from_functions(call, type);
   if (operation == "NORMALE") return of_normals(call);
-  return operation == "DISC" ? brought(call, type) : extracted(call);
+  return operation == "DISC" ? brought(call, type) : extracted(call, type);
 }
 
 }  // namespace

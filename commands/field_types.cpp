@@ -34,6 +34,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"EPSI", {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ", "INVA_2", "PRIN_1", "PRIN_2", "PRIN_3", "INVA_2SG", "GAXY", "GAXZ",
                 "GAT", "KY", "KZ"}},
       {"ENER", {"TOTALE"}},
+      {"DERA", {"DCHA_V", "DCHA_T", "IND_DCHA", "VAL_DCHA", "RADI_V", "ERR_RADI"}},
       {"CACOQU", {"EP", "ALPHA", "BETA", "CTOR", "EXCENT", "KAPPA"}},
       {"NBSP", {"COQ_NCOU"}},
       {"INFC", {"CONT", "JEU", "RN", "RNX", "RNY", "RNZ", "GLIX", "GLIY", "GLI", "RTAX", "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ", "RX",
@@ -54,18 +55,35 @@ FieldType field_type(const std::string& word) {
                                                                         {"ELEM", FieldPlace::cell},
                                                                         {"ELNO", FieldPlace::element_node},
                                                                         {"ELGA", FieldPlace::gauss_point}};
-  return {places.at(word.substr(0, 4)), word.substr(5, word.size() - 7), word.back() == 'F'};
+  return {places.at(word.substr(0, 4)), word.substr(5, word.size() - 7), word.back() == 'F', word.back() == 'I'};
+}
+
+namespace {
+
+Names components_known(const FieldType& type) {
+  const auto found = components_by_quantity().find(type.quantity);
+  return found == components_by_quantity().end() ? Names{type.quantity == "NEUT" ? "X1" : "V1"} : found->second;
+}
+
+}  // namespace
+
+bool has_component(const FieldType& type, const std::string& name) {
+  // Neutral values are X1, X2 ... and internal variables V1, V2 ...
+  if ((type.quantity == "NEUT" && is_numbered(name, 'X')) || (type.quantity == "VARI" && is_numbered(name, 'V'))) return true;
+  const Names known = components_known(type);
+  return std::ranges::find(known, name) != known.end();
 }
 
 void check_component(const interpreter::Keywords& keywords, const std::string& keyword, const FieldType& type, const std::string& name) {
-  // Neutral values are X1, X2 ... and internal variables V1, V2 ...
-  if ((type.quantity == "NEUT" && is_numbered(name, 'X')) || (type.quantity == "VARI" && is_numbered(name, 'V'))) return;
-  const auto found = components_by_quantity().find(type.quantity);
-  const Names known = found == components_by_quantity().end() ? Names{type.quantity == "NEUT" ? "X1" : "V1"} : found->second;
-  if (std::ranges::find(known, name) != known.end()) return;
-  const std::string near = interpreter::nearest(name, known);
+  if (has_component(type, name)) return;
+  const std::string near = interpreter::nearest(name, components_known(type));
   throw DiagnosticError("unknown-component", fmt::format("{}: a field of {} has no component {}", keyword, type.quantity, name),
                         keywords.span_of(keyword), near.empty() ? "" : fmt::format("did you mean {}?", near));
+}
+
+solver::Support support_of(FieldPlace place) {
+  if (place == FieldPlace::element_node) return solver::Support::element_node;
+  return place == FieldPlace::gauss_point ? solver::Support::gauss_point : solver::Support::cell;
 }
 
 FieldPlace place_of(const solver::Field& field) {

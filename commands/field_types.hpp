@@ -17,6 +17,7 @@ struct FieldType {
   FieldPlace place;
   std::string quantity;  ///< "TEMP", "SIEF" ...
   bool functions;        ///< TYPE_CHAM ends in _F: functions instead of numbers
+  bool integers;         ///< TYPE_CHAM ends in _I
 
   std::string quantity_name() const { return quantity + "_R"; }
 };
@@ -27,6 +28,12 @@ FieldType field_type(const std::string& word);
 /// Throws DiagnosticError `unknown-component` at `keyword` for a component that the quantity does not have, with the nearest
 /// name.
 void check_component(const interpreter::Keywords& keywords, const std::string& keyword, const FieldType& type, const std::string& name);
+
+/// Whether the quantity has such a component.
+bool has_component(const FieldType& type, const std::string& name);
+
+/// Where a field on elements has its values.
+solver::Support support_of(FieldPlace place);
 
 /// Whether a field has its values at such places.
 bool lies_at(const solver::Field& field, FieldPlace place);
