@@ -1,8 +1,13 @@
+#include <fmt/format.h>
+
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
 
@@ -16,6 +21,50 @@ std::vector<std::string> wanted_fields(const Call& call) {
   return names;
 }
 
+// --- fields of one's own ----------------------------------------------------------------------------------------------------
+
+// UT01_ELGA for NUME_CHAM_RESU=1 and a field at Gauss points.
+std::string own_name(const Keywords& occurrence) {
+  const std::string& source = occurrence.text("NOM_CHAM");
+  const auto place = source.rfind('_');
+  return fmt::format("UT{:02}_{}", occurrence.integer("NUME_CHAM_RESU"), place == std::string::npos ? "NOEU" : source.substr(place + 1));
+}
+
+std::vector<solver::RowFunction> row_functions(const Keywords& occurrence, const std::vector<std::string>& components) {
+  static const std::map<std::string, solver::TensorCriterion, std::less<>> criteria = {{"VMIS", solver::TensorCriterion::von_mises},
+                                                                                       {"TRESCA", solver::TensorCriterion::tresca},
+                                                                                       {"INVA_2", solver::TensorCriterion::second_invariant},
+                                                                                       {"TRACE", solver::TensorCriterion::trace}};
+  if (occurrence.has("CRITERE")) return {solver::criterion(components, criteria.at(occurrence.text("CRITERE")))};
+  if (occurrence.has("NORME")) {
+    return {solver::euclidean_norm(occurrence.text("NORME") == "FROBENIUS" ? solver::frobenius_weights(components) : std::vector<double>())};
+  }
+  std::vector<solver::RowFunction> functions;
+  for (const auto& handle : occurrence.concepts("FORMULE")) {
+    interpreter::data_of<FunctionConcept>(handle, "FORMULE");
+    const auto function = std::dynamic_pointer_cast<const FunctionConcept>(handle->data);
+    functions.push_back(solver::formula(components, {function->parameters(), [function](std::span<const double> at) { return function->evaluate(at); }}));
+  }
+  return functions;
+}
+
+solver::Field own_field(const Keywords& occurrence, const solver::Field& source) {
+  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, source);
+  try {
+    return solver::made_of_rows(source, row_functions(occurrence, components));
+  } catch (const solver::Error& error) {
+    const char* keyword = occurrence.has("FORMULE") ? "FORMULE" : "NOM_CHAM";
+    throw interpreter::DiagnosticError(error.code(), std::string("CHAM_UTIL: ") + error.what(), occurrence.span_of(keyword), error.hint());
+  }
+}
+
+// A field that the step lacks is computed first.
+void add_own_field(const Keywords& occurrence, solver::FieldComputation& computation, solver::ResultStep& step, std::size_t index) {
+  const std::string& name = occurrence.text("NOM_CHAM");
+  const bool computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
+  step.fields.insert_or_assign(own_name(occurrence), own_field(occurrence, computed ? computation.compute(name, index) : field_of(occurrence, step)));
+}
+
 void add_fields(const Call& call, ResultConcept& data) {
   const solver::StaticProblem problem = problem_of_result(call, data);
   solver::FieldComputation computation(problem, data.result);
@@ -27,6 +76,7 @@ void add_fields(const Call& call, ResultConcept& data) {
       solver::Field field = cells ? computation.compute(name, index, *cells) : computation.compute(name, index);
       data.result.steps[index].fields.insert_or_assign(name, std::move(field));
     }
+    for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.steps[index], index);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "commands/known_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -52,6 +54,10 @@ std::vector<std::string> field_names() {
   for (const std::string_view quantity : quantities) {
     for (const std::string_view location : locations) names.push_back(std::string(quantity) + "_" + std::string(location));
   }
+  // Fields of one's own (CHAM_UTIL) go up to UT20.
+  for (int number = 1; number <= 20; ++number) {
+    for (const std::string_view location : locations) names.push_back(fmt::format("UT{:02}_{}", number, location));
+  }
   return names;
 }
 
@@ -59,6 +65,7 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
   for (const std::string_view nodal : {"DEPL", "FORC_NODA", "REAC_NODA"}) {
     if (field == nodal) return nodal_components(model);
   }
+  if (is_users_own(field)) return std::vector<std::string>{"X"};
   const std::string_view quantity = field.substr(0, 4);
   if (quantity == "SIEF" || quantity == "SIGM") {
     return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ"};
@@ -70,8 +77,9 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
 
 bool has_component(const std::vector<std::string>& components, std::string_view name) {
   if (std::ranges::find(components, name) != components.end()) return true;
-  const bool numbered = name.size() > 1 && name[0] == 'V' && std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c) != 0; });
-  return numbered && std::ranges::find(components, "V") != components.end();
+  // "V" stands for V1, V2 ..., "X" for X1, X2 ...
+  const bool numbered = name.size() > 1 && std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return numbered && std::ranges::find(components, name.substr(0, 1)) != components.end();
 }
 
 const std::vector<std::string>& result_parameters() {

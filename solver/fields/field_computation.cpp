@@ -17,6 +17,7 @@
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/strains.hpp"
 #include "solver/fields/surface_stresses.hpp"
+#include "solver/fields/variable_fields.hpp"
 
 namespace comma::solver {
 
@@ -79,11 +80,15 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EFGE_ELNO", &F::end_forces},
       {"SIPO_ELNO", &F::fibre_stresses},
       {"SIPM_ELNO", &F::largest_stresses},
+      {"DEGE_ELGA", &F::section_strains_at_points},
       {"DEGE_ELNO", &F::section_strains},
       {"EPSI_ELGA", &F::total_strains},
       {"EPME_ELGA", &F::mechanical_strains},
       {"EPSG_ELGA", &F::green_strains},
+      {"EPMG_ELGA", &F::mechanical_green_strains},
       {"EPSP_ELGA", &F::plastic_strains_at_points},
+      {"EPVC_ELGA", &F::variable_strains},
+      {"VARC_ELGA", &F::command_variables},
       {"SIEQ_ELGA", &F::stress_criteria_at_points},
       {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
       {"ENEL_ELGA", &F::elastic_energy},
@@ -230,6 +235,10 @@ Field FieldComputation::section_strains(std::size_t step) {
   return generalised_strains(input(), section_forces(element_field("SIEF_ELNO", step)));
 }
 
+Field FieldComputation::section_strains_at_points(std::size_t step) {
+  return generalised_strains(input(), element_field("EFGE_ELGA", step));
+}
+
 Field FieldComputation::total_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::total);
 }
@@ -245,6 +254,18 @@ Field FieldComputation::plastic_strains_at_points(std::size_t step) {
 
 Field FieldComputation::green_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::green);
+}
+
+Field FieldComputation::mechanical_green_strains(std::size_t step) {
+  return strains(input(), displacement(step), StrainKind::mechanical_green);
+}
+
+Field FieldComputation::variable_strains(std::size_t) {
+  return variable_strain_field(input());
+}
+
+Field FieldComputation::command_variables(std::size_t) {
+  return command_variable_field(input());
 }
 
 Field FieldComputation::stress_criteria_at_points(std::size_t step) {

@@ -15,8 +15,8 @@
 
 namespace comma::solver {
 
-/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPSP, DEGE; criteria
-/// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp);
+/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSP, EPVC, DEGE; criteria
+/// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC;
 /// energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
 /// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
 /// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
@@ -54,10 +54,14 @@ class FieldComputation {
   Field fibre_stresses(std::size_t step);
   Field largest_stresses(std::size_t step);
   Field section_strains(std::size_t step);
+  Field section_strains_at_points(std::size_t step);
   Field total_strains(std::size_t step);
   Field mechanical_strains(std::size_t step);
   Field plastic_strains_at_points(std::size_t step);
   Field green_strains(std::size_t step);
+  Field mechanical_green_strains(std::size_t step);
+  Field variable_strains(std::size_t step);
+  Field command_variables(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
   void require_small_strains(std::string_view name) const;

@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
+bool is_green(StrainKind kind) { return kind == StrainKind::green || kind == StrainKind::mechanical_green; }
+bool is_mechanical(StrainKind kind) { return kind == StrainKind::mechanical || kind == StrainKind::mechanical_green; }
+
 /// dU_i / dX_j at a point; the hoop term of an axisymmetric body stands at (2, 2).
 class DisplacementGradients {
  public:
@@ -28,7 +31,7 @@ class DisplacementGradients {
     const int dim = model_.formulations[cell] == Formulation::bar_2d ? 2 : 3;
     const Eigen::Vector3d along = Eigen::Vector3d(model_.mesh->nodes[nodes[1]].data()) - Eigen::Vector3d(model_.mesh->nodes[nodes[0]].data());
     const Eigen::Vector3d change = value(nodes[1], dim, cell) - value(nodes[0], dim, cell);
-    const double green = kind == StrainKind::green ? 0.5 * change.squaredNorm() : 0.0;
+    const double green = is_green(kind) ? 0.5 * change.squaredNorm() : 0.0;
     return (along.dot(change) + green) / along.squaredNorm();
   }
 
@@ -86,14 +89,14 @@ double transverse_strain(const Matrix6d& stiffness, const Vector6d& strain, cons
 Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, StrainKind kind,
                    const MaterialPoint& at) {
   Eigen::Matrix3d tensor = 0.5 * (h + h.transpose());
-  if (kind == StrainKind::green) tensor += 0.5 * h.transpose() * h;
+  if (is_green(kind)) tensor += 0.5 * h.transpose() * h;
   Vector6d strain = engineering(tensor);
   const bool plane_stress = is_plane_stress(input.model.formulations[cell]);
-  if (!plane_stress && kind != StrainKind::mechanical) return strain;
+  if (!plane_stress && !is_mechanical(kind)) return strain;
   const CellMaterial material = material_of(input, cell);
   const Vector6d inelastic = inelastic_strain(material, at);
   if (plane_stress) strain[2] = transverse_strain(solid_stiffness(material, at), strain, inelastic);
-  return kind == StrainKind::mechanical ? Vector6d(strain - inelastic) : strain;
+  return is_mechanical(kind) ? Vector6d(strain - inelastic) : strain;
 }
 
 }  // namespace
@@ -106,7 +109,7 @@ bool is_bar(Formulation formulation) {
 
 double bar_strain(const FieldInput& input, int cell, const DisplacementGradients& gradients, StrainKind kind) {
   const double strain = gradients.elongation(cell, kind);
-  if (kind != StrainKind::mechanical) return strain;
+  if (!is_mechanical(kind)) return strain;
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
   if (material == nullptr) {
     throw Error("unsupported", fmt::format("the bar on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
