@@ -2,64 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "commands/commands.hpp"
+#include "commands/field_distribution.hpp"
 #include "commands/field_reading.hpp"
 #include "commands/field_types.hpp"
+#include "commands/parts_of_model.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/external_work.hpp"
-#include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/fields/mass_inertia.hpp"
 #include "solver/fields/statistics.hpp"
 #include "solver/loads/end_effect.hpp"
+#include "solver/mesh/transform.hpp"
 
 namespace comma::commands {
 
 namespace {
 
 using interpreter::DiagnosticError;
-using Row = std::vector<std::pair<std::string, Cell>>;
-
-// A part of the model with the name and kind that its row shows.
-struct Part {
-  std::string name, kind;
-  std::vector<int> cells;
-};
-
-// The whole model goes by the number of its mesh among the concepts, eight hexadecimal digits, as Code_Aster writes it.
-std::string name_of_all(const Call& call) {
-  std::vector<interpreter::ConceptPtr> open;
-  for (const char* keyword : {"MODELE", "RESULTAT"})
-    if (call.has(keyword)) open.push_back(call.concept_of(keyword));
-  std::set<const interpreter::Concept*> seen;
-  while (!open.empty()) {
-    const interpreter::ConceptPtr known = open.back();
-    open.pop_back();
-    if (!seen.insert(known.get()).second) continue;
-    if (known->type == "maillage_sdaster") return fmt::format("{:08X}", known->id + 1);
-    open.insert(open.end(), known->reads_through.begin(), known->reads_through.end());
-  }
-  return "TOUT";
-}
-
-// TOUT, then one part a group, then one a cell.
-std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const solver::Mesh& mesh) {
-  std::vector<Part> parts;
-  if (occurrence.has("TOUT")) {
-    parts.push_back({name_of_all(call), "TOUT", selected_cells(occurrence, mesh, {"TOUT", "", "", "", ""})});
-  }
-  selected_cells(occurrence, mesh);  // says which names do not exist
-  for (const std::string& name : occurrence.texts("GROUP_MA")) parts.push_back({name, "GROUP_MA", mesh.cell_group(name)});
-  for (const std::string& name : occurrence.texts("MAILLE")) parts.push_back({name, "MAILLE", {mesh.find_cell(name)}});
-  return parts;
-}
-
-Row place_columns(const Part& part) { return {{"LIEU", part.name}, {"ENTITE", part.kind}}; }
 
 // --- energies ---------------------------------------------------------------------------------------------------------------
 
@@ -148,10 +112,38 @@ void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
   for (const auto& [name, place] : entries) row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
 }
 
+Eigen::Vector3d point_of(const std::vector<double>& coordinates) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  std::ranges::copy(coordinates, point.data());
+  return point;
+}
+
+const solver::Field& displacement_of(const Call& call) {
+  const auto& result = call.data<ResultConcept>("RESULTAT").result;
+  const solver::ResultStep& step = only_step(call, result, "masses are taken at one");
+  const auto found = step.fields.find("DEPL");
+  if (found != step.fields.end()) return found->second;
+  throw DiagnosticError("unknown-field", fmt::format("POST_ELEM: step INST={} of the result holds no DEPL", step.instant), call.span_of("RESULTAT"));
+}
+
+// The model with its mesh where a displacement has brought it: that of a step of RESULTAT, or CHAM_GD.
+solver::Model deformed(const Call& call, const solver::Model& model) {
+  const solver::Field& field = call.has("CHAM_GD") ? number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD").field : displacement_of(call);
+  const auto* displacement = std::get_if<solver::NodalField>(&field);
+  if (displacement == nullptr) throw DiagnosticError("wrong-type", "POST_ELEM: GEOMETRIE='DEFORMEE' takes a displacement", call.span_of("GEOMETRIE"));
+  auto mesh = std::make_shared<solver::Mesh>(*model.mesh);
+  solver::displace(*mesh, *displacement);
+  solver::Model moved = model;
+  moved.mesh = std::move(mesh);
+  return moved;
+}
+
 void list_masses(Table& table, const Call& call) {
   const solver::StaticProblem problem = named_problem(call);
   const solver::VariableState state;
-  const solver::FieldInput input{*problem.model, *problem.materials, *problem.properties, state};
+  const bool moved = call.text("GEOMETRIE") == "DEFORMEE";
+  const solver::Model model = moved ? deformed(call, *problem.model) : *problem.model;
+  const solver::FieldInput input{model, *problem.materials, *problem.properties, state};
   for (const Keywords& occurrence : call.factors("MASS_INER")) {
     for (const Part& part : parts_of(call, occurrence, *problem.model->mesh)) {
       const solver::MassInertia found = solver::mass_inertia(input, std::span<const int>(part.cells));
@@ -159,6 +151,9 @@ void list_masses(Table& table, const Call& call) {
       row.emplace_back("MASSE", found.mass);
       for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("CDG_{}", "XYZ"[i]), found.centre[i]);
       add_inertia(row, found.inertia, "_G");
+      const Eigen::Vector3d moments = solver::principal_moments(found.inertia);
+      for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("I{}_PRIN_G", "XYZ"[i]), moments[i]);
+      if (occurrence.has("ORIG_INER")) add_inertia(row, solver::inertia_about(found, point_of(occurrence.reals("ORIG_INER"))), "_P");
       table.add_row(row);
     }
   }
@@ -166,32 +161,16 @@ void list_masses(Table& table, const Call& call) {
 
 // --- integrals --------------------------------------------------------------------------------------------------------------
 
-int dimension_named(const std::string& word) { return word.front() - '0'; }
-
-// A field that can be integrated over cells; one at nodes goes to the nodes of each cell first.
-solver::ElementField on_elements(const FieldSource& source, const solver::Model& model) {
-  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field)) return solver::to_element_nodes(model, *nodal);
-  return std::get<solver::ElementField>(source.field);
-}
-
-std::shared_ptr<const solver::Model> model_behind(const Call& call) {
-  if (call.has("MODELE")) return call.data<ModelConcept>("MODELE").model;
-  return call.has("RESULTAT") ? call.data<ResultConcept>("RESULTAT").result.model
-                              : call.data<FieldConcept>("CHAM_GD").model;
-}
-
 void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
   const solver::ElementField field = on_elements(source, model);
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const solver::ElementField integrals = summed ? field : solver::integrate_cells(model, field);
   const solver::ElementField volumes = solver::cell_volumes(model);
-  const int wanted = dimension_named(occurrence.text("TYPE_MAILLE"));
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
-    std::erase_if(part.cells, [&](int cell) {
-      return solver::dimension(source.mesh.cell_types[cell]) != wanted || integrals.points(cell) == 0;
-    });
+    keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
+    std::erase_if(part.cells, [&](int cell) { return integrals.points(cell) == 0; });
     if (part.cells.empty()) {
-      throw DiagnosticError("no-element", fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field", wanted, part.name),
+      throw DiagnosticError("no-element", fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field", occurrence.text("TYPE_MAILLE"), part.name),
                             occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
     }
     Row row = source.columns;
@@ -208,16 +187,8 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
   }
 }
 
-// The source of the call with the field that the occurrence names.
-Keywords with_field(const Call& call, const Keywords& occurrence) {
-  Keywords merged = call;
-  if (occurrence.has("NOM_CHAM")) merged.items.push_back(occurrence.at("NOM_CHAM"));
-  return merged;
-}
-
 void list_integrals(Table& table, const Call& call) {
   const auto model = model_behind(call);
-  if (!model) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
   for (const Keywords& occurrence : call.factors("INTEGRALE")) {
     for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_integrals(table, call, occurrence, source, *model);
   }
@@ -290,6 +261,8 @@ Product post_elem(const Call& call, Context&) {
     if (call.has(keyword)) list_indicators(table, call, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
   if (call.has("INTEGRALE")) list_integrals(table, call);
+  if (call.has("NORME")) list_norms(table, call);
+  if (call.has("VOLUMOGRAMME")) list_distributions(table, call);
   if (call.has("MINMAX")) list_extremes(table, call);
   if (call.has("TRAV_EXT")) list_work(table, call);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);

@@ -29,9 +29,8 @@ class Moments {
         return add_member(cell, true);
       case Formulation::thin_plate:
       case Formulation::shear_plate:
-        if (input_.model.is_skin(cell)) return;
-        throw Error("unsupported", fmt::format("the mass of plate {} is asked for, which comma does not support yet",
-                                               input_.model.mesh->cell_name(cell)), "name the cells without plates");
+        if (!input_.model.is_skin(cell)) add_plate(cell);
+        return;
       default:
         return;
     }
@@ -100,6 +99,27 @@ class Moments {
     }
   }
 
+  void add_plate(int cell) {
+    const Mesh& mesh = *input_.model.mesh;
+    const auto found = input_.properties.plates.find(cell);
+    if (found == input_.properties.plates.end()) throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", mesh.cell_name(cell)));
+    const CellType type = mesh.cell_types[cell];
+    const auto nodes = mesh.cell(cell);
+    Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t a = 0; a < nodes.size(); ++a) places.col(static_cast<Eigen::Index>(a)) = Eigen::Vector3d(mesh.nodes[nodes[a]].data());
+    // Squares of places are of degree 2 on triangles, 3 with the area of a quadrangle.
+    for (const QuadraturePoint& point : quadrature(type, nodes.size() == 3 ? "FPG3" : "FPG4")) {
+      const Eigen::VectorXd shape = shape_functions(type, point.at);
+      const Eigen::Matrix<double, 3, 2> tangents = places * shape_derivatives(type, point.at);
+      const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
+      MaterialPoint at;
+      input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())}, 0, at);
+      const double mass = point.weight * normal.norm() * found->second.thickness * density(*material_of(input_, cell).elasticity, at);
+      const Eigen::Vector3d x = places * shape + found->second.offset * normal.normalized();
+      add_mass(mass, x, x * x.transpose());
+    }
+  }
+
   void add_mass(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& square) {
     mass_ += mass;
     first_ += mass * at;
@@ -114,6 +134,15 @@ class Moments {
 };
 
 }  // namespace
+
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::Matrix3d inertia_about(const MassInertia& body, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d arm = body.centre - point;
+  return body.inertia + body.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+}
 
 MassInertia mass_inertia(const FieldInput& input, std::optional<std::span<const int>> cells) {
   Moments moments(input);

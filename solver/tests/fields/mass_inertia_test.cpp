@@ -77,3 +77,37 @@ TEST_CASE("a slanted rod: m L^2 / 12 across it, its section along it", "[fields]
   CHECK(along.dot(result.inertia * along) == Approx(8 * 5 * (0.02 + 0.03)));
   CHECK(result.inertia(2, 2) == Approx(20 * 25 / 12.0 + 8 * 5 * 0.03));
 }
+
+TEST_CASE("inertia about a corner, and principal moments of a turned brick", "[fields]") {
+  const MassInertia brick_mass = of(Body(brick({0, 0, 0}, 2, 4, 6), Formulation::solid, dense(10)));
+  // m (b^2 + c^2) / 3 about an edge, -m a b / 4 for the product.
+  const Eigen::Matrix3d corner = inertia_about(brick_mass, Eigen::Vector3d::Zero());
+  CHECK(corner(0, 0) == Approx(480 * (16 + 36) / 3.0));
+  CHECK(corner(0, 1) == Approx(-480 * 2 * 4 / 4.0));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Vector3d moments = principal_moments(turn * brick_mass.inertia * turn.transpose());
+  CHECK(moments[0] == Approx(480 * (4 + 16) / 12.0));
+  CHECK(moments[2] == Approx(480 * (16 + 36) / 12.0));
+}
+
+TEST_CASE("a slanted plate with an offset: its middle surface", "[fields]") {
+  for (const bool quad : {false, true}) {
+    auto mesh = std::make_shared<Mesh>();
+    // A 4 x 5 rectangle, or the half of it, whose second side is (0, 3, 4).
+    mesh->nodes = {{0, 0, 0}, {4, 0, 0}, {4, 3, 4}, {0, 3, 4}};
+    if (quad) mesh->add_cell(CellType::quad4, std::array{0, 1, 2, 3});
+    if (!quad) mesh->add_cell(CellType::tria3, std::array{0, 1, 2});
+    ElementProperties properties;
+    properties.plates[0] = {.thickness = 0.1, .offset = 0.5};
+    const MassInertia result = of(Body(mesh, std::vector{Formulation::thin_plate}, dense(7), properties));
+    const double mass = (quad ? 1.0 : 0.5) * 7 * 0.1 * 20;
+    CHECK(result.mass == Approx(mass));
+    // The normal is (0, -0.8, 0.6).
+    const Eigen::Vector3d middle = quad ? Eigen::Vector3d(2, 1.5, 2) : Eigen::Vector3d(8.0 / 3, 1, 4.0 / 3);
+    CHECK((result.centre - middle - 0.5 * Eigen::Vector3d(0, -0.8, 0.6)).norm() < 1e-13);
+    const double share = quad ? 1.0 / 12 : 1.0 / 18;
+    CHECK(result.inertia(0, 0) == Approx(mass * 25 * share));
+    const Eigen::Vector3d normal(0, -0.8, 0.6);
+    CHECK(normal.dot(result.inertia * normal) == Approx(mass * (16 + 25) * share));
+  }
+}
