@@ -77,10 +77,16 @@ void add_values(Table& table, Row row, const solver::Field& field, const std::ve
 
 void add_place(Row& row, double x, double y, double z) { row.insert(row.end(), {{"COOR_X", x}, {"COOR_Y", y}, {"COOR_Z", z}}); }
 
+Row head_of(const Keywords& source, const FieldSource& from) {
+  Row head = from.columns;
+  if (source.has("INTITULE")) head.insert(head.begin(), {"INTITULE", source.text("INTITULE")});
+  return head;
+}
+
 void add_nodes(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
   const auto& field = std::get<solver::NodalField>(from.field);
   for (const int node : selected_nodes(source, from.mesh)) {
-    Row row = from.columns;
+    Row row = head_of(source, from);
     const solver::Point& at = from.mesh.nodes[node];
     row.emplace_back("NOEUD", table_node(from.mesh, node));
     add_place(row, at[0], at[1], at[2]);
@@ -105,7 +111,7 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
   for (const int cell : selected_cells(source, from.mesh)) {
     const bool placed = !places.starts.empty() && places.points(cell) == field.points(cell);
     for (int point = 0; point < field.points(cell); ++point) {
-      Row row = from.columns;
+      Row row = head_of(source, from);
       row.emplace_back("MAILLE", table_cell(from.mesh, cell));
       if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
       if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));

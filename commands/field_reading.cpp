@@ -22,14 +22,19 @@ std::vector<FieldSource> field_sources(const Keywords& keywords) {
   const auto& handle = keywords.concept_of("RESULTAT");
   const solver::Result& result = interpreter::data_of<ResultConcept>(handle, "RESULTAT").result;
   std::vector<FieldSource> sources;
+  const bool by_name = keywords.given("NOM_VARI");
+  const auto* behaviours = interpreter::data_of<ResultConcept>(handle, "RESULTAT").problem.behaviours.get();
   for (const solver::ResultStep* step : steps_with_field(keywords, result)) {
-    sources.push_back({field_of(keywords, *step),
+    const solver::Field& held = field_of(keywords, *step);
+    auto made = by_name ? std::make_shared<const solver::Field>(by_variable_names(keywords, held, behaviours)) : nullptr;
+    sources.push_back({made ? *made : held,
                        result.mesh(),
                        result.model.get(),
                        {{"RESU", handle->name},
                         {"NOM_CHAM", keywords.text("NOM_CHAM")},
                         {"NUME_ORDRE", static_cast<std::int64_t>(step->order)},
-                        {"INST", step->instant}}});
+                        {"INST", step->instant}},
+                       made});
   }
   return sources;
 }
@@ -56,10 +61,10 @@ std::string table_cell(const solver::Mesh& mesh, int cell) {
 
 std::vector<int> chosen_components(const Keywords& keywords, const std::vector<std::string>& components) {
   std::vector<int> chosen;
-  if (keywords.given("NOM_CMP")) {
-    for (const std::string& name : keywords.texts("NOM_CMP")) chosen.push_back(component_of(keywords, components, name));
-    return chosen;
+  for (const char* keyword : {"NOM_CMP", "NOM_VARI"}) {
+    for (const std::string& name : keywords.texts(keyword)) chosen.push_back(component_of(keywords, components, name, keyword));
   }
+  if (!chosen.empty()) return chosen;
   chosen.resize(components.size());
   std::iota(chosen.begin(), chosen.end(), 0);
   return chosen;

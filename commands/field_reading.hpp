@@ -1,6 +1,7 @@
 // Reading fields by RESULTAT and NOM_CHAM or by CHAM_GD, step by step, as the commands that make tables do.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,9 +19,10 @@ struct FieldSource {
   const solver::Mesh& mesh;
   const solver::Model* model;  ///< null for a field that knows its mesh alone
   std::vector<std::pair<std::string, Cell>> columns;
+  std::shared_ptr<const solver::Field> made = {};  ///< what `field` is where it was made for the reader
 };
 
-/// One a selected step of RESULTAT, or the field CHAM_GD. Throws DiagnosticError `unknown-step`, `unknown-field`, `wrong-type`.
+/// One a selected step of RESULTAT, or the field CHAM_GD; with NOM_VARI its components are names of internal variables. Throws DiagnosticError `unknown-step`, `unknown-field`, `wrong-type`.
 std::vector<FieldSource> field_sources(const interpreter::Keywords& keywords);
 
 /// The field at nodes: as it is, or the mean over the cells (all when null) of a field at the nodes of cells. Throws
@@ -32,7 +34,7 @@ solver::NodalField at_nodes(const interpreter::Keywords& keywords, const FieldSo
 std::string table_node(const solver::Mesh& mesh, int node);
 std::string table_cell(const solver::Mesh& mesh, int cell);
 
-/// The indices of the components that NOM_CMP names, all when it is not given. Throws DiagnosticError `unknown-component`.
+/// The indices of the components that NOM_CMP or NOM_VARI names, all when it is not given. Throws DiagnosticError `unknown-component`.
 std::vector<int> chosen_components(const interpreter::Keywords& keywords, const std::vector<std::string>& components);
 
 }  // namespace comma::commands

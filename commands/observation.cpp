@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -13,6 +14,8 @@
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
+#include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
 
@@ -83,9 +86,32 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
   return samples;
 }
 
+// One component, under the name of the formula.
+solver::Field formula_of(const Keywords& keywords, const solver::Field& held) {
+  if (!keywords.has("FORMULE")) throw DiagnosticError("missing-keyword", "OBSERVATION: EVAL_CMP='FORMULE' needs FORMULE", keywords.span);
+  const auto& handle = keywords.concept_of("FORMULE");
+  const auto& function = interpreter::data_of<FunctionConcept>(handle, "FORMULE");
+  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, held);
+  try {
+    const auto value = [&function](std::span<const double> at) { return function.evaluate(at); };
+    solver::Field made = solver::made_of_rows(held, std::array{solver::formula(components, {function.parameters(), value})});
+    std::visit([&](auto& any) { any.components = {handle->name}; }, made);
+    return made;
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), std::string("OBSERVATION: ") + error.what(), keywords.span_of("FORMULE"), error.hint());
+  }
+}
+
+// The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula.
+const solver::Field& watched(const Keywords& keywords, const solver::Field& held, const solver::BehaviourOfCells* behaviours, solver::Field& made) {
+  if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held);
+  if (!keywords.given("NOM_VARI")) return held;
+  return made = by_variable_names(keywords, held, behaviours);
+}
+
 }  // namespace
 
-Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh) : mesh_(mesh) {
+Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours) : mesh_(mesh), behaviours_(behaviours) {
   for (const Keywords& given : call.factors("OBSERVATION")) {
     const bool everywhere = !names_a_place(given, node_places);
     Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
@@ -115,10 +141,12 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
-  const solver::Field& field = field_of(keywords, step);
+  solver::Field made;
+  const solver::Field& field = watched(keywords, field_of(keywords, step), behaviours_, made);
   const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, field);
   const std::string& operation = keywords.text("EVAL_CHAM");
-  for (const int component : chosen_components(keywords, components)) {
+  const bool by_formula = keywords.text("EVAL_CMP") == "FORMULE";
+  for (const int component : by_formula ? std::vector<int>{0} : chosen_components(keywords, components)) {
     const auto* nodal = std::get_if<solver::NodalField>(&field);
     std::vector<Sample> samples = nodal != nullptr
                                       ? samples_of(*nodal, component, mesh_, observation.nodes)

@@ -12,7 +12,8 @@ namespace comma::commands {
 class Observer {
  public:
   /// `call`: STAT_NON_LINE. Keeps copies of its occurrences. Throws DiagnosticError for a place that the mesh lacks.
-  Observer(const interpreter::Call& call, const solver::Mesh& mesh);
+  /// `behaviours`: of its cells, for NOM_VARI.
+  Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours);
 
   bool empty() const { return observations_.empty(); }
   /// Appends the rows of a step; `number` counts the steps, 0 being the initial state. Throws DiagnosticError
@@ -31,6 +32,7 @@ class Observer {
   void observe(const Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
 
   const solver::Mesh& mesh_;
+  const solver::BehaviourOfCells* behaviours_;
   std::vector<Observation> observations_;
 };
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ int only_one(const Call& call, const std::vector<int>& found, const char* keywor
                         call.span_of(keyword), "name a group of one");
 }
 
-std::vector<int> group_nodes(const Call& call, const solver::Mesh& mesh) { return selected_nodes(call, mesh, {"", "GROUP_NO", "", "", ""}); }
+std::vector<int> group_nodes(const Call& call, const solver::Mesh& mesh) { return selected_nodes(call, mesh, {"", "GROUP_NO", "NOEUD", "", ""}); }
 
 // A function is taken at one node: the first, where a group has more.
 void warn_of_more_nodes(const Call& call, Context& context) {
@@ -36,7 +37,7 @@ void warn_of_more_nodes(const Call& call, Context& context) {
 }
 
 int node_of(const Call& call, const solver::Mesh& mesh) {
-  if (call.given("GROUP_NO")) return group_nodes(call, mesh).front();
+  if (call.given("GROUP_NO") || call.given("NOEUD")) return group_nodes(call, mesh).front();
   throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span, "give GROUP_NO");
 }
 
@@ -56,39 +57,79 @@ int point_of(const Call& call, const solver::ElementField& field, int cell, cons
 }
 
 double field_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
-  const std::string& component = call.text("NOM_CMP");
+  const char* keyword = call.given("NOM_VARI") ? "NOM_VARI" : "NOM_CMP";
+  const std::string& component = call.text(keyword);
   if (const auto* nodal = std::get_if<solver::NodalField>(&field)) {
-    return nodal->at(node_of(call, mesh), component_of(call, nodal->components, component));
+    return nodal->at(node_of(call, mesh), component_of(call, nodal->components, component, keyword));
   }
   const auto& element = std::get<solver::ElementField>(field);
-  const int column = component_of(call, element.components, component);
-  if (!call.given("GROUP_MA")) {
+  const int column = component_of(call, element.components, component, keyword);
+  if (!call.given("GROUP_MA") && !call.given("MAILLE")) {
     throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read on a cell", call.span, "give GROUP_MA and POINT");
   }
-  const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", ""}), "GROUP_MA", "cell");
+  const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", "MAILLE"}), call.given("MAILLE") ? "MAILLE" : "GROUP_MA", "cell");
   if (element.points(cell) == 0) return std::nan("");
   return element.at(cell, point_of(call, element, cell, mesh), column);
 }
 
+double carried_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
+  const double value = field_value(call, field, mesh);
+  if (!std::isnan(value)) return value;
+  const char* keyword = call.given("NOM_VARI") ? "NOM_VARI" : "NOM_CMP";
+  throw DiagnosticError("unknown-component", "RECU_FONCTION: the field does not carry " + call.text(keyword) + " there", call.span_of(keyword));
+}
+
 double step_value(const Call& call, const solver::ResultStep& step, const solver::Mesh& mesh) {
   if (!call.given("NOM_PARA_RESU")) {
-    const double value = field_value(call, field_of(call, step), mesh);
-    if (!std::isnan(value)) return value;
-    throw DiagnosticError("unknown-component", "RECU_FONCTION: the field does not carry " + call.text("NOM_CMP") + " there", call.span_of("NOM_CMP"));
+    const solver::Field& field = field_of(call, step);
+    if (!call.given("NOM_VARI")) return carried_value(call, field, mesh);
+    return carried_value(call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem.behaviours.get()), mesh);
   }
   const auto found = step.parameters.find(call.text("NOM_PARA_RESU"));
   if (found != step.parameters.end()) return found->second;
   throw DiagnosticError("unknown-parameter", "the result has no parameter " + call.text("NOM_PARA_RESU"), call.span_of("NOM_PARA_RESU"));
 }
 
-void read_result(const Call& call, solver::TabulatedFunction& function) {
-  const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
-  const solver::Mesh& mesh = result.mesh();
-  function.parameter = "INST";
-  for (const solver::ResultStep* step : selected_steps(call, result)) {
+void read_steps(const Call& call, const std::vector<const solver::ResultStep*>& steps, const solver::Mesh& mesh, solver::TabulatedFunction& function) {
+  for (const solver::ResultStep* step : steps) {
     function.x.push_back(step->instant);
     function.y.push_back(step_value(call, *step, mesh));
   }
+}
+
+// INTERP_NUME='OUI': the instants asked for on the polyline through all steps.
+void read_between_steps(const Call& call, const solver::Result& result, solver::TabulatedFunction& function) {
+  std::vector<const solver::ResultStep*> steps;
+  for (const solver::ResultStep& step : result.steps) steps.push_back(&step);
+  solver::TabulatedFunction polyline;
+  read_steps(call, steps, result.mesh(), polyline);
+  function.x = call.given("LIST_INST") ? call.data<ListConcept>("LIST_INST").values : call.reals("INST");
+  for (const double instant : function.x) function.y.push_back(polyline(instant));
+}
+
+void read_result(const Call& call, solver::TabulatedFunction& function) {
+  const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
+  function.parameter = "INST";
+  const bool between = call.text("INTERP_NUME") == "OUI" && (call.given("LIST_INST") || call.given("INST"));
+  if (between) {
+    read_between_steps(call, result, function);
+  } else {
+    read_steps(call, selected_steps(call, result), result.mesh(), function);
+  }
+}
+
+// The function of a surface that belongs to a value of its first parameter.
+void read_surface(const Call& call, solver::TabulatedFunction& function) {
+  const auto& surface = call.data<SurfaceConcept>("NAPPE");
+  const double wanted = call.real("VALE_PARA_FONC");
+  const double reach = call.real("PRECISION") * (call.text("CRITERE") == "RELATIF" ? std::abs(wanted) : 1.0);
+  const auto& values = surface.edges().x;
+  const auto found = std::ranges::find_if(values, [&](double value) { return std::abs(value - wanted) <= reach; });
+  if (found == values.end()) {
+    throw DiagnosticError("unknown-step", fmt::format("RECU_FONCTION: the surface has no function for {}", wanted), call.span_of("VALE_PARA_FONC"),
+                          fmt::format("it has them for {}", fmt::join(values, ", ")));
+  }
+  function = *surface.rows()[static_cast<std::size_t>(found - values.begin())];
 }
 
 // The rows that have a number in both columns.
@@ -126,7 +167,9 @@ void sort_points(const Call& call, solver::TabulatedFunction& function) {
 Product recu_fonction(const Call& call, Context& context) {
   warn_of_more_nodes(call, context);
   solver::TabulatedFunction function;
-  if (call.given("TABLE")) {
+  if (call.given("NAPPE")) {
+    read_surface(call, function);
+  } else if (call.given("TABLE")) {
     read_table(call, function);
   } else {
     read_result(call, function);
@@ -134,7 +177,7 @@ Product recu_fonction(const Call& call, Context& context) {
   if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
   sort_points(call, function);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
-  for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_PARA_RESU", "PARA_Y"}) {
+  for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_VARI", "NOM_PARA_RESU", "PARA_Y"}) {
     if (!call.given(name)) continue;
     // Code_Aster's names of results have eight characters: a table of the function has a column ETA_PILO (ssnl133d).
     constexpr std::size_t longest = 8;

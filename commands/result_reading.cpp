@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
+#include "solver/fields/variable_names.hpp"
 
 namespace comma::commands {
 
@@ -122,6 +124,14 @@ const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) 
   throw DiagnosticError("unknown-field", fmt::format("step INST={} of the result holds no {}", step.instant, name),
                         keywords.span_of("NOM_CHAM"),
                         fmt::format("it holds {}; CALC_CHAMP computes more", fmt::join(known, ", ")));
+}
+
+solver::Field by_variable_names(const Keywords& keywords, const solver::Field& field, const solver::BehaviourOfCells* behaviours) {
+  try {
+    return solver::by_variable_names(field, behaviours);
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), std::string("NOM_VARI: ") + error.what(), keywords.span_of("NOM_CHAM"), "give VARI_ELGA, VARI_ELNO or VARI_NOEU");
+  }
 }
 
 int component_of(const Keywords& keywords, const std::vector<std::string>& components, const std::string& name,

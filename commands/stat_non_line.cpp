@@ -284,7 +284,7 @@ Product stat_non_line(const Call& call, Context& context) {
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
   const solver::Counters before = context.counters;
-  const Observer observer(call, product->result.mesh());
+  const Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
   const auto after_step = [&, number = 0](solver::Result& result) mutable {

@@ -33,8 +33,8 @@ double reduced(const Keywords& test, const Values& values) {
 }
 
 [[noreturn]] void not_carried(const Keywords& test, const std::string& place) {
-  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, fmt::join(test.texts("NOM_CMP"), ", ")),
-                        test.span_of("NOM_CMP"));
+  const char* keyword = test.given("NOM_VARI") ? "NOM_VARI" : "NOM_CMP";
+  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, fmt::join(test.texts(keyword), ", ")), test.span_of(keyword));
 }
 
 int single(const Keywords& test, const std::vector<int>& found, const std::string& keyword, const char* what) {
@@ -54,6 +54,7 @@ const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
 const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
 
 std::vector<int> components_tested(const Keywords& test, const std::vector<std::string>& components) {
+  if (test.given("NOM_VARI")) return {component_of(test, components, test.text("NOM_VARI"), "NOM_VARI")};
   if (test.given("NOM_CMP")) {
     const auto names = test.texts("NOM_CMP");
     if (names.size() > 1 && !test.given("TYPE_TEST")) {
@@ -171,7 +172,8 @@ TestedValue parameter_value(const Keywords& test, const solver::ResultStep& step
 // "DEPL DY at A": what a reader of the verdict needs to find the value again.
 std::string label_of(const Keywords& test, const std::string& what) {
   std::string label = what;
-  if (test.given("NOM_CMP")) label += " " + test.texts("NOM_CMP").front();
+  for (const char* keyword : {"NOM_CMP", "NOM_VARI"})
+    if (test.given(keyword)) label += " " + test.texts(keyword).front();
   if (test.given("TYPE_TEST")) label += " " + test.text("TYPE_TEST");
   const char* lead = " at ";
   for (const char* keyword : {"GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"}) {
@@ -199,7 +201,10 @@ Values multipliers_in(const Keywords& test, const ResultConcept& data, const sol
 
 TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
   if (test.given("PARA")) return parameter_value(test, step);
-  return as_reference(test, field_value(test, field_of(test, step), data.result.mesh(), multipliers_in(test, data, step)));
+  const solver::Field& held = field_of(test, step);
+  const solver::Mesh& mesh = data.result.mesh();
+  if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem.behaviours.get()), mesh));
+  return as_reference(test, field_value(test, held, mesh, multipliers_in(test, data, step)));
 }
 
 void test_result(const Keywords& test, Context& context) {
