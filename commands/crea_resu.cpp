@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/behaviour_reading.hpp"
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
+#include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -54,16 +56,56 @@ void take_support(ResultConcept& product, const Keywords& occurrence, const Fiel
   result.bare_mesh = data.mesh;
 }
 
+// The instants of an occurrence; of LIST_INST those from NUME_INIT to NUME_FIN, which count from 1.
 std::vector<double> instants(const Keywords& occurrence) {
-  return occurrence.has("LIST_INST") ? occurrence.data<ListConcept>("LIST_INST").values : occurrence.reals("INST");
+  if (!occurrence.has("LIST_INST")) return occurrence.reals("INST");
+  const auto& all = occurrence.data<ListConcept>("LIST_INST").values;
+  const auto count = static_cast<std::int64_t>(all.size());
+  const auto first = occurrence.given("NUME_INIT") ? std::max<std::int64_t>(1, occurrence.integer("NUME_INIT")) : 1;
+  const auto last = occurrence.given("NUME_FIN") ? std::min(count, occurrence.integer("NUME_FIN")) : count;
+  if (first > last) throw DiagnosticError("out-of-bounds", fmt::format("CREA_RESU: no instant stands between number {} and number {} of {}", first, last, count), occurrence.span);
+  return {all.begin() + first - 1, all.begin() + last};
+}
+
+// What computations on the result go on from: loads and behaviour.
+void take_state(ResultConcept& product, const Keywords& occurrence) {
+  if (occurrence.has("EXCIT")) take_loads(occurrence, product.problem);
+  if (!occurrence.has("COMPORTEMENT")) return;
+  if (!product.problem.model) {
+    throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model", occurrence.span_of("COMPORTEMENT"), "give MODELE");
+  }
+  product.problem.behaviours = behaviours_of(occurrence, *product.problem.model, false);
 }
 
 void add_field(ResultConcept& product, const Keywords& occurrence) {
   const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
   take_support(product, occurrence, data);
+  take_state(product, occurrence);
   for (const double instant : instants(occurrence)) {
     solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
     step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant));
+  }
+}
+
+// OPERATION='ASSE': the steps of a result, later by TRANSLATION, in place of those from its first instant on.
+void append(ResultConcept& product, const Keywords& occurrence) {
+  const auto& source = occurrence.data<ResultConcept>("RESULTAT");
+  auto& steps = product.result.steps;
+  if (steps.empty()) {
+    product.result = source.result;
+    product.problem = source.problem;
+    steps.clear();
+  } else if (&product.result.mesh() != &source.result.mesh()) {
+    throw DiagnosticError("incompatible-field", "CREA_RESU: the results lie on different meshes", occurrence.span_of("RESULTAT"));
+  }
+  if (source.result.steps.empty()) return;
+  const double shift = occurrence.real("TRANSLATION");
+  const double first = source.result.steps.front().instant + shift;
+  constexpr double same_instant = 1e-9;
+  std::erase_if(steps, [&](const auto& step) { return step.instant >= first - same_instant * std::abs(first); });
+  for (const solver::ResultStep& step : source.result.steps) {
+    steps.push_back(step);
+    steps.back().instant += shift;
   }
 }
 
@@ -72,6 +114,7 @@ void add_field(ResultConcept& product, const Keywords& occurrence) {
 Product crea_resu(const Call& call, Context&) {
   auto product = call.reuse ? std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"))
                             : std::make_shared<ResultConcept>();
+  for (const Keywords& occurrence : call.factors("ASSE")) append(*product, occurrence);
   int order = product->result.steps.empty() ? 1 : product->result.steps.front().order;
   for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, occurrence);
   for (solver::ResultStep& step : product->result.steps) step.order = order++;

@@ -45,31 +45,6 @@ void add_following(const Keywords& excitation, const solver::AppliedLoad& applie
   problem.loads.push_back({std::move(dead), applied.multiplier});
 }
 
-void take_loads(const Call& call, solver::StaticProblem& problem) {
-  problem.loads.clear();
-  problem.followers.clear();
-  problem.driven.clear();
-  for (const Keywords& excitation : call.factors("EXCIT")) {
-    solver::AppliedLoad applied;
-    applied.load = excitation.data<LoadConcept>("CHARGE").load;
-    applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
-    if (excitation.has("FONC_MULT")) {
-      applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
-    }
-    if (excitation.has("COEF_MULT")) applied.multiplier = [factor = excitation.real("COEF_MULT")](double) { return factor; };
-    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV") {
-      add_following(excitation, applied, problem);
-      continue;
-    }
-    require_initial_places(excitation, *applied.load);
-    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "FIXE_PILO") {
-      problem.driven.push_back(std::move(applied));
-      continue;
-    }
-    problem.loads.push_back(std::move(applied));
-  }
-}
-
 std::optional<LinearMethod> linear_method(const std::string& word) {
   if (word == "MUMPS") return LinearMethod::mumps;
   if (word == "MULT_FRONT") return LinearMethod::cholmod;
@@ -95,6 +70,31 @@ void take_iterations(const Keywords& solver, SolverChoice& choice) {
 }
 
 }  // namespace
+
+void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
+  problem.loads.clear();
+  problem.followers.clear();
+  problem.driven.clear();
+  for (const Keywords& excitation : keywords.factors("EXCIT")) {
+    solver::AppliedLoad applied;
+    applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
+    if (excitation.has("FONC_MULT")) {
+      applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
+    }
+    if (excitation.has("COEF_MULT")) applied.multiplier = [factor = excitation.real("COEF_MULT")](double) { return factor; };
+    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV") {
+      add_following(excitation, applied, problem);
+      continue;
+    }
+    require_initial_places(excitation, *applied.load);
+    if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "FIXE_PILO") {
+      problem.driven.push_back(std::move(applied));
+      continue;
+    }
+    problem.loads.push_back(std::move(applied));
+  }
+}
 
 solver::StaticProblem static_problem(const Call& call) {
   solver::StaticProblem problem;

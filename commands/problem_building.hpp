@@ -14,6 +14,9 @@ namespace comma::commands {
 /// Model, materials, properties and loads; contact is the nonlinear command's own.
 solver::StaticProblem static_problem(const interpreter::Call& call);
 
+/// The loads of EXCIT, in place of those of the problem.
+void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& problem);
+
 /// The problem that a result was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws DiagnosticError
 /// `missing-keyword` where neither gives a model or materials.
 solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source);
