@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "commands/commands.hpp"
+#include "commands/fortran_format.hpp"
 #include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -137,17 +139,57 @@ Table reduce(const Table& table, const Keywords& action) {
 // Reals that went through different computations still name one place or one instant.
 constexpr double key_precision = 1e-9;
 
-bool same_key(const Cell& a, const Cell& b) {
-  const auto x = number_in(a), y = number_in(b);
-  if (!x || !y) return a == b;
-  return std::abs(*x - *y) <= key_precision * std::max(std::abs(*x), std::abs(*y));
+/// Whether cells name the same; reals that look alike in a format do (FORMAT_R).
+class SameKey {
+ public:
+  explicit SameKey(const Keywords& action) {
+    if (action.has("FORMAT_R")) format_.emplace(action.text("FORMAT_R"));
+  }
+  bool operator()(const Cell& a, const Cell& b) const {
+    const auto x = number_in(a), y = number_in(b);
+    if (!x || !y) return a == b;
+    if (format_) return (*format_)(*x) == (*format_)(*y);
+    return std::abs(*x - *y) <= key_precision * std::max(std::abs(*x), std::abs(*y));
+  }
+
+ private:
+  std::optional<RealFormat> format_;
+};
+
+// UNIQUE: of the rows that agree in the columns the first.
+void keep_different(Table& table, const Keywords& action) {
+  const auto columns = columns_of(table, action);
+  const SameKey same(action);
+  std::vector<std::vector<Cell>> kept;
+  for (auto& row : table.rows) {
+    const auto agrees = [&](const std::vector<Cell>& other) {
+      return std::ranges::all_of(columns, [&](int column) { return same(row[static_cast<std::size_t>(column)], other[static_cast<std::size_t>(column)]); });
+    };
+    if (std::ranges::none_of(kept, agrees)) kept.push_back(std::move(row));
+  }
+  table.rows = std::move(kept);
+}
+
+// STATISTIQUES: prints, column by column of numbers, how many there are, least, greatest, mean and standard deviation.
+void show_statistics(const Table& table, const Context& context) {
+  for (int column = 0; column < static_cast<int>(table.columns.size()); ++column) {
+    std::vector<double> numbers;
+    for (const auto& row : table.rows)
+      if (const auto number = number_in(row[static_cast<std::size_t>(column)])) numbers.push_back(*number);
+    if (numbers.empty()) continue;
+    const double mean = reduction("MOY", numbers);
+    double square = 0.0;
+    for (const double number : numbers) square += (number - mean) * (number - mean);
+    context.console.progress(fmt::format("{}: {} values from {:g} to {:g}, mean {:g}, standard deviation {:g}", table.columns[static_cast<std::size_t>(column)], numbers.size(),
+                                         reduction("MINI", numbers), reduction("MAXI", numbers), mean, std::sqrt(square / static_cast<double>(numbers.size()))));
+  }
 }
 
 /// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second table's
 /// cell stays.
 class Join {
  public:
-  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left) {
+  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left), same_(action) {
     std::vector<std::string> keys = action.texts("NOM_PARA");
     if (keys.empty()) {
       std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys), [&](const auto& name) { return right.column(name) >= 0; });
@@ -180,7 +222,7 @@ class Join {
  private:
   bool agree(const std::vector<Cell>& left, const std::vector<Cell>& right) const {
     return std::all_of(keys_.begin(), keys_.end(), [&](const auto& key) {
-      return same_key(left[static_cast<std::size_t>(key.first)], right[static_cast<std::size_t>(key.second)]);
+      return same_(left[static_cast<std::size_t>(key.first)], right[static_cast<std::size_t>(key.second)]);
     });
   }
 
@@ -190,11 +232,12 @@ class Join {
 
   const Table& right_;
   Table result_;
+  SameKey same_;
   std::vector<std::pair<int, int>> keys_;
   std::vector<int> targets_;
 };
 
-Table acted(Table table, const Keywords& action) {
+Table acted(Table table, const Keywords& action, const Context& context) {
   const std::string& operation = action.text("OPERATION");
   if (operation == "FILTRE") return filtered(table, action);
   if (operation == "EXTR") return with_columns(table, columns_of(table, action));
@@ -203,6 +246,8 @@ Table acted(Table table, const Keywords& action) {
   if (operation == "COMB") return Join(table, action.data<TableConcept>("TABLE").table, action).run(action.text("RESTREINT") == "OUI");
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
+  if (operation == "UNIQUE") keep_different(table, action);
+  if (operation == "STATISTIQUES") show_statistics(table, context);
   if (operation == "OPER") compute(table, action);
   if (operation == "AJOUT_LIGNE") add_row(table, action);
   if (operation == "AJOUT_COLONNE") add_columns(table, action);
@@ -211,10 +256,10 @@ Table acted(Table table, const Keywords& action) {
 
 }  // namespace
 
-Product calc_table(const Call& call, Context&) {
+Product calc_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   product->table = call.data<TableConcept>("TABLE").table;
-  for (const Keywords& action : call.factors("ACTION")) product->table = acted(std::move(product->table), action);
+  for (const Keywords& action : call.factors("ACTION")) product->table = acted(std::move(product->table), action, context);
   if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
   return product;
 }

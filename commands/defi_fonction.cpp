@@ -12,18 +12,7 @@ namespace {
 using interpreter::DiagnosticError;
 
 void read_points(const Call& call, solver::TabulatedFunction& function) {
-  if (call.has("VALE")) {
-    const auto values = call.reals("VALE");
-    if (values.size() % 2 != 0) {
-      throw DiagnosticError("wrong-count", "DEFI_FONCTION: VALE holds pairs x, y; it has " + std::to_string(values.size()) + " values",
-                            call.span_of("VALE"), "give an even number of values");
-    }
-    for (std::size_t i = 0; i < values.size(); i += 2) {
-      function.x.push_back(values[i]);
-      function.y.push_back(values[i + 1]);
-    }
-    return;
-  }
+  if (call.has("VALE")) return read_pairs(call, function);
   const bool by_lists = call.has("VALE_PARA");
   function.x = by_lists ? call.data<ListConcept>("VALE_PARA").values : call.reals("ABSCISSE");
   function.y = by_lists ? call.data<ListConcept>("VALE_FONC").values : call.reals("ORDONNEE");

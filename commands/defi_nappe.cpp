@@ -17,6 +17,16 @@ std::shared_ptr<const solver::TabulatedFunction> row_of(const Call& call, const 
                         "tabulate it by CALC_FONC_INTERP");
 }
 
+// A function that is defined in place.
+std::shared_ptr<const solver::TabulatedFunction> row_of(const Keywords& occurrence, const std::string& parameter) {
+  solver::TabulatedFunction row;
+  row.parameter = parameter;
+  read_pairs(occurrence, row);
+  check_rising(occurrence, "VALE", row.x);
+  read_shape(occurrence, row);
+  return std::make_shared<const solver::TabulatedFunction>(std::move(row));
+}
+
 }  // namespace
 
 Product defi_nappe(const Call& call, Context&) {
@@ -27,9 +37,10 @@ Product defi_nappe(const Call& call, Context&) {
   read_shape(call, edges);
   std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows;
   for (const auto& handle : call.concepts("FONCTION")) rows.push_back(row_of(call, handle));
+  for (const Keywords& occurrence : call.factors("DEFI_FONCTION")) rows.push_back(row_of(occurrence, call.text("NOM_PARA_FONC")));
   if (rows.size() != edges.x.size()) {
     throw DiagnosticError("wrong-count", fmt::format("DEFI_NAPPE: {} functions stand against {} values", rows.size(), edges.x.size()),
-                          call.span_of("FONCTION"), "give one function for each value of PARA");
+                          call.span_of(call.given("FONCTION") ? "FONCTION" : "DEFI_FONCTION"), "give one function for each value of PARA");
   }
   for (const auto& row : rows) {
     if (row->parameter == rows.front()->parameter) continue;

@@ -14,14 +14,26 @@ solver::Extension extension_named(const std::string& word) {
 
 solver::Scale scale_named(const std::string& word) { return word == "LOG" ? solver::Scale::logarithmic : solver::Scale::linear; }
 
-void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function) {
-  if (keywords.has("INTERPOL")) {
-    const auto scales = keywords.texts("INTERPOL");
+void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function, const std::string& suffix) {
+  if (keywords.has("INTERPOL" + suffix)) {
+    const auto scales = keywords.texts("INTERPOL" + suffix);
     function.x_scale = scale_named(scales.front());
     function.y_scale = scale_named(scales.back());
   }
-  if (keywords.has("PROL_GAUCHE")) function.left = extension_named(keywords.text("PROL_GAUCHE"));
-  if (keywords.has("PROL_DROITE")) function.right = extension_named(keywords.text("PROL_DROITE"));
+  if (keywords.has("PROL_GAUCHE" + suffix)) function.left = extension_named(keywords.text("PROL_GAUCHE" + suffix));
+  if (keywords.has("PROL_DROITE" + suffix)) function.right = extension_named(keywords.text("PROL_DROITE" + suffix));
+}
+
+void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction& function) {
+  const auto values = keywords.reals("VALE");
+  if (values.size() % 2 != 0) {
+    throw interpreter::DiagnosticError("wrong-count", fmt::format("DEFI_FONCTION: VALE holds pairs x, y; it has {} values", values.size()), keywords.span_of("VALE"),
+                                       "give an even number of values");
+  }
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    function.x.push_back(values[i]);
+    function.y.push_back(values[i + 1]);
+  }
 }
 
 void check_rising(const interpreter::Keywords& keywords, const std::string& keyword, const std::vector<double>& values) {

@@ -11,8 +11,11 @@ namespace comma::commands {
 solver::Extension extension_named(const std::string& word);  ///< CONSTANT, LINEAIRE, EXCLU
 solver::Scale scale_named(const std::string& word);          ///< LIN, LOG
 
-/// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function.
-void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function);
+/// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function; with a suffix INTERPOL_FONC ...
+void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function, const std::string& suffix = "");
+
+/// VALE: x1, y1, x2, y2 ... Throws DiagnosticError `wrong-count` for an odd number of values.
+void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction& function);
 
 /// Throws DiagnosticError `wrong-order` at `keyword` when the abscissas do not rise.
 void check_rising(const interpreter::Keywords& keywords, const std::string& keyword, const std::vector<double>& values);
