@@ -20,8 +20,14 @@ using solver::Conversion;
 constexpr std::pair<const char*, Conversion> conversions[] = {{"LINE_QUAD", Conversion::to_quadratic},
                                                               {"QUAD_LINE", Conversion::to_linear},
                                                               {"HEXA20_27", Conversion::hexa20_to_27},
-                                                              {"PENTA15_18", Conversion::penta15_to_18},
-                                                              {"MODI_MAILLE", Conversion::quad8_to_9}};
+                                                              {"PENTA15_18", Conversion::penta15_to_18}};
+
+solver::Mesh with_changed_cells(const Keywords& change, const solver::Mesh& mesh) {
+  const std::string& option = change.text("OPTION");
+  const auto cells = selected_cells(change, mesh);
+  if (option == "QUAD_TRIA3") return solver::with_triangles(mesh, cells);
+  return solver::converted(mesh, cells, option == "TRIA6_7" ? Conversion::tria6_to_7 : Conversion::quad8_to_9);
+}
 
 // RESTREINT keeps the groups that it names, unless TOUT_GROUP_MA or TOUT_GROUP_NO keeps all.
 template <class Groups>
@@ -51,6 +57,7 @@ Product crea_maillage(const Call& call, Context& context) {
   for (const auto& [name, conversion] : conversions) {
     each_occurrence(call, name, [&](const Keywords& one) { mesh = solver::converted(mesh, selected_cells(one, mesh), conversion); });
   }
+  each_occurrence(call, "MODI_MAILLE", [&](const Keywords& one) { mesh = with_changed_cells(one, mesh); });
   each_occurrence(call, "CREA_MAILLE", [&](const Keywords& one) { solver::double_cells(mesh, selected_cells(one, mesh), one.text("NOM")); });
   each_occurrence(call, "CREA_POI1", [&](const Keywords& one) {
     solver::add_points(mesh, selected_nodes(one, mesh), one.given("NOM_GROUP_MA") ? one.text("NOM_GROUP_MA") : "");

@@ -156,8 +156,7 @@ solver::IsotropicElasticity small_strain_elasticity(const Keywords& law) {
   return elasticity;
 }
 
-solver::Plasticity plasticity_of(const Call& call) {
-  solver::Plasticity plasticity;
+void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
   for (const char* keyword : {"ECRO_LINE", "ECRO_LINE_FO"})
     if (call.has(keyword)) plasticity.linear = linear_hardening(call.factor(keyword));
   if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
@@ -166,7 +165,6 @@ solver::Plasticity plasticity_of(const Call& call) {
   if (call.has("ELAS_HYPER")) plasticity.hyperelasticity = hyperelasticity(call.factor("ELAS_HYPER"));
   for (const char* keyword : {"PRAGER", "PRAGER_FO"})
     if (call.has(keyword)) plasticity.prager = property(call.factor(keyword), "C");
-  return plasticity;
 }
 
 solver::ContactSpring contact_spring(const Keywords& law) {
@@ -176,17 +174,19 @@ solver::ContactSpring contact_spring(const Keywords& law) {
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
-  auto material = std::make_shared<solver::Material>();
+  auto material = call.has("MATER") ? std::make_shared<solver::Material>(*call.data<MaterialConcept>("MATER").material) : std::make_shared<solver::Material>();
   if (call.has("ELAS")) material->elasticity = isotropic(call.factor("ELAS"));
   if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
   if (call.has("ELAS_ORTH")) material->elasticity = orthotropic(call.factor("ELAS_ORTH"));
   if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
   if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
-  material->plasticity = plasticity_of(call);
+  add_plasticity(call, material->plasticity);
   if (call.has("DIS_CONTACT")) material->contact_spring = contact_spring(call.factor("DIS_CONTACT"));
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
-  return product;
+  if (!call.reuse) return product;
+  call.result->data = product;
+  return nullptr;
 }
 
 }  // namespace comma::commands

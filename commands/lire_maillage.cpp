@@ -2,6 +2,7 @@
 #include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/gibi_mesh_file.hpp"
 #include "solver/io/gmsh_mesh_file.hpp"
+#include "solver/io/ideas_mesh_file.hpp"
 #include "solver/io/med_file.hpp"
 
 namespace comma::commands {
@@ -11,7 +12,7 @@ namespace {
 // How the files of a format are called where no .export names them.
 const std::map<std::string, std::vector<std::string>, std::less<>>& extensions() {
   static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
-      {"MED", {"mmed", "med"}}, {"ASTER", {"mail", "aster"}}, {"GMSH", {"msh"}}, {"GIBI", {"mgib"}}};
+      {"MED", {"mmed", "med"}}, {"ASTER", {"mail", "aster"}}, {"GMSH", {"msh"}}, {"GIBI", {"mgib"}}, {"IDEAS", {"unv", "msup"}}};
   return table;
 }
 
@@ -21,6 +22,7 @@ solver::Mesh read(const Call& call, const Context& context) {
   context.console.progress("  reads " + path);
   if (format == "ASTER") return solver::read_aster_mesh(path);
   if (format == "GMSH") return solver::read_gmsh_mesh(path);
+  if (format == "IDEAS") return solver::read_ideas_mesh(path);
   if (format == "GIBI") return solver::read_gibi_mesh(path);
   return solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
 }

@@ -55,6 +55,7 @@ CellType target_of(CellType type, Conversion conversion) {
     case Conversion::hexa20_to_27: return type == hexa20 ? hexa27 : type == quad8 ? quad9 : type;
     case Conversion::penta15_to_18: return type == penta15 ? penta18 : type == quad8 ? quad9 : type;
     case Conversion::quad8_to_9: return type == quad8 ? quad9 : type;
+    case Conversion::tria6_to_7: return type == tria6 ? tria7 : type;
   }
   return type;
 }
@@ -94,6 +95,8 @@ class Extension {
       return nodes_;
     }
     for (const auto& face : middle_faces(to_)) nodes_.push_back(middles_.between(corners(face), face_centre(face)));
+    static constexpr std::array<int, 3> triangle = {0, 1, 2};
+    if (to_ == tria7) nodes_.push_back(middles_.between(corners(triangle), face_centre(triangle)));
     if (to_ == hexa27) nodes_.push_back(middles_.between({nodes_.begin(), nodes_.begin() + 8}, solid_centre()));
     return nodes_;
   }
@@ -113,13 +116,14 @@ class Extension {
     return sum / static_cast<double>(local.size());
   }
 
-  /// The eight-node quadrangle at its centre: each corner counts -1/4, each mid-edge node 1/2.
+  /// The eight-node quadrangle at its centre: each corner counts -1/4, each mid-edge node 1/2; the six-node triangle: -1/9 and 4/9.
   Eigen::Vector3d face_centre(std::span<const int> face) const {
-    Eigen::Vector3d sum = -mean(face);
+    const bool triangle = face.size() == 3;
+    Eigen::Vector3d sum = (triangle ? -1.0 / 3.0 : -1.0) * mean(face);
     const auto edges = middle_edges(from_);
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const bool on_face = std::ranges::all_of(edges[i], [&](int corner) { return std::ranges::find(face, corner) != face.end(); });
-      if (on_face) sum += place(corner_count(from_) + static_cast<int>(i)) / 2.0;
+      if (on_face) sum += (triangle ? 4.0 / 9.0 : 0.5) * place(corner_count(from_) + static_cast<int>(i));
     }
     return sum;
   }
@@ -220,6 +224,35 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
   replace_cells(result, types, nodes);
   left.resize(result.nodes.size(), false);
   drop_loose_nodes(result, left);
+  return result;
+}
+
+Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
+  Mesh result = mesh;
+  std::vector<CellType> types = mesh.cell_types;
+  std::vector<std::vector<int>> nodes;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  NewNames names(result.cell_names, "M");
+  std::map<int, int> second;  // the other triangle of a quadrangle
+  for (const int cell : cells) {
+    const CellType type = mesh.cell_types[cell];
+    if (type == quad8 || type == quad9) throw Error("unsupported", fmt::format("cell {} has {} nodes, and comma cuts QUAD4 into triangles", mesh.cell_name(cell), node_count(type)));
+    if (type != quad4) continue;
+    const std::vector<int> corners = nodes[cell];
+    nodes[cell] = {corners[0], corners[1], corners[2]};
+    types[cell] = tria3;
+    second[cell] = static_cast<int>(types.size());
+    nodes.push_back({corners[0], corners[2], corners[3]});
+    types.push_back(tria3);
+    names.add();
+  }
+  if (second.empty()) throw Error("no-cell", "none of the cells is a QUAD4");
+  replace_cells(result, types, nodes);
+  for (auto& [name, members] : result.cell_groups) {
+    const std::vector<int> before = members;
+    for (const int member : before)
+      if (const auto other = second.find(member); other != second.end()) members.push_back(other->second);
+  }
   return result;
 }
 

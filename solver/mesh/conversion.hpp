@@ -15,6 +15,7 @@ enum class Conversion {
   hexa20_to_27,   ///< HEXA20 get the middles of their faces and their own; QUAD8 their middle
   penta15_to_18,  ///< PENTA15 get the middles of their quadrangular faces; QUAD8 their middle
   quad8_to_9,     ///< QUAD8 get their middle
+  tria6_to_7,     ///< TRIA6 get their middle
 };
 
 /// The mesh with the cells converted; others stay, groups hold the same cells and, as far as they remain, the same nodes. New
@@ -22,6 +23,10 @@ enum class Conversion {
 /// where the serendipity shape functions of the cell put them, so that its geometry stays. Throws Error `no-cell` if none of
 /// the cells can be converted.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
+
+/// Cuts QUAD4 along the diagonal from the first node to the third, each into two TRIA3 that stand in its groups. Throws Error `no-cell` if there are none, `unsupported` for a
+/// quadrangle with more nodes.
+Mesh with_triangles(const Mesh& mesh, std::span<const int> cells);
 
 /// Doubles cells, on the same nodes, into a new cell group. Throws Error `group-exists`.
 void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& group);

@@ -47,7 +47,8 @@ TEST_CASE("a converted reference cell is the reference cell of the new type", "[
       {tetra4, Conversion::to_quadratic, tetra10},  {pyram5, Conversion::to_quadratic, pyram13}, {penta6, Conversion::to_quadratic, penta15},
       {hexa8, Conversion::to_quadratic, hexa20},    {hexa20, Conversion::hexa20_to_27, hexa27},  {penta15, Conversion::penta15_to_18, penta18},
       {quad8, Conversion::quad8_to_9, quad9},       {quad8, Conversion::hexa20_to_27, quad9},    {hexa27, Conversion::to_linear, hexa8},
-      {penta18, Conversion::to_linear, penta6},     {tria7, Conversion::to_linear, tria3}};
+      {penta18, Conversion::to_linear, penta6},     {tria7, Conversion::to_linear, tria3},
+      {tria6, Conversion::tria6_to_7, tria7}};
   for (const auto& [from, conversion, to] : cases) {
     CAPTURE(name_of(from), name_of(to));
     const Mesh mesh = converted(single(from), first_cell, conversion);
@@ -139,4 +140,24 @@ TEST_CASE("a field of displacements moves the nodes that carry it", "[mesh]") {
   CHECK(mesh.nodes == std::vector<Point>{{0.5, -1, 0}, {1, 0, 0}});
   CHECK_THROWS_AS(displace(mesh, {.quantity = "TEMP_R", .components = {"TEMP"}, .values = {1, 2}}), Error);
   CHECK_THROWS_AS(displace(mesh, {.quantity = "DEPL_R", .components = {"DX"}, .values = {1}}), Error);
+}
+
+TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]") {
+  const Mesh mesh = with_triangles(pair_of_faces(), Group{0, 1});
+  REQUIRE(mesh.cell_count() == 4);
+  double area = 0.0;
+  for (int cell = 0; cell < 4; ++cell) {
+    CHECK(mesh.cell_types[static_cast<std::size_t>(cell)] == CellType::tria3);
+    const auto nodes = mesh.cell(cell);
+    const Point &a = mesh.nodes[nodes[0]], &b = mesh.nodes[nodes[1]], &c = mesh.nodes[nodes[2]];
+    const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    CHECK(twice > 0.0);
+    area += 0.5 * twice;
+  }
+  CHECK(area == Approx(2.0));
+  CHECK(mesh.cell_group("BOTH").size() == 4);
+  CHECK(mesh.cell_group("RIGHT").size() == 2);
+  // Only the first is cut.
+  CHECK(with_triangles(pair_of_faces(), first_cell).cell_group("BOTH").size() == 3);
+  CHECK_THROWS_AS(with_triangles(single(CellType::tria3), first_cell), Error);
 }
