@@ -61,6 +61,16 @@ TableLayout layout_of(const Call& call) {
   return layout;
 }
 
+std::string page_text(const Table& page, const Call& call, const TableLayout& layout) {
+  const std::string& format = call.text("FORMAT");
+  if (format == "XMGRACE") return as_curve(page, call);
+  if (format == "ASTER") return aster_table(page, layout) + "\n";
+  if (format != "TABLEAU_CROISE") return format_table(page, layout) + "\n";
+  if (page.columns.size() == 3) return format_table(crossed(page), layout) + "\n";
+  throw DiagnosticError("wrong-count", fmt::format("IMPR_TABLE: a crossed table is made of three columns, and the table has {}", page.columns.size()), call.span,
+                        "name the columns of the rows, of the columns and of the values in NOM_PARA");
+}
+
 }  // namespace
 
 Product impr_table(const Call& call, Context& context) {
@@ -73,7 +83,7 @@ Product impr_table(const Call& call, Context& context) {
   std::string text;
   for (Table& page : pages_of(table, call)) {
     if (call.has("NOM_PARA")) page = with_columns(page, columns_of(page, call));
-    text += call.text("FORMAT") == "XMGRACE" ? as_curve(page, call) : format_table(page, layout) + "\n";
+    text += page_text(page, call, layout);
   }
   context.write(context.files.output(static_cast<int>(call.integer("UNITE")), "resu", result_unit), text);
   return nullptr;

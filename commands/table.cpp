@@ -42,6 +42,57 @@ std::string format_cell(const Cell& cell, const std::string& real_format) {
 
 }  // namespace
 
+namespace {
+
+/// The kind of a column by its first cell that holds something.
+const char* type_of(const Table& table, std::size_t column) {
+  for (const auto& row : table.rows) {
+    if (std::holds_alternative<double>(row[column])) return "R";
+    if (std::holds_alternative<std::int64_t>(row[column])) return "I";
+    if (std::holds_alternative<std::string>(row[column])) return "K80";
+  }
+  return "K8";
+}
+
+/// One of two rows or columns of a crossed table.
+std::size_t place_of(std::vector<Cell>& known, const Cell& wanted) {
+  const auto found = std::ranges::find(known, wanted);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  known.push_back(wanted);
+  return known.size() - 1;
+}
+
+}  // namespace
+
+std::string aster_table(const Table& table, const TableLayout& layout) {
+  Table typed = table;
+  typed.title.clear();
+  std::vector<Cell> types;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) types.emplace_back(type_of(table, column));
+  typed.rows.insert(typed.rows.begin(), std::move(types));
+  std::string text = "#DEBUT_TABLE\n";
+  if (!table.title.empty()) text += fmt::format("#TITRE {}\n", table.title);
+  return text + format_table(typed, layout) + "#FIN_TABLE\n";
+}
+
+Table crossed(const Table& table) {
+  std::vector<Cell> down, across;
+  for (const auto& row : table.rows) {
+    place_of(down, row[0]);
+    place_of(across, row[1]);
+  }
+  Table result;
+  result.title = fmt::format("{} by {} and {}", table.columns[2], table.columns[0], table.columns[1]);
+  result.columns = {fmt::format("{}/{}", table.columns[0], table.columns[1])};
+  for (const Cell& cell : across) result.columns.push_back(format_cell(cell, "1PE12.5"));
+  for (const Cell& cell : down) {
+    result.rows.emplace_back(result.columns.size());
+    result.rows.back().front() = cell;
+  }
+  for (const auto& row : table.rows) result.rows[place_of(down, row[0])][1 + place_of(across, row[1])] = row[2];
+  return result;
+}
+
 std::string format_table(const Table& table, const TableLayout& layout) {
   std::vector<std::vector<std::string>> lines = {table.columns};
   for (const auto& row : table.rows) {

@@ -18,6 +18,25 @@ TEST_CASE("A table is printed in aligned columns, an empty cell as a dash") {
   CHECK(format_table(table) == "# forces\n NOEUD DX\n N1     1.50000E+00\n N12   -\n");
 }
 
+TEST_CASE("A table in Code_Aster's own format says what its columns hold") {
+  Table table;
+  table.title = "forces";
+  table.columns = {"NOEUD", "STEP", "DX"};
+  table.rows = {{std::string("N1"), std::int64_t{3}, 1.5}};
+  CHECK(aster_table(table) == "#DEBUT_TABLE\n#TITRE forces\n NOEUD STEP DX\n K80   I    R\n N1    3     1.50000E+00\n#FIN_TABLE\n");
+}
+
+TEST_CASE("A crossed table has a row and a column for each value of two columns") {
+  Table table;
+  table.columns = {"INST", "NOEUD", "DX"};
+  table.rows = {{1.0, std::string("A"), 10.0}, {1.0, std::string("B"), 20.0}, {2.0, std::string("B"), 30.0}};
+  const Table both = crossed(table);
+  CHECK(both.columns == std::vector<std::string>{"INST/NOEUD", "A", "B"});
+  REQUIRE(both.rows.size() == 2);
+  CHECK(both.rows[0] == std::vector<Cell>{1.0, 10.0, 20.0});
+  CHECK(both.rows[1] == std::vector<Cell>{2.0, Cell(), 30.0});
+}
+
 TEST_CASE("A column added later is empty in the rows before") {
   Table table;
   table.columns = {"A"};
