@@ -11,7 +11,7 @@ constexpr int text_unit = 8;
 // comma opens a file when a command writes to it and closes it again, so LIBERER finds everything written. ASSOCIER empties
 // the file: what is written next starts anew (U4.12.03).
 Product defi_fichier(const Call& call, Context& context) {
-  if (call.text("ACTION") != "ASSOCIER" || call.text("TYPE") == "LIBRE") return nullptr;
+  if (call.text("ACTION") != "ASSOCIER" || call.text("TYPE") == "LIBRE" || call.text("ACCES") != "NEW") return nullptr;
   const auto path = context.files.output(static_cast<int>(call.integer("UNITE")), "resu", text_unit);
   context.written.erase(path.string());
   return nullptr;
