@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/elements/assembler.hpp"
 #include "solver/tests/constraints/scene.hpp"
 
 using namespace comma::solver;
