@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/axes.hpp"
@@ -32,13 +33,16 @@ Eigen::Vector3d direction_of(const Keywords& assignment) {
 void add_plate_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties,
                         solver::PlateSections& named) {
   solver::PlateSection section;
-  section.thickness = assignment.real("EPAIS");
-  if (assignment.given("EXCENTREMENT")) section.offset = assignment.real("EXCENTREMENT");
   section.direction = direction_of(assignment);
   section.shear_factor = assignment.real("A_CIS");
   section.drilling = assignment.real("COEF_RIGI_DRZ");
   int assigned = 0;
+  const Amount thickness = amount_of(assignment, assignment.given("EPAIS_FO") ? "EPAIS_FO" : "EPAIS");
+  const Amount offset = amount_of(assignment, assignment.given("EXCENTREMENT_FO") ? "EXCENTREMENT_FO" : "EXCENTREMENT");
   for (const int cell : selected_cells(assignment, *model.mesh)) {
+    const Eigen::Vector3d middle = solver::centre_of(*model.mesh, cell);
+    section.thickness = thickness.at({middle[0], middle[1], middle[2]}, 0.0);
+    section.offset = offset.at({middle[0], middle[1], middle[2]}, 0.0);
     named[cell] = section;
     if (!solver::is_plate(model.formulations[cell]) || model.is_skin(cell)) continue;
     properties.plates[cell] = section;

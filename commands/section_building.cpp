@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <map>
 #include <utility>
 
+#include "commands/concepts.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/section_shapes.hpp"
@@ -25,6 +27,10 @@ namespace {
 class Characteristics {
  public:
   explicit Characteristics(const Keywords& assignment) : assignment_(assignment) {
+    if (assignment.given("TABLE_CARA")) {
+      take_row();
+      return;
+    }
     const auto names = assignment.texts("CARA");
     const auto values = assignment.reals("VALE");
     if (names.size() != values.size()) {
@@ -74,6 +80,25 @@ class Characteristics {
   }
 
  private:
+  // The row of TABLE_CARA whose LIEU (or first column) is NOM_SEC, the only one without (U4.42.01): its numbers by the names of their columns.
+  void take_row() {
+    const Table& table = assignment_.data<TableConcept>("TABLE_CARA").table;
+    const int names = std::max(0, table.column("LIEU"));
+    const auto is_meant = [&](const std::vector<Cell>& row) {
+      const auto* name = std::get_if<std::string>(&row[static_cast<std::size_t>(names)]);
+      return !assignment_.given("NOM_SEC") || (name != nullptr && *name == assignment_.text("NOM_SEC"));
+    };
+    const auto found = std::ranges::find_if(table.rows, is_meant);
+    if (found == table.rows.end() || std::find_if(found + 1, table.rows.end(), is_meant) != table.rows.end()) {
+      throw DiagnosticError("unknown-section", fmt::format("TABLE_CARA has {} row for the section", found == table.rows.end() ? "no" : "more than one"),
+                            assignment_.span_of(assignment_.given("NOM_SEC") ? "NOM_SEC" : "TABLE_CARA"), "name the row by NOM_SEC, as its column LIEU has it");
+    }
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (const auto* real = std::get_if<double>(&(*found)[c])) values_[table.columns[c]] = *real;
+      if (const auto* count = std::get_if<std::int64_t>(&(*found)[c])) values_[table.columns[c]] = static_cast<double>(*count);
+    }
+  }
+
   const Keywords& assignment_;
   std::map<std::string, double> values_;
   std::string suffix_;  // what CARA has behind each name here
