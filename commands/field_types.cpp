@@ -32,7 +32,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"SIEF", {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ", "VMIS", "TRESCA", "PRIN_1",
                 "PRIN_2", "PRIN_3", "VMIS_SG", "TRSIG", "TRIAX", "SN", "SVY", "SVZ", "SMT", "SMFY", "SMFZ", "SIXXMIN", "SIXXMAX"}},
       {"EPSI", {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ", "INVA_2", "PRIN_1", "PRIN_2", "PRIN_3", "INVA_2SG", "GAXY", "GAXZ",
-                "GAT", "KY", "KZ"}},
+                "GAT", "KY", "KZ", "EXX", "EYY", "EXY", "KXX", "KYY", "KXY"}},
       {"ENER", {"TOTALE"}},
       {"DERA", {"DCHA_V", "DCHA_T", "IND_DCHA", "VAL_DCHA", "RADI_V", "ERR_RADI"}},
       {"CACOQU", {"EP", "ALPHA", "BETA", "CTOR", "EXCENT", "KAPPA"}},

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "commands/concepts.hpp"
+#include "commands/functions.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/slender_forces.hpp"
+#include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/loads/end_effect.hpp"
 #include "solver/loads/nodal_history.hpp"
@@ -42,7 +44,7 @@ template <std::size_t N>
 Amounts<N> given_amounts(const Keywords& keywords, const std::array<const char*, N>& names) {
   Amounts<N> amounts;
   for (std::size_t i = 0; i < N; ++i) {
-    if (keywords.given(names[i])) amounts[i] = amount_of(keywords, names[i]);
+    if (*names[i] != '\0' && keywords.given(names[i])) amounts[i] = amount_of(keywords, names[i]);
   }
   return amounts;
 }
@@ -95,9 +97,28 @@ bool bears(const LoadedModel& target, const DistributedKeyword& keyword, int cel
   return target.model.is_skin(cell) && own == keyword.cell_dimension;
 }
 
+void append_moments(const LoadedModel& target, const ByCell<solver::PlateMoment>& moments, solver::Load& load) {
+  for (const auto& [cell, moment] : moments) {
+    for (solver::NodalForce& force : solver::plate_moment_forces(target.mesh, moment)) load.nodal_forces.push_back(std::move(force));
+  }
+}
+
+// Of an edge, which must have rotations to turn.
+void take_moment(const Keywords& occurrence, const LoadedModel& target, const DistributedKeyword& keyword, int cell, ByCell<solver::PlateMoment>& moments) {
+  const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
+  if (keyword.cell_dimension != 1 || std::ranges::none_of(turning, [](const auto& each) { return each.has_value(); })) return;
+  if (target.dofs.dof(target.mesh.cell(cell)[0], solver::Component::drx) < 0) {
+    throw DiagnosticError("unknown-component", fmt::format("{}: a moment acts on {}, whose nodes have no rotations", keyword.name, target.mesh.cell_name(cell)), occurrence.span,
+                          "moments are for the edges of plates");
+  }
+  moments[cell].cell = cell;
+  override_given(turning, moments[cell].moment, moments[cell].functions);
+}
+
 void add_distributed_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   for (const DistributedKeyword& keyword : distributed_keywords) {
     ByCell<solver::DistributedForce> forces;
+    ByCell<solver::PlateMoment> moments;
     for (const Keywords& occurrence : call.factors(keyword.name)) {
       const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
       const auto can_bear = [&](int cell) { return bears(target, keyword, cell); };
@@ -105,9 +126,11 @@ void add_distributed_forces(const Keywords& call, const LoadedModel& target, sol
         auto& force = forces[cell];
         force.cell = cell;
         override_given(amounts, force.force, force.functions);
+        take_moment(occurrence, target, keyword, cell, moments);
       }
     }
     append(load.distributed_forces, std::move(forces));
+    append_moments(target, moments, load);
   }
 }
 
@@ -138,17 +161,51 @@ bool is_surface(const LoadedModel& target, int cell) {
   return target.model.is_skin(cell);
 }
 
-// FORCE_COQUE: tractions and moments along the axes of the mesh, or across the plate. PRES acts against the normal, F3 along it (U4.44.01).
+solver::PlateLevel level_of(const Keywords& occurrence) {
+  const std::string plane = occurrence.text("PLAN");
+  if (plane == "SUP") return solver::PlateLevel::upper;
+  if (plane == "INF") return solver::PlateLevel::lower;
+  return plane == "MOY" ? solver::PlateLevel::middle : solver::PlateLevel::mesh;
+}
+
+constexpr std::array<const char*, 6> global_plate_forces = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
+constexpr std::array<const char*, 6> own_plate_forces = {"F1", "F2", "F3", "MF1", "MF2", ""};
+
+// Whether the section of the plate says what the force is: its axes, or its thickness.
+bool asks_for_section(const Keywords& occurrence) {
+  if (occurrence.given("PRES")) return false;
+  const bool along = std::ranges::any_of(std::array{"F1", "F2", "MF1", "MF2"}, [&](const char* name) { return occurrence.given(name); });
+  return along || (level_of(occurrence) != solver::PlateLevel::mesh && !occurrence.given("F3"));
+}
+
+// Forces given in other axes or at another level than before replace those entirely.
+void take_plate_force(const Keywords& occurrence, int cell, ByCell<solver::PlateForce>& forces) {
+  const bool own = std::ranges::any_of(own_plate_forces, [&](const char* name) { return *name != '\0' && occurrence.given(name); });
+  const solver::PlateLevel level = level_of(occurrence);
+  solver::PlateForce& force = forces[cell];
+  if (force.in_own_axes != own || force.level != level) force = {};
+  force.cell = cell;
+  force.in_own_axes = own;
+  force.level = level;
+  override_given(given_amounts(occurrence, own ? own_plate_forces : global_plate_forces), force.force, force.functions);
+}
+
+// FORCE_COQUE: tractions and moments along the axes of the mesh, those of the plate, or across it. PRES acts against the normal, F3 along it (U4.44.01).
 void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::DistributedForce> forces;
   ByCell<solver::PlateMoment> moments;
   ByCell<solver::PressureLoad> pressures;
+  ByCell<solver::PlateForce> of_sections;
   for (const Keywords& occurrence : call.factors("FORCE_COQUE")) {
     const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
     const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
     const bool pressed = occurrence.given("PRES"), pulled = occurrence.given("F3");
     const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX()) : amount_of(occurrence, "PRES");
     for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate", [&](int each) { return is_plate(target, each); })) {
+      if (asks_for_section(occurrence)) {
+        take_plate_force(occurrence, cell, of_sections);
+        continue;
+      }
       if (pressed || pulled) {
         pressures[cell].cell = cell;
         std::tie(pressures[cell].pressure, pressures[cell].pressure_function) = std::pair(across.value, across.function);
@@ -162,9 +219,8 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
   }
   append(load.distributed_forces, std::move(forces));
   append(load.pressures, std::move(pressures));
-  for (const auto& [cell, moment] : moments) {
-    for (solver::NodalForce& force : solver::plate_moment_forces(target.mesh, moment)) load.nodal_forces.push_back(std::move(force));
-  }
+  append(load.plate_forces, std::move(of_sections));
+  append_moments(target, moments, load);
 }
 
 void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {
@@ -239,8 +295,31 @@ void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Lo
 
 using NodeForces = std::map<std::pair<int, solver::Component>, Amount>;
 
+// ANGL_NAUT by numbers or, in AFFE_CHAR_MECA_F, by functions.
+std::vector<Amount> angles_of(const Keywords& force) {
+  std::vector<Amount> angles;
+  const auto functions = force.concepts("ANGL_NAUT");
+  for (const auto& handle : functions) angles.push_back({0.0, field_function(handle, force.span_of("ANGL_NAUT"))});
+  if (!functions.empty()) return angles;
+  for (const double angle : force.reals("ANGL_NAUT")) angles.push_back({angle, {}});
+  return angles;
+}
+
+Eigen::Matrix3d axes_at(const std::vector<Amount>& angles, const solver::Point& place, double time) {
+  std::vector<double> degrees;
+  for (const Amount& angle : angles) degrees.push_back(angle.at(place, time));
+  return axes_of_angles(degrees);
+}
+
+// A component of a force that is given in axes that turn from place to place.
+Amount component_of_turning(const std::array<Amount, 3>& given, const std::vector<Amount>& angles, Eigen::Index component) {
+  if (std::ranges::none_of(angles, [](const Amount& angle) { return static_cast<bool>(angle.function); }))
+    return component_of_turned(given, axes_at(angles, {}, 0.0).col(component));
+  return {0.0, [given, angles, component](const solver::Point& at, double time) { return component_of_turned(given, axes_at(angles, at, time).col(component)).at(at, time); }};
+}
+
 void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, const LoadedModel& target, NodeForces& forces) {
-  const Eigen::Matrix3d axes = axes_of_angles(force.reals("ANGL_NAUT"));
+  const std::vector<Amount> angles = angles_of(force);
   for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
     std::array<Amount, 3> given;
     bool any = false;
@@ -251,7 +330,7 @@ void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, con
     if (!any) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto component = force_keywords[first + i].component;
-      const Amount amount = component_of_turned(given, axes.col(static_cast<Eigen::Index>(i)));
+      const Amount amount = component_of_turning(given, angles, static_cast<Eigen::Index>(i));
       for (const int node : nodes) {
         if (target.dofs.dof(node, component) >= 0) forces[{node, component}] = amount;
       }
@@ -350,40 +429,69 @@ void add_inertia_loads(const Keywords& call, const LoadedModel& target, solver::
   }
 }
 
-void add_initial_strains(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  ByCell<solver::InitialStrain> strains;
-  ByCell<solver::InitialSlenderStrain> slender_strains;
-  for (const Keywords& occurrence : call.factors("PRE_EPSI")) {
-    const auto amounts = given_amounts<6>(occurrence, {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"});
-    const auto slender = given_amounts<3>(occurrence, {"EPX", "KY", "KZ"});
-    const auto is_given = [](const auto& amount) { return amount.has_value(); };
-    for (const int cell : selected_cells(occurrence, target.mesh)) {
-      const auto formulation = target.model.formulations[cell];
-      if (solver::is_plate(formulation) && !target.model.is_skin(cell)) {
-        throw DiagnosticError("unsupported", fmt::format("PRE_EPSI: comma does not support it on plates such as {}", target.mesh.cell_name(cell)),
-                              occurrence.span, "name the cells without plates");
-      }
-      if (std::ranges::any_of(amounts, is_given) && solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell)) {
-        strains[cell].cell = cell;
-        override_given(amounts, strains[cell].strain, strains[cell].functions);
-      }
-      if (std::ranges::any_of(slender, is_given) && (solver::is_beam(formulation) || solver::is_bar(formulation))) {
-        slender_strains[cell].cell = cell;
-        override_given(slender, slender_strains[cell].strain, slender_strains[cell].functions);
-      }
-      // A bar has its elongation under the name that solids have (U4.44.01, PRE_EPSI).
-      if (amounts[0] && solver::is_bar(formulation)) {
-        slender_strains[cell].cell = cell;
-        override_given<3>({amounts[0], std::nullopt, std::nullopt}, slender_strains[cell].strain, slender_strains[cell].functions);
-      }
-    }
-    if (strains.empty() && slender_strains.empty()) {
-      throw DiagnosticError("no-element", "PRE_EPSI: none of these cells can have such a strain", occurrence.span,
-                            "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams");
-    }
+// A field at the integration points of the model, of the chosen cells where some are named.
+std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occurrence, const char* keyword, const LoadedModel& target) {
+  const auto& given = occurrence.data<FieldConcept>(keyword);
+  if (given.mesh.get() != &target.mesh) throw DiagnosticError("incompatible-field", std::string(keyword) + ": the field lies on another mesh than the model", occurrence.span_of(keyword));
+  auto field = std::make_shared<solver::ElementField>(solver::brought_to(target.model, given.field, solver::Support::gauss_point, false));
+  if (!names_a_place(occurrence)) return field;
+  const auto cells = selected_cells(occurrence, target.mesh);
+  for (int cell = 0; cell < target.mesh.cell_count(); ++cell) {
+    if (std::ranges::find(cells, cell) != cells.end()) continue;
+    const std::size_t first = static_cast<std::size_t>(field->starts[cell]) * field->components.size();
+    const std::size_t last = static_cast<std::size_t>(field->starts[cell + 1]) * field->components.size();
+    std::fill(field->values.begin() + static_cast<std::ptrdiff_t>(first), field->values.begin() + static_cast<std::ptrdiff_t>(last), solver::absent);
   }
-  append(load.initial_strains, std::move(strains));
-  append(load.initial_slender_strains, std::move(slender_strains));
+  return field;
+}
+
+void add_initial_stresses(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  for (const Keywords& occurrence : call.factors("PRE_SIGM")) load.initial_stress_fields.push_back(field_at_points(occurrence, "SIGM", target));
+}
+
+// The initial strains of an occurrence, by the kind of cell that has such ones.
+struct InitialStrains {
+  ByCell<solver::InitialStrain> continuum;
+  ByCell<solver::InitialSlenderStrain> slender;
+  ByCell<solver::InitialPlateStrain> plates;
+
+  bool empty() const { return continuum.empty() && slender.empty() && plates.empty(); }
+};
+
+template <std::size_t N, class Strain>
+void take_strain(const Amounts<N>& amounts, int cell, ByCell<Strain>& strains) {
+  if (std::ranges::none_of(amounts, [](const auto& amount) { return amount.has_value(); })) return;
+  strains[cell].cell = cell;
+  override_given(amounts, strains[cell].strain, strains[cell].functions);
+}
+
+void take_strains(const Keywords& occurrence, const LoadedModel& target, InitialStrains& strains) {
+  const auto amounts = given_amounts<6>(occurrence, {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"});
+  const auto slender = given_amounts<3>(occurrence, {"EPX", "KY", "KZ"});
+  const auto plate = given_amounts<6>(occurrence, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"});
+  for (const int cell : selected_cells(occurrence, target.mesh)) {
+    const auto formulation = target.model.formulations[cell];
+    if (is_plate(target, cell)) take_strain(plate, cell, strains.plates);
+    if (solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell)) take_strain(amounts, cell, strains.continuum);
+    if (solver::is_beam(formulation) || solver::is_bar(formulation)) take_strain(slender, cell, strains.slender);
+    // A bar has its elongation under the name that solids have (U4.44.01, PRE_EPSI).
+    if (amounts[0] && solver::is_bar(formulation)) take_strain<3>({amounts[0], std::nullopt, std::nullopt}, cell, strains.slender);
+  }
+  if (strains.empty()) {
+    throw DiagnosticError("no-element", "PRE_EPSI: none of these cells can have such a strain", occurrence.span,
+                          "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams, EXX ... KXY for plates");
+  }
+}
+
+void add_initial_strains(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  InitialStrains strains;
+  for (const Keywords& occurrence : call.factors("PRE_EPSI")) {
+    if (occurrence.given("EPSI")) load.initial_strain_fields.push_back(field_at_points(occurrence, "EPSI", target));
+    else take_strains(occurrence, target, strains);
+  }
+  append(load.initial_strains, std::move(strains.continuum));
+  append(load.initial_slender_strains, std::move(strains.slender));
+  append(load.initial_plate_strains, std::move(strains.plates));
 }
 
 }  // namespace
@@ -399,6 +507,7 @@ void add_forces(const Keywords& call, const LoadedModel& target, solver::Load& l
   add_beam_forces(call, target, load);
   add_inertia_loads(call, target, load);
   add_initial_strains(call, target, load);
+  add_initial_stresses(call, target, load);
 }
 
 }  // namespace comma::commands

@@ -127,6 +127,21 @@ void add_face_displacements(const Keywords& keywords, const LoadedModel& target,
                [&](int node) { return solver::plane_tangent(normals.at(node)); });
 }
 
+void add_edge_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const auto origin = origin_of(keywords, "ARETE_IMPO");
+  const auto nodes = remaining_nodes(keywords, target.mesh);
+  impose_components(keywords, nodes, target, origin, load);
+  if (!keywords.given("DTAN")) return;
+  const auto tangents = solver::mean_tangents(target.mesh, selected_cells(keywords, target.mesh));
+  impose_along(nodes, Motion::translation, amount_of(keywords, "DTAN"), origin, load, target, [&](int node) { return tangents.at(node); });
+}
+
+void add_displacements_of_field(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const auto origin = origin_of(keywords, "CHAMNO_IMPO");
+  const double factor = keywords.real("COEF_MULT");
+  for (const auto& term : terms_of_field(keywords, target)) load.relations.push_back({{{term.node, term.component, 1.0}}, factor * term.coefficient, {}, origin});
+}
+
 void add_beam_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const auto candidates = reference_cells(keywords, target.mesh);
   const auto nodes = selected_nodes(keywords, target.mesh);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
+#include "commands/concepts.hpp"
 #include "commands/functions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/axes.hpp"
@@ -59,6 +61,22 @@ std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named,
                           keywords.at(named.keyword).name_span, "the elements of the model around them have no such component");
   }
   return found;
+}
+
+std::vector<solver::LinearRelation::Term> terms_of_field(const Keywords& keywords, const LoadedModel& target) {
+  const auto& given = keywords.data<FieldConcept>("CHAM_NO");
+  const auto* field = std::get_if<solver::NodalField>(&given.field);
+  if (field == nullptr) throw DiagnosticError("wrong-concept-type", "CHAM_NO wants a field on nodes", keywords.span_of("CHAM_NO"));
+  if (given.mesh.get() != &target.mesh) throw DiagnosticError("incompatible-field", "CHAM_NO: the field lies on another mesh than the model", keywords.span_of("CHAM_NO"));
+  std::vector<solver::LinearRelation::Term> terms;
+  for (std::size_t c = 0; c < field->components.size(); ++c) {
+    const Component component = component_named(keywords, "CHAM_NO", field->components[c]);
+    for (int node = 0; node < target.mesh.node_count(); ++node) {
+      const double value = field->at(node, static_cast<int>(c));
+      if (!std::isnan(value) && target.dofs.dof(node, component) >= 0) terms.push_back({node, component, value});
+    }
+  }
+  return terms;
 }
 
 Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees) {

@@ -56,6 +56,10 @@ solver::Component component_named(const interpreter::Keywords& keywords, const s
 std::vector<int> carriers(const interpreter::Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,
                           const solver::DofMap& dofs);
 
+/// What the nodal field CHAM_NO holds of the degrees of freedom of the model, zeros included. Throws DiagnosticError `wrong-concept-type`, `incompatible-field`,
+/// `unknown-component`.
+std::vector<solver::LinearRelation::Term> terms_of_field(const interpreter::Keywords& keywords, const LoadedModel& target);
+
 /// Axes (rows) of nautical angles in degrees, of which those missing are 0.
 Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees);
 
@@ -64,8 +68,12 @@ Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees);
 void add_imposed_displacements(const interpreter::Keywords& keywords, const std::string& name, const LoadedModel& target,
                                solver::Load& load, interpreter::Diagnostics* alarms = nullptr);
 void add_face_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+void add_edge_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 void add_beam_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 void add_oblique_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+
+/// CHAMNO_IMPO: the displacements of a field.
+void add_displacements_of_field(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 
 /// LIAISON_...: relations between displacements.
 void add_relations(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);

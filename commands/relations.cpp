@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "commands/functions.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -36,13 +38,34 @@ void require_same_count(const Keywords& keywords, const std::string& keyword, st
                         "each term of the relation takes one");
 }
 
+// COEF_MULT, or the functions COEF_MULT_FONC at the node of each term: relations do not change with time, so these may not either.
+std::vector<double> factors_of_terms(const Keywords& keywords, const solver::Mesh& mesh, const std::vector<int>& nodes) {
+  const char* name = keywords.given("COEF_MULT_FONC") ? "COEF_MULT_FONC" : "COEF_MULT";
+  if (keywords.given("COEF_MULT")) {
+    const auto factors = keywords.reals(name);
+    require_same_count(keywords, name, factors.size(), nodes.size(), "nodes");
+    return factors;
+  }
+  const auto& functions = keywords.concepts(name);
+  require_same_count(keywords, name, functions.size(), nodes.size(), "nodes");
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& parameters = interpreter::data_of<FunctionConcept>(functions[i], name).parameters();
+    if (std::ranges::find(parameters, "INST") != parameters.end()) {
+      throw DiagnosticError("unsupported", "COEF_MULT_FONC: " + functions[i]->name + " depends on INST, and relations do not change with time", keywords.span_of(name),
+                            "let it depend on X, Y, Z");
+    }
+    factors.push_back(field_function(functions[i], keywords.span_of(name))(mesh.nodes[static_cast<std::size_t>(nodes[i])], 0.0));
+  }
+  return factors;
+}
+
 // LIAISON_DDL: one relation, a term for each node listed.
 Relations between_terms(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO", "NOEUD");
   const auto components = keywords.texts("DDL");
-  const auto factors = keywords.reals("COEF_MULT");
+  const auto factors = factors_of_terms(keywords, target.mesh, nodes);
   require_same_count(keywords, "DDL", components.size(), nodes.size(), "nodes");
-  require_same_count(keywords, "COEF_MULT", factors.size(), nodes.size(), "nodes");
   const Amount amount = amount_of(keywords, "COEF_IMPO");
   solver::LinearRelation relation{{}, amount.value, amount.function, origin};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -115,9 +138,33 @@ Relations uniform_displacement(const Keywords& keywords, const LoadedModel& targ
   return relations;
 }
 
-Relations rigid_body(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+// LIAISON_SOLIDE with a given motion: u = TRAN + (R - 1) (x - CENTRE).
+Relations moved_body(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const solver::Placement motion = placement(keywords);
+  Relations relations;
+  for (const int node : remaining_nodes(keywords, target.mesh)) {
+    const Eigen::Vector3d arm = Eigen::Vector3d(target.mesh.nodes[static_cast<std::size_t>(node)].data()) - motion.centre;
+    const Eigen::Vector3d moved = motion.translation + motion.rotation * arm - arm;
+    if (target.dofs.dof(node, Component::drz) >= 0) {
+      throw DiagnosticError("unsupported", fmt::format("LIAISON_SOLIDE: {} has rotations, and a given motion is known of nodes without them", target.mesh.node_name(node)), keywords.span,
+                            "impose DX ... DRZ by DDL_IMPO");
+    }
+    for (int c = 0; c < 3; ++c) {
+      const auto component = static_cast<Component>(c);
+      if (target.dofs.dof(node, component) >= 0) relations.push_back({{{node, component, 1.0}}, moved[c], {}, origin});
+    }
+  }
+  return relations;
+}
+
+void add_rigid_body(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+  const solver::Origin origin = origin_of(keywords, "LIAISON_SOLIDE");
+  if (keywords.given("TRAN") || keywords.given("ANGL_NAUT")) return append(load.relations, moved_body(keywords, target, origin));
   const double coincidence = keywords.has("DIST_MIN") ? keywords.real("DIST_MIN") : solver::default_coincidence(target.mesh);
-  return solver::rigid_link(target.mesh, target.dofs, remaining_nodes(keywords, target.mesh), coincidence, origin);
+  const solver::RigidLink& link = load.rigid_links.emplace_back(remaining_nodes(keywords, target.mesh), coincidence, origin);
+  Relations relations = solver::rigid_link(target.mesh, target.dofs, link.nodes, coincidence, origin);
+  for (solver::LinearRelation& relation : relations) relation.rigid_link = static_cast<int>(load.rigid_links.size()) - 1;
+  append(load.relations, std::move(relations));
 }
 
 // LIAISON_ELEM, 3D_POU and 2D_POU.
@@ -164,11 +211,47 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
   return solver::weighted_average(target.mesh, target.dofs, follower, following, leaders, origin);
 }
 
-Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+// LIAISON_COQUE: nodes that face each other move as one rigid body.
+Relations joined_shells(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  const auto nodes_of = [&](const std::string& number) {
+    auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number});
+    const auto left_out = selected_nodes(keywords, target.mesh, {"", "SANS_GROUP_NO_" + number, "SANS_NOEUD_" + number, "SANS_GROUP_MA_" + number, "SANS_MAILLE_" + number});
+    std::erase_if(nodes, [&](int node) { return std::ranges::find(left_out, node) != left_out.end(); });
+    return nodes;
+  };
+  Relations relations;
+  for (const solver::NodePair& pair : solver::facing_nodes(target.mesh, nodes_of("1"), nodes_of("2"))) {
+    const std::array<int, 2> ends = {pair.first, pair.second};
+    append(relations, solver::rigid_link(target.mesh, target.dofs, ends, 0.0, origin));
+  }
+  return relations;
+}
+
+// LIAISON_CHAMNO: the work of a field of forces is given.
+Relations weighted_by_field(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  solver::LinearRelation relation{terms_of_field(keywords, target), keywords.real("COEF_IMPO"), {}, origin};
+  std::erase_if(relation.terms, [](const auto& term) { return term.coefficient == 0.0; });
+  return {std::move(relation)};
+}
+
+Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued, const solver::Origin& origin) {
   const auto hosts = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""});
-  const auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""});
+  auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""});
+  std::erase_if(nodes, [&](int node) { return glued.contains(node); });
   const double farthest = keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
-  return solver::embedding_relations(target.mesh, target.dofs, solver::embed(target.mesh, nodes, hosts, farthest), origin);
+  const auto embeddings = solver::embed(target.mesh, nodes, hosts, farthest);
+  if (keywords.text("TYPE_RACCORD") == "MASSIF") return solver::embedding_relations(target.mesh, target.dofs, embeddings, origin);
+  return solver::shell_embedding_relations(target.mesh, target.dofs, embeddings, origin);
+}
+
+// ELIM_MULT='OUI': a node that an earlier occurrence has glued stays as it is.
+void add_glued_nodes(const Keywords& call, const LoadedModel& target, Relations& relations) {
+  std::set<int> glued;
+  for (const Keywords& occurrence : call.factors("LIAISON_MAIL")) {
+    const Relations found = glued_nodes(occurrence, target, occurrence.text("ELIM_MULT") == "OUI" ? glued : std::set<int>(), origin_of(occurrence, "LIAISON_MAIL"));
+    for (const auto& relation : found) glued.insert(relation.terms.front().node);
+    append(relations, found);
+  }
 }
 
 struct RelationKeyword {
@@ -178,8 +261,8 @@ struct RelationKeyword {
 
 constexpr RelationKeyword relation_keywords[] = {
     {"LIAISON_DDL", between_terms},   {"LIAISON_GROUP", between_facing_nodes}, {"LIAISON_UNIF", uniform_displacement},
-    {"LIAISON_SOLIDE", rigid_body},   {"LIAISON_ELEM", beam_on_section},       {"LIAISON_RBE3", mean_motion},
-    {"LIAISON_MAIL", glued_nodes}};
+    {"LIAISON_ELEM", beam_on_section},       {"LIAISON_RBE3", mean_motion},
+    {"LIAISON_COQUE", joined_shells}, {"LIAISON_CHAMNO", weighted_by_field}};
 
 }  // namespace
 
@@ -189,6 +272,8 @@ void add_relations(const Keywords& call, const LoadedModel& target, solver::Load
       append(load.relations, keyword.relations(occurrence, target, origin_of(occurrence, keyword.name)));
     }
   }
+  for (const Keywords& occurrence : call.factors("LIAISON_SOLIDE")) add_rigid_body(occurrence, target, load);
+  add_glued_nodes(call, target, load.relations);
 }
 
 }  // namespace comma::commands

@@ -23,11 +23,14 @@ Eigen::Vector3d cleaned(Eigen::Vector3d direction) {
   return direction.normalized();
 }
 
-Eigen::Vector3d normal_at(const Mesh& mesh, int cell, int local_node) {
+CellPoint point_at(const Mesh& mesh, int cell, int local_node) {
   const CellType type = mesh.cell_types[cell];
   const ReferencePoint& at = reference_nodes(type)[local_node];
-  const CellPoint point = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
-  return point.normal(dimension(type));
+  return locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
+}
+
+Eigen::Vector3d normal_at(const Mesh& mesh, int cell, int local_node) {
+  return point_at(mesh, cell, local_node).normal(dimension(mesh.cell_types[cell]));
 }
 
 }  // namespace
@@ -106,6 +109,23 @@ std::map<int, Eigen::Vector3d> mean_normals(const Mesh& mesh, std::span<const in
     normal = cleaned(normal.normalized());
   }
   return normals;
+}
+
+std::map<int, Eigen::Vector3d> mean_tangents(const Mesh& mesh, std::span<const int> cells) {
+  std::map<int, Eigen::Vector3d> tangents;
+  for (const int cell : cells) {
+    if (dimension(mesh.cell_types[cell]) != 1)
+      throw Error("not-an-edge", fmt::format("cell {}, a {}, has no tangent", mesh.cell_name(cell), name_of(mesh.cell_types[cell])));
+    const auto nodes = mesh.cell(cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      tangents.try_emplace(nodes[a], Eigen::Vector3d::Zero()).first->second += point_at(mesh, cell, static_cast<int>(a)).tangents.col(0).normalized();
+  }
+  for (auto& [node, tangent] : tangents) {
+    if (!(tangent.norm() > negligible_component))
+      throw Error("degenerate-facet", fmt::format("the edges at node {} run opposite ways", mesh.node_name(node)), "give them one direction");
+    tangent = cleaned(tangent.normalized());
+  }
+  return tangents;
 }
 
 Eigen::Vector3d plane_tangent(const Eigen::Vector3d& normal) {

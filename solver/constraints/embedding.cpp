@@ -135,6 +135,46 @@ std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::
   return result;
 }
 
+namespace {
+
+/// From the nearest place of the host to the node.
+Eigen::Vector3d arm_of(const Mesh& mesh, const Embedding& embedding) {
+  Eigen::Vector3d arm = place(mesh, embedding.node);
+  const auto host = mesh.cell(embedding.cell);
+  for (std::size_t a = 0; a < host.size(); ++a) arm -= embedding.weights[a] * place(mesh, host[a]);
+  return arm;
+}
+
+/// The terms of one component: those of rotations are what they do at the end of the arm.
+LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int c, const Origin& origin) {
+  LinearRelation relation{{{embedding.node, static_cast<Component>(c), 1.0}}, 0.0, {}, origin};
+  const Eigen::Vector3d arm = arm_of(mesh, embedding);
+  const auto host = mesh.cell(embedding.cell);
+  for (std::size_t a = 0; a < host.size(); ++a) {
+    const double weight = embedding.weights[a];
+    if (std::abs(weight) <= negligible_weight) continue;
+    relation.terms.push_back({host[a], static_cast<Component>(c), -weight});
+    for (int k = 0; c < 3 && k < 3; ++k) {
+      const double turned = Eigen::Vector3d::Unit(k).cross(arm)[c];
+      if (std::abs(turned) > negligible_weight * arm.norm()) relation.terms.push_back({host[a], static_cast<Component>(3 + k), -weight * turned});
+    }
+  }
+  return relation;
+}
+
+}  // namespace
+
+std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs, std::span<const Embedding> embeddings, const Origin& origin) {
+  std::vector<LinearRelation> relations;
+  for (const Embedding& embedding : embeddings) {
+    if (dofs.dof(mesh.cell(embedding.cell)[0], Component::drx) < 0)
+      throw Error("unknown-dof", fmt::format("cell {} is to hold nodes as a shell does, but its nodes have no rotations", mesh.cell_name(embedding.cell)));
+    for (int c = 0; c < 6; ++c)
+      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0) relations.push_back(shell_relation(mesh, embedding, c, origin));
+  }
+  return relations;
+}
+
 std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
                                                 std::span<const Embedding> embeddings, const Origin& origin) {
   std::vector<LinearRelation> relations;

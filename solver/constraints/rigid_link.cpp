@@ -32,11 +32,12 @@ struct RigidBody {
   bool in_space() const { return (components & space_mask) != 0; }
 };
 
-RigidBody make_body(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes) {
+RigidBody make_body(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places) {
   RigidBody body;
   std::set<int> known;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const int node : nodes) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int node = nodes[k];
     if (!known.insert(node).second) continue;
     if (dofs.components(node) == 0) {
       throw Error("unknown-dof", fmt::format("node {} of a rigid link belongs to no finite element of the model",
@@ -44,12 +45,13 @@ RigidBody make_body(const Mesh& mesh, const DofMap& dofs, std::span<const int> n
     }
     body.nodes.push_back(node);
     body.components |= dofs.components(node);
-    mean += Eigen::Vector3d(mesh.nodes[node].data());
+    body.levers.push_back(places[k]);
+    mean += places[k];
   }
   mean /= static_cast<double>(std::max<std::size_t>(body.nodes.size(), 1));
-  for (const int node : body.nodes) {
-    body.levers.push_back(Eigen::Vector3d(mesh.nodes[node].data()) - mean);
-    body.radius = std::max(body.radius, body.levers.back().norm());
+  for (Eigen::Vector3d& lever : body.levers) {
+    lever -= mean;
+    body.radius = std::max(body.radius, lever.norm());
   }
   if (!(body.radius > 0.0)) body.radius = 1.0;
   for (Eigen::Vector3d& lever : body.levers) lever /= body.radius;
@@ -143,7 +145,14 @@ std::vector<int> leading_rows(const BodyRows& rows) {
 
 std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
                                        double coincidence, const Origin& origin) {
-  RigidBody body = make_body(mesh, dofs, nodes);
+  std::vector<Eigen::Vector3d> places;
+  for (const int node : nodes) places.emplace_back(mesh.nodes[node].data());
+  return rigid_link(mesh, dofs, nodes, places, coincidence, origin);
+}
+
+std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places,
+                                       double coincidence, const Origin& origin) {
+  RigidBody body = make_body(mesh, dofs, nodes, places);
   const BodyRows rows = rows_of(dofs, body, motions_of(body, coincidence));
   if (body.nodes.size() < 2) return {};
   const std::vector<int> leading = leading_rows(rows);

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "solver/loads/load.hpp"
 #include "solver/model/model.hpp"
 
@@ -15,6 +17,10 @@ namespace comma::solver {
 /// `coincidence` of one point share its displacement. One node gives no relation. Nodes may be given more than once.
 /// Throws Error `unknown-dof` naming a node without degrees of freedom.
 std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
+                                       double coincidence, const Origin& origin);
+
+/// The same of nodes that lie at `places`, one for each of `nodes`: what they may do from there.
+std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places,
                                        double coincidence, const Origin& origin);
 
 /// The distance below which nodes count as coincident unless told otherwise: a thousandth of the shortest edge of the

@@ -110,6 +110,27 @@ std::vector<double> read_block(const ElementBlock& block, const std::vector<std:
   return values;
 }
 
+/// Of a solid; more of them are no stresses.
+constexpr std::size_t solid_stress_count = 6;
+
+/// Stresses of a load: what a cell that has some does not carry is zero, and a cell without has none.
+std::vector<double> read_initial_stresses(const ElementBlock& block, const ElementField& field, const Mesh& mesh) {
+  std::vector<int> columns;
+  for (const auto& name : stress_names(block)) columns.push_back(field.component(name));
+  std::vector<double> values;
+  for (const int cell : block.cells()) {
+    const int points = field.points(cell);
+    if (points != 0 && points != block.point_count())
+      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}", field.quantity, points, mesh.cell_name(cell), block.point_count()));
+    for (int point = 0; point < block.point_count(); ++point)
+      for (const int column : columns) {
+        const double value = points == 0 || column < 0 ? absent : field.at(cell, point, column);
+        values.push_back(points != 0 && std::isnan(value) ? 0.0 : value);
+      }
+  }
+  return values;
+}
+
 /// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
 constexpr double initial_stress_tolerance = 1e-6;
 
@@ -165,6 +186,11 @@ std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
   return nodes;
 }
 
+void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, ForceSum) const {
+  if (std::ranges::all_of(stresses, [](double each) { return std::isnan(each); })) return;
+  throw Error("unsupported", "initial stresses as a load are known of solids and plane bodies alone");
+}
+
 void ElementBlock::add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const {
   throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
 }
@@ -217,6 +243,8 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
       }
       continue;
     }
+    if (block->stress_names().size() > solid_stress_count)
+      throw Error("unsupported", fmt::format("cell {}: the stiffness that stresses add is not known of cells with one point of integration", model_.mesh->cell_name(cell)));
     const int nodes = static_cast<int>(model_.mesh->cell(cell).size());
     const ElementMap map(blocks_->pattern, dofs_, model_.components_of(cell), nodes, gather_nodes(*model_.mesh, block->cells()));
     add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map, stresses_of(*block, u, state_, nullptr), starts, matrix.valuePtr());
@@ -321,7 +349,21 @@ Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, d
   if (!imposed.empty()) {
     for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
   }
+  add_initial_stress_forces(loads, time, sums);
   return rounded(sums);
+}
+
+void Assembler::add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const {
+  for (const AppliedLoad& applied : loads) {
+    const double factor = applied.multiplier ? applied.multiplier(time) : 1.0;
+    for (const auto& field : applied.load->initial_stress_fields) {
+      for (const auto& block : blocks_->list) {
+        std::vector<double> values = read_initial_stresses(*block, *field, *model_.mesh);
+        for (double& value : values) value *= factor;
+        block->add_initial_stress_forces(values, sums);
+      }
+    }
+  }
 }
 
 Eigen::VectorXd Assembler::initial_strain_forces(std::span<const AppliedLoad> loads, double time) const {

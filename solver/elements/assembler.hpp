@@ -85,9 +85,8 @@ class Assembler {
   /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.
   Eigen::VectorXd variable_forces() const;
 
-  /// External forces (n) of the loads at a time: nodal forces and pressures, on the initial geometry.
   /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains take part as
-  /// the forces of the stresses that would undo them.
+  /// the forces of the stresses that would undo them, initial stresses by their own.
   Eigen::VectorXd external_forces(std::span<const AppliedLoad> loads, double time) const;
 
   /// The part of external_forces() that initial strains have.
@@ -114,6 +113,7 @@ class Assembler {
 
  private:
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+  void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
   void check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -131,6 +132,21 @@ class ContinuumBlock : public ElementBlock {
         add_forces(stress, samples_[g], point, force);
       }
       scatter_forces(force, dofs, forces);
+    }
+  }
+
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const double* given = stresses.data() + static_cast<std::size_t>(element * point_count() * strains);
+      if (std::isnan(*given)) continue;
+      const Coordinates x = coordinates(element);
+      Coordinates force = Coordinates::Zero();
+      for (int g = 0; g < point_count(); ++g) {
+        const Point point = locate(x, samples_[g]);
+        const Strain stress = point.weight * Eigen::Map<const Strain>(given + g * strains);
+        add_forces(stress, samples_[g], point, force);
+      }
+      scatter_forces(force, dofs_of(element), forces);
     }
   }
 
@@ -354,7 +370,7 @@ class ContinuumBlock : public ElementBlock {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     at.head<Dim>() = x.transpose() * samples_[g].values;
     const Behaviour behaviour(*this, element, g, x, state);
-    return *behaviour.law * imposed.continuum(cells_[element], at).template head<strains>();
+    return *behaviour.law * imposed.continuum(cells_[element], g, at).template head<strains>();
   }
 
   Coordinates element_forces(int element, const Displacements& u, const VariableState& state) const {

@@ -94,6 +94,9 @@ class ElementBlock {
 
   /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
   virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
+  /// Adds the forces with which initial stresses, laid out as in stresses() and absent in cells without, push the nodes apart on the initial geometry.
+  /// Throws Error `unsupported` where the element knows none.
+  virtual void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const;
   /// Takes those stresses away from `out`, laid out as in stresses().
   virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
@@ -108,6 +111,8 @@ std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vec
 std::unique_ptr<ElementBlock> make_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_inelastic_plane_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_inelastic_solid_block(const BlockInput& input, std::vector<int> cells);
+/// Hexahedra on eight nodes with one point.
+std::unique_ptr<ElementBlock> make_stabilised_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_mixed_plane_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_mixed_solid_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::vector<int> cells);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/inertia_forces.hpp"
+#include "solver/elements/plate_axes.hpp"
 #include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
 
@@ -109,6 +110,27 @@ class CellIntegrator {
     });
   }
 
+  void add(const PlateForce& load, double factor) {
+    const PlateSection& section = plate_section(load.cell);
+    const Eigen::Matrix3d axes = plate_axes(mesh_, load.cell, section);
+    const Eigen::Matrix3d to_mesh = load.in_own_axes ? Eigen::Matrix3d(axes.transpose()) : Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d arm = height_of(load.level, section) * axes.row(2).transpose();
+    const auto density = [&](const CellPoint& point) -> Vector6 {
+      const Vector6 given = point.measure(2) * factor * values_at(load.force, load.functions, to_point(point.at), time_);
+      Vector6 acting;
+      acting.head<3>() = to_mesh * given.head<3>();
+      acting.tail<3>() = to_mesh * given.tail<3>() + arm.cross(acting.head<3>());
+      return acting;
+    };
+    const NodeColumns places = node_places(mesh_, load.cell);
+    const auto nodes = mesh_.cell(load.cell);
+    for (const CellSample& sample : of_skin(load.cell)) {
+      const Vector6 acting = sample.weight * density(locate(places, sample));
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (int c = 0; c < 6; ++c) forces_[input_.dofs.dof(nodes[a], static_cast<Component>(c))] += sample.values[static_cast<Eigen::Index>(a)] * acting[c];
+    }
+  }
+
   void add(const GravityLoad& load, double factor) {
     add_inertia(load.cells, gravity_field(load, input_.model), factor);
   }
@@ -118,6 +140,25 @@ class CellIntegrator {
   }
 
  private:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+  const PlateSection& plate_section(int cell) const {
+    const auto found = input_.properties.plates.find(cell);
+    if (found != input_.properties.plates.end()) return found->second;
+    throw Error("missing-properties", fmt::format("a force in the thickness or in the own axes of a plate acts on cell {}, which has no thickness", mesh_.cell_name(cell)));
+  }
+
+  /// From the surface of the mesh, along the normal.
+  static double height_of(PlateLevel level, const PlateSection& section) {
+    switch (level) {
+      case PlateLevel::mesh: break;
+      case PlateLevel::middle: return section.offset;
+      case PlateLevel::upper: return section.offset + 0.5 * section.thickness;
+      case PlateLevel::lower: return section.offset - 0.5 * section.thickness;
+    }
+    return 0.0;
+  }
+
   const std::vector<CellSample>& of_skin(int cell) { return samples_.of(mesh_.cell_types[cell], CellRole::skin); }
 
   /// `density`(point, sample): force for a unit of reference measure at a point.
@@ -184,6 +225,7 @@ void add_external_forces(const ForceInput& input, std::span<const AppliedLoad> l
       add_nodal_force(*input.model.mesh, input.dofs, force, factor, time, forces);
     for (const auto& pressure : load.pressures) integrator.add(pressure, factor);
     for (const auto& force : load.distributed_forces) integrator.add(force, factor);
+    for (const auto& force : load.plate_forces) integrator.add(force, factor);
     for (const auto& force : load.beam_forces) add_beam_force(input, force, factor, time, forces);
     for (const auto& gravity : load.gravities) integrator.add(gravity, factor);
     for (const auto& rotation : load.rotations) integrator.add(rotation, factor);

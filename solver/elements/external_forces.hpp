@@ -35,7 +35,8 @@ double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample&
 /// which points out of a body whose boundary runs counter-clockwise; a face has its normal by the right-hand rule.
 /// Pressure p and shear q act as the traction -p n + q t (U4.44.01, PRES_REP). Axisymmetric loads are per radian.
 ///
-/// Pressures and distributed forces on plates act on the surface of the mesh, on translations alone, which are linear between nodes.
+/// Pressures and distributed forces on plates act on the surface of the mesh, on translations alone, which are linear between nodes;
+/// a PlateForce acts at any level of the thickness, its height making a moment.
 ///
 /// Gravity and centrifugal forces are those of the mass of continua, bars, beams, plates (about their middle) and discrete elements; what they have
 /// across the plane of a plane model is left to the supports that such a model implies.

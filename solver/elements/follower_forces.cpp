@@ -37,7 +37,8 @@ Matrix3d normal_change(const CellPoint& now, const CellSample& sample, Eigen::In
 
 void require_pressures_alone(const Load& load) {
   const bool others = !load.relations.empty() || !load.nodal_forces.empty() || !load.distributed_forces.empty() || !load.beam_forces.empty() ||
-                      !load.gravities.empty() || !load.rotations.empty() || !load.initial_strains.empty() || !load.initial_slender_strains.empty();
+                      !load.gravities.empty() || !load.rotations.empty() || !load.initial_strains.empty() || !load.initial_slender_strains.empty() || !load.initial_plate_strains.empty() ||
+                      !load.initial_strain_fields.empty() || !load.initial_stress_fields.empty() || !load.plate_forces.empty();
   if (!others) return;
   throw Error("unsupported", "of loads that follow the body comma knows pressures alone, and this one has something else",
               "put pressures into a load of their own, and let the rest act on the initial geometry");

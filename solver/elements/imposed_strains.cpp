@@ -1,11 +1,18 @@
 #include "solver/elements/imposed_strains.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field.hpp"
 
 namespace comma::solver {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
 
@@ -29,6 +36,11 @@ void check_slender(const Model& model, const InitialSlenderStrain& load) {
     throw Error("unsupported", fmt::format("an initial curvature is given in bar {}, which does not bend",
                                            model.mesh->cell_name(load.cell)));
   }
+}
+
+void check_plate(const Model& model, int cell) {
+  if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) return;
+  throw Error("unsupported", fmt::format("an initial strain of plates is given in cell {}, which is none", model.mesh->cell_name(cell)));
 }
 
 /// The sum of the parts at a place; N components.
@@ -58,21 +70,64 @@ ImposedStrains::ImposedStrains(const Model& model, std::span<const AppliedLoad> 
       check_slender(model, strain);
       slender_[strain.cell].push_back({&strain, factor});
     }
+    for (const InitialPlateStrain& strain : applied.load->initial_plate_strains) {
+      check_plate(model, strain.cell);
+      plates_[strain.cell].push_back({&strain, factor});
+    }
+    for (const auto& field : applied.load->initial_strain_fields) fields_.push_back({field.get(), factor});
   }
 }
 
-Eigen::Matrix<double, 6, 1> ImposedStrains::continuum(int cell, const Eigen::Vector3d& at) const {
-  const auto found = continuum_.find(cell);
-  if (found == continuum_.end()) return Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 1> strain = sum<6>(found->second, at, time_);
+bool ImposedStrains::acts_on(int cell) const {
+  return continuum_.contains(cell) || slender_.contains(cell) || plates_.contains(cell) ||
+         std::ranges::any_of(fields_, [&](const PartField& part) { return part.field->points(cell) > 0; });
+}
+
+Vector6 ImposedStrains::continuum(int cell, int point, const Eigen::Vector3d& at) const {
+  Vector6 strain = Vector6::Zero();
+  if (const auto found = continuum_.find(cell); found != continuum_.end()) strain = sum<6>(found->second, at, time_);
+  constexpr std::array<std::string_view, 6> names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+  for (int c = 0; c < 6; ++c) strain[c] += at_point(cell, point, names[static_cast<std::size_t>(c)]);
   strain.tail<3>() *= 2.0;
   return strain;
 }
 
 Eigen::Vector3d ImposedStrains::slender(int cell, const Eigen::Vector3d& at) const {
-  const auto found = slender_.find(cell);
-  return found == slender_.end() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                                 : Eigen::Vector3d(sum<3>(found->second, at, time_));
+  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+  if (const auto found = slender_.find(cell); found != slender_.end()) strain = sum<3>(found->second, at, time_);
+  constexpr std::array<std::string_view, 3> names = {"EPXX", "KY", "KZ"};
+  for (int c = 0; c < 3; ++c) strain[c] += mean(cell, names[static_cast<std::size_t>(c)]);
+  return strain;
+}
+
+Vector6 ImposedStrains::plate(int cell, const Eigen::Vector3d& at) const {
+  Vector6 strain = Vector6::Zero();
+  if (const auto found = plates_.find(cell); found != plates_.end()) strain = sum<6>(found->second, at, time_);
+  constexpr std::array<std::string_view, 6> names = {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"};
+  for (int c = 0; c < 6; ++c) strain[c] += mean(cell, names[static_cast<std::size_t>(c)]);
+  strain[2] *= 2.0;
+  strain[5] *= 2.0;
+  return strain;
+}
+
+/// The sum of the fields there; what one does not carry is zero.
+double ImposedStrains::at_point(int cell, int point, std::string_view component) const {
+  double sum = 0.0;
+  for (const auto& [field, factor] : fields_) {
+    const int column = field->component(component);
+    if (column < 0 || point >= field->points(cell)) continue;
+    const double value = field->at(cell, point, column);
+    if (!std::isnan(value)) sum += factor * value;
+  }
+  return sum;
+}
+
+double ImposedStrains::mean(int cell, std::string_view component) const {
+  int points = 0;
+  for (const auto& [field, factor] : fields_) points = std::max(points, field->points(cell));
+  double sum = 0.0;
+  for (int point = 0; point < points; ++point) sum += at_point(cell, point, component) / points;
+  return sum;
 }
 
 }  // namespace comma::solver

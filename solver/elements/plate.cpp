@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/element_block.hpp"
+#include "solver/elements/plate_axes.hpp"
 #include "solver/elements/plate_kinematics.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/translation.hpp"
@@ -20,8 +21,6 @@ constexpr std::array<std::string_view, 8> force_names = {"NXX", "NYY", "NXY", "M
 
 /// A corner off the plane of the others by more than this share of the cell's size makes a cell that a flat plate cannot stand for.
 constexpr double largest_warp = 1e-3;
-/// The reference direction must have at least this sine with the normal, or rounding would turn the axes.
-constexpr double smallest_sine = 1e-6;
 
 template <int Nodes>
 struct Plate {
@@ -53,32 +52,16 @@ Eigen::Matrix<double, 3, Nodes> relative_corners(const Mesh& mesh, int cell) {
 }
 
 template <int Nodes>
-Eigen::Vector3d normal_of(const Eigen::Matrix<double, 3, Nodes>& corners) {
-  if constexpr (Nodes == 3) return corners.col(1).cross(corners.col(2));
-  else return (corners.col(2) - corners.col(0)).cross(corners.col(3) - corners.col(1));
-}
-
-template <int Nodes>
 Plate<Nodes> make_plate(const BlockInput& input, int cell) {
   const Mesh& mesh = *input.model.mesh;
   const auto corners = relative_corners<Nodes>(mesh, cell);
-  const Eigen::Vector3d across = normal_of<Nodes>(corners);
+  const PlateSection& section = section_of(input, cell);
+  Plate<Nodes> plate{plate_axes(mesh, cell, section), {}, &section, &isotropic_material(input, cell)};
   const double size = corners.colwise().norm().maxCoeff();
-  if (!(across.norm() > 0.0)) throw Error("distorted-cell", fmt::format("plate {} has no area", mesh.cell_name(cell)));
-  const Eigen::Vector3d z = across.normalized();
-  if ((z.transpose() * corners).cwiseAbs().maxCoeff() > largest_warp * size) {
+  if ((plate.axes.row(2) * corners).cwiseAbs().maxCoeff() > largest_warp * size) {
     throw Error("distorted-cell", fmt::format("the corners of plate {} do not lie in one plane", mesh.cell_name(cell)),
                 "mesh curved surfaces with triangles or smaller cells");
   }
-  const PlateSection& section = section_of(input, cell);
-  const Eigen::Vector3d in_plane = section.direction - section.direction.dot(z) * z;
-  if (!(in_plane.norm() > smallest_sine * section.direction.norm())) {
-    throw Error("zero-vector", fmt::format("the direction that gives plate {} its axes lies along its normal", mesh.cell_name(cell)),
-                "give a direction in the plane of the plate");
-  }
-  const Eigen::Vector3d x = in_plane.normalized();
-  Plate<Nodes> plate{{}, {}, &section, &isotropic_material(input, cell)};
-  plate.axes << x.transpose(), z.cross(x).transpose(), z.transpose();
   plate.corners = plate.axes.template topRows<2>() * corners;
   return plate;
 }
@@ -208,7 +191,59 @@ class PlateBlock final : public ElementBlock {
   bool is_linear() const override { return true; }
   bool is_constant() const override { return constant_; }
 
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      map_.dofs(element, dofs.data());
+      const PlateRigidity rigidity = this->rigidity(element, state);
+      const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
+      Vector push = Vector::Zero();
+      for (const QuadraturePoint& point : points_) {
+        const PlateRows<Nodes> rows = kinematics.at(point.at);
+        const Resultants resultants = imposed_resultants(imposed, element, rigidity, point.at);
+        push += point.weight * rows.measure * (rows.membrane.transpose() * resultants.normal + rows.curvature.transpose() * resultants.moment);
+      }
+      for (int i = 0; i < size; i += 3) push.template segment<3>(i) = (plates_[element].axes.transpose() * push.template segment<3>(i)).eval();
+      for (int i = 0; i < size; ++i) forces[dofs[i]] += push[i];
+    }
+  }
+
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
+    const std::size_t names = force_names.size();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      double* target = out.data() + static_cast<std::size_t>(element * Nodes) * names;
+      for (const ReferencePoint& corner : reference_nodes(type)) {
+        const Resultants resultants = imposed_resultants(imposed, element, rigidity(element, state), corner);
+        for (int c = 0; c < 3; ++c) {
+          target[c] -= resultants.normal[c];
+          target[3 + c] -= resultants.moment[c];
+        }
+        target += names;
+      }
+    }
+  }
+
  private:
+  /// Forces and moments per length about the surface of the mesh.
+  struct Resultants {
+    Eigen::Vector3d normal;
+    Eigen::Vector3d moment;
+  };
+
+  /// Those of an imposed strain at a place of the reference cell.
+  Resultants imposed_resultants(const ImposedStrains& imposed, int element, const PlateRigidity& rigidity, const ReferencePoint& place) const {
+    const auto nodes = map_.nodes(element);
+    const Eigen::VectorXd shares = shape_functions(type, place);
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (int i = 0; i < Nodes; ++i) at += shares[i] * Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[i]].data());
+    const Eigen::Matrix<double, 6, 1> strain = imposed.plate(cells_[element], at);
+    const double offset = plates_[element].section->offset;
+    const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (strain.head<3>() + offset * strain.tail<3>());
+    return {normal, plane_law(rigidity.bending, rigidity.poisson) * strain.tail<3>() + offset * normal};
+  }
+
   static bool is_constant_material(const Plate<Nodes>& plate) {
     return plate.material->young.is_constant() && plate.material->poisson.is_constant();
   }

@@ -26,6 +26,14 @@ struct LinearRelation {
   double value = 0.0;
   FieldFunction function;  ///< when set, replaces `value`: evaluated at the first term's node
   Origin origin;
+  int rigid_link = -1;  ///< the one of Load::rigid_links that it is part of, in small rotations
+};
+
+/// Nodes that move together as a rigid body (U4.44.01, LIAISON_SOLIDE).
+struct RigidLink {
+  std::vector<int> nodes;
+  double coincidence = 0.0;  ///< m: below it nodes count as one
+  Origin origin;
 };
 
 /// A force (or moment) on one component of a node.
@@ -96,8 +104,31 @@ struct InitialSlenderStrain {
   std::array<FieldFunction, 3> functions;
 };
 
+/// The same for a plate in its own axes, about the surface of the mesh: e_xx, e_yy, e_xy (half the shear angle), then the curvatures k_xx, k_yy, k_xy
+/// (half the twist) that bending moments MXX ... of the same sign go with.
+struct InitialPlateStrain {
+  int cell;
+  std::array<double, 6> strain{};
+  std::array<FieldFunction, 6> functions;
+};
+
+/// Where in the thickness of a plate a force acts.
+enum class PlateLevel : std::uint8_t { mesh, middle, upper, lower };
+
+/// Forces and moments per area of a plate: FX FY FZ MX MY MZ, or in its own axes F1 F2 F3 MF1 MF2, whose sixth is not used.
+struct PlateForce {
+  int cell;
+  bool in_own_axes = false;
+  PlateLevel level = PlateLevel::mesh;
+  std::array<double, 6> force{};
+  std::array<FieldFunction, 6> functions;  ///< one that is set replaces that component of `force`
+};
+
+struct ElementField;
+
 struct Load {
   std::vector<LinearRelation> relations;
+  std::vector<RigidLink> rigid_links;  ///< whose relations are among `relations`
   /// How many unknowns a relation adds where relations are not eliminated (U4.44.01, DOUBLE_LAGRANGE): see relation_multipliers.hpp.
   int multipliers_per_relation = 2;
   std::vector<NodalForce> nodal_forces;
@@ -108,6 +139,10 @@ struct Load {
   std::vector<RotationLoad> rotations;
   std::vector<InitialStrain> initial_strains;
   std::vector<InitialSlenderStrain> initial_slender_strains;
+  std::vector<InitialPlateStrain> initial_plate_strains;
+  std::vector<std::shared_ptr<const ElementField>> initial_strain_fields;  ///< at integration points: EPXX ... of continua, EPXX KY KZ of beams, EXX ... KXY of plates
+  std::vector<std::shared_ptr<const ElementField>> initial_stress_fields;  ///< at integration points: SIXX ...; they push and leave no other trace
+  std::vector<PlateForce> plate_forces;
 };
 
 /// A load as a computation applies it.

@@ -96,3 +96,18 @@ TEST_CASE("normals at the nodes of a quadratic circle point outwards; at a corne
   corner.add_cell(CellType::seg2, std::vector{0, 1});
   CHECK_THROWS_WITH(mean_normals(corner, std::vector{3}), Catch::Contains("M4"));
 }
+
+TEST_CASE("edges have their tangent from node to node, and the mean where two meet") {
+  Mesh mesh;
+  mesh.dimension = 3;
+  mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 0, 3}};
+  const int first = mesh.add_cell(CellType::seg2, std::vector<int>{0, 1});
+  const int second = mesh.add_cell(CellType::seg2, std::vector<int>{1, 2});
+  const std::vector<int> edges = {first, second};
+  const auto tangents = mean_tangents(mesh, edges);
+  CHECK((tangents.at(0) - Eigen::Vector3d::UnitX()).norm() < 1e-15);
+  CHECK((tangents.at(1) - Eigen::Vector3d(1, 0, 1).normalized()).norm() < 1e-15);
+  const int back = mesh.add_cell(CellType::seg2, std::vector<int>{1, 0});
+  const std::vector<int> folded = {first, back};
+  CHECK_THROWS_AS(mean_tangents(mesh, folded), Error);
+}

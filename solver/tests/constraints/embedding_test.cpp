@@ -86,3 +86,28 @@ TEST_CASE("a node beside the cells is tied to the nearest point of the nearest o
   for (const auto& term : relations[0].terms) sum += term.coefficient;
   CHECK(sum == Approx(0.0).margin(1e-15));
 }
+
+TEST_CASE("a node beside a shell moves and turns with it as a rigid body does") {
+  Model model;
+  model.mesh = std::make_shared<Mesh>();
+  Mesh& mesh = *std::const_pointer_cast<Mesh>(model.mesh);
+  mesh.dimension = 3;
+  mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0.5, 1.2, 0.3}};
+  mesh.add_cell(CellType::quad4, std::vector<int>{0, 1, 2, 3});
+  mesh.add_cell(CellType::poi1, std::vector<int>{4});
+  model.formulations = {Formulation::thin_plate, Formulation::spring_rotation_3d};
+  const DofMap dofs(model);
+  const std::vector<int> node = {4}, host = {0};
+  const auto relations = shell_embedding_relations(mesh, dofs, embed(mesh, node, host), origin);
+  CHECK(relations.size() == 6);
+  const Eigen::Vector3d shift(0.1, -0.2, 0.3), turn(0.4, 0.5, -0.6);
+  for (const LinearRelation& relation : relations) {
+    double sum = 0.0;
+    for (const auto& term : relation.terms) {
+      const int c = static_cast<int>(term.component);
+      const Eigen::Vector3d x(mesh.nodes[static_cast<std::size_t>(term.node)].data());
+      sum += term.coefficient * (c < 3 ? (shift + turn.cross(x))[c] : turn[c - 3]);
+    }
+    CHECK(std::abs(sum) < 1e-14);
+  }
+}
