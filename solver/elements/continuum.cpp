@@ -8,11 +8,11 @@ namespace comma::solver {
 
 namespace {
 
-/// One point of reduced integration leaves hourglass modes to these cells, which need a stabilisation (R3.06.10, R3.06.11).
+/// One point of reduced integration leaves hourglass modes to quadrangles, whose stabilisation is not known here (R3.06.10).
 bool needs_stabilisation(CellType type, Formulation formulation) {
-  const bool reduced = formulation == Formulation::solid_reduced || formulation == Formulation::plane_strain_reduced ||
+  const bool reduced = formulation == Formulation::plane_strain_reduced ||
                        formulation == Formulation::plane_stress_reduced || formulation == Formulation::axisymmetric_reduced;
-  return reduced && (type == CellType::quad4 || type == CellType::hexa8);
+  return reduced && type == CellType::quad4;
 }
 
 bool is_plane_stress(Formulation formulation) {
@@ -35,6 +35,7 @@ std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std:
   const Formulation formulation = input.model.formulations[cell];
   if (needs_stabilisation(input.model.mesh->cell_types[cell], formulation)) throw_unsupported_element(input.model, cell);
   const bool solid = continuum_dimension(formulation) == 3;
+  if (formulation == Formulation::solid_reduced && input.model.mesh->cell_types[cell] == CellType::hexa8) return make_stabilised_block(input, std::move(cells));
   if (mixed_field_count(formulation) > 0) return solid ? make_mixed_solid_block(input, std::move(cells)) : make_mixed_plane_block(input, std::move(cells));
   if (keeps_memory(input, cells)) return solid ? make_inelastic_solid_block(input, std::move(cells)) : make_inelastic_plane_block(input, std::move(cells));
   return solid ? make_solid_block(input, std::move(cells)) : make_plane_block(input, std::move(cells));

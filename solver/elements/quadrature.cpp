@@ -367,6 +367,7 @@ std::string_view stiffness_family(CellType type, Formulation formulation) {
   if (!is_reduced(formulation)) return full_family(type);
   // Reduced integration exists on these cells alone (U3.14.01, U3.13.05); others keep their full family.
   if (type == CellType::tetra10 || type == CellType::quad8) return "FPG4";
+  if (type == CellType::hexa8) return "FPG1";
   return type == CellType::hexa20 ? "FPG8" : full_family(type);
 }
 
