@@ -36,9 +36,9 @@ void check_rising(const std::vector<double>& values, const Keywords& list) {
   }
 }
 
-// DECOUPE, or ITER_SUPPL, which cuts where more iterations do not help.
+// DECOUPE; ITER_SUPPL and AUTRE_PILOTAGE cut where more iterations, or the other solution, do not help.
 std::optional<solver::StepCutting> cutting(const Keywords& failure) {
-  if (failure.text("ACTION") != "DECOUPE" && failure.text("ACTION") != "ITER_SUPPL") return std::nullopt;
+  if (failure.text("ACTION") == "ARRET") return std::nullopt;
   solver::StepCutting rule;
   rule.automatic = failure.text("SUBD_METHODE") == "AUTO";
   rule.shortest = failure.real("SUBD_PAS_MINI");
@@ -148,6 +148,7 @@ void read_failures(const Call& call, solver::StepPlan& plan) {
       continue;
     }
     plan.cutting = cutting(given);
+    plan.tries_other_solution = given.text("ACTION") == "AUTRE_PILOTAGE";
     plan.further_iterations = given.text("ACTION") == "ITER_SUPPL" ? static_cast<double>(given.integer("PCENT_ITER_PLUS")) / 100.0 : 0.0;
   }
 }

@@ -17,6 +17,7 @@ namespace {
 
 solver::PathMeasure measure_of(const std::string& word) {
   if (word == "LONG_ARC") return solver::PathMeasure::arc_length;
+  if (word == "DEFORMATION") return solver::PathMeasure::strain;
   return word == "PRED_ELAS" ? solver::PathMeasure::elastic_prediction : solver::PathMeasure::displacement;
 }
 
@@ -60,7 +61,7 @@ solver::PathControl path_control(const Call& call, const solver::Mesh& mesh) {
   control.scale = keywords.real("COEF_MULT");
   if (control.scale == 0.0) throw DiagnosticError("out-of-bounds", "PILOTAGE: COEF_MULT divides the length of the step", keywords.span_of("COEF_MULT"), "give a value that is not 0");
   take_bounds(keywords, control);
-  if (control.measure == solver::PathMeasure::elastic_prediction) control.cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA", ""});
+  if (control.measure == solver::PathMeasure::elastic_prediction || control.measure == solver::PathMeasure::strain) control.cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA", ""});
   else take_displacements(keywords, mesh, control);
   return control;
 }

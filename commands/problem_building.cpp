@@ -29,18 +29,20 @@ void require_initial_places(const Keywords& excitation, const solver::Load& load
                         excitation.span_of("CHARGE"), "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
 }
 
-// TYPE_CHARGE='SUIV': pressures follow; dead forces and displacements of single nodes are the same on any geometry.
+// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces and displacements of single nodes are the same on any geometry.
 void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
   const solver::Load& load = *applied.load;
-  const auto is_shared = [](const solver::LinearRelation& relation) { return relation.terms.size() > 1; };
+  const auto is_shared = [](const solver::LinearRelation& relation) { return relation.terms.size() > 1 && relation.rigid_link < 0; };
   if (std::ranges::any_of(load.relations, is_shared)) {
-    throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + " has relations between displacements, which comma does not let follow large rotations yet",
+    throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + " has relations between displacements other than LIAISON_SOLIDE, which comma does not let follow large rotations yet",
                           excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where rotations are small");
   }
   auto following = std::make_shared<solver::Load>();
   following->pressures = load.pressures;
   auto dead = std::make_shared<solver::Load>(load);
   dead->pressures.clear();
+  std::erase_if(dead->relations, [](const solver::LinearRelation& relation) { return relation.rigid_link >= 0; });
+  problem.turning_links.insert(problem.turning_links.end(), load.rigid_links.begin(), load.rigid_links.end());
   if (!following->pressures.empty()) problem.followers.push_back({std::move(following), applied.multiplier});
   problem.loads.push_back({std::move(dead), applied.multiplier});
 }
@@ -74,6 +76,7 @@ void take_iterations(const Keywords& solver, SolverChoice& choice) {
 void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
   problem.loads.clear();
   problem.followers.clear();
+  problem.turning_links.clear();
   problem.driven.clear();
   for (const Keywords& excitation : keywords.factors("EXCIT")) {
     solver::AppliedLoad applied;

@@ -1,8 +1,12 @@
 #include "commands/solve_alarms.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -98,6 +102,17 @@ void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinit
     const Advice advice = advice_on(doubt, contact, mesh);
     context.diagnostics.alarm(advice.code, call.command + ": " + advice.message, call.span, advice.hint);
   }
+}
+
+void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context) {
+  if (instants.empty()) return;
+  constexpr std::size_t most_shown = 6;
+  std::vector<double> shown(instants.begin(), std::next(instants.begin(), static_cast<std::ptrdiff_t>(std::min(instants.size(), most_shown))));
+  const std::string more = instants.size() > most_shown ? fmt::format(" and {} more", instants.size() - most_shown) : "";
+  context.diagnostics.alarm("not-converged",
+                            fmt::format("{}: the step{} to INST={}{} did not converge within the iterations allowed and stand{} as the iterations left {}, out of balance", call.command,
+                                        instants.size() > 1 ? "s" : "", fmt::join(shown, ", "), more, instants.size() > 1 ? "" : "s", instants.size() > 1 ? "them" : "it"),
+                            call.span, "allow more iterations (ITER_GLOB_MAXI), or take shorter steps; ARRET='OUI' stops at the first");
 }
 
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context) {

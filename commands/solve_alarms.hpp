@@ -1,6 +1,8 @@
 // What the commands that solve tell about a solution that may be far from that of the body although the equations were solved.
 #pragma once
 
+#include <set>
+
 #include "commands/concepts.hpp"
 #include "commands/context.hpp"
 #include "interpreter/call.hpp"
@@ -16,6 +18,9 @@ void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::C
 
 /// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave` on what may be wrong with the contact of a solution.
 void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& contact, const solver::ContactDoubts& doubts, Context& context);
+
+/// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
+void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);
 
 /// Alarm `coarse-turns`, where beams in large rotations have turned so far in their steps that they are longer for it.
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context);

@@ -27,6 +27,8 @@ void take_interval(const Keywords& given, solver::StabilityAnalysis& analysis) {
 void take_instants(const Keywords& given, solver::StabilityAnalysis& analysis) {
   if (given.has("INST")) analysis.instants = given.reals("INST");
   if (given.has("LIST_INST")) analysis.instants = given.data<ListConcept>("LIST_INST").values;
+  analysis.instant_tolerance = given.real("PRECISION");
+  analysis.absolute_tolerance = given.text("CRITERE") == "ABSOLU";
   if (given.has("PAS_CALC")) analysis.period = static_cast<int>(given.integer("PAS_CALC"));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "commands/archiving.hpp"
 #include "commands/behaviour_reading.hpp"
@@ -161,7 +162,8 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
     if (relative) options.relative_residual = convergence.real("RESI_GLOB_RELA");
     if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
     read_reference(convergence, options);
-    if ((absolute || options.referred_residual) && !relative) options.relative_residual.reset();
+    if (convergence.given("RESI_COMP_RELA")) options.component_residual = convergence.real("RESI_COMP_RELA");
+    if ((absolute || options.referred_residual || options.component_residual) && !relative) options.relative_residual.reset();
     options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
     if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
     if (convergence.has("ITER_GLOB_ELAS")) options.max_elastic_iterations = static_cast<int>(convergence.integer("ITER_GLOB_ELAS"));
@@ -233,11 +235,14 @@ Product stat_non_line(const Call& call, Context& context) {
     archive.update(result);
   };
   options.stability = stability_analysis(call, *product);
+  std::set<double> unconverged;
+  if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON") options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
     return solver::solve_static(product->problem, steps, options, product->result, context.counters, live_table(context), after_step);
   };
   const auto doubts = solve();
+  warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
   if (product->problem.contact) warn_of_contact(call, *product->problem.contact, doubts, context);

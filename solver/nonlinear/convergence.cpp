@@ -12,7 +12,7 @@ double excess_over(double limit, double value) { return value / std::max(limit, 
 
 }  // namespace
 
-ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred) const {
+ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred, std::optional<double> by_component) const {
   Measure result;
   result.absolute = residual;
   const bool has_history = smallest_load_ > 0.0;
@@ -25,6 +25,10 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   std::vector<double> excesses;
   if (options_.absolute_residual) excesses.push_back(excess_over(*options_.absolute_residual, residual));
   if (options_.referred_residual) excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.referred_residual, referred));
+  if (options_.component_residual) {
+    const double share = by_component.value_or(vanished ? 0.0 : result.relative);
+    excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.component_residual, share));
+  }
   if (options_.relative_residual || excesses.empty()) excesses.push_back(to_loads);
   result.excess = options_.one_criterion ? std::ranges::min(excesses) : std::ranges::max(excesses);
   result.converged = result.excess <= 1.0;

@@ -1,6 +1,7 @@
 // When Newton's iterations may stop.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/nonlinear/static_analysis.hpp"
@@ -9,7 +10,8 @@ namespace comma::solver {
 
 /// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
 /// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks
-/// |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
+/// |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force;
+/// RESI_COMP_RELA asks it of the largest residual and the largest internal force of each kind of component. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
 /// the least loaded converged step would have been allowed. A residual that is all rounding also passes the relative test:
 /// a body that moves freely has no load but rounding to compare with.
 class ConvergenceCriterion {
@@ -24,8 +26,9 @@ class ConvergenceCriterion {
   };
 
   /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes of it.
-  /// `referred`: the largest share that a component of the residual has of its reference force, read where RESI_REFE_RELA is given.
-  Measure measure(double residual, double load, bool is_rounding, double referred = 0.0) const;
+  /// `referred`: the largest share that a component of the residual has of its reference force, read where RESI_REFE_RELA is given;
+  /// `by_component`: that of RESI_COMP_RELA, nothing where no internal force is known yet: then the residual is measured against the loads.
+  Measure measure(double residual, double load, bool is_rounding, double referred = 0.0, std::optional<double> by_component = std::nullopt) const;
 
   /// Remembers the load of a converged step.
   void accept(double load);

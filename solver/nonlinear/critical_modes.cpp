@@ -60,9 +60,6 @@ bool is_instability(const StabilityAnalysis& analysis, double value) {
   return has_sign(value, analysis.sign) && std::abs(value) <= 1.0 + analysis.precision;
 }
 
-/// Instants are the same up to this share.
-constexpr double instant_tolerance = 1e-6;
-
 }  // namespace
 
 void require_modes(const StabilityAnalysis& analysis, const StaticProblem& problem) {
@@ -79,7 +76,10 @@ void require_modes(const StabilityAnalysis& analysis, const StaticProblem& probl
 
 bool is_stability_due(const StabilityAnalysis& analysis, double instant, int number) {
   if (analysis.instants.empty()) return number % std::max(1, analysis.period) == 0;
-  return std::ranges::any_of(analysis.instants, [&](double each) { return std::abs(each - instant) <= instant_tolerance * std::max(std::abs(each), std::abs(instant)); });
+  return std::ranges::any_of(analysis.instants, [&](double each) {
+    const double scale = analysis.absolute_tolerance ? 1.0 : std::max(std::abs(each), std::abs(instant));
+    return std::abs(each - instant) <= analysis.instant_tolerance * scale;
+  });
 }
 
 StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u, const Assembler& assembler,

@@ -45,6 +45,12 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
   return fmt::format("{} at {}", name_of(dofs.component_of(dof)), mesh.node_name(dofs.node_of(dof)));
 }
 
+bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history) {
+  if (!options.note_unconverged || history.empty() || !std::isfinite(history.back().absolute_residual)) return false;
+  options.note_unconverged(history.back().instant);
+  return true;
+}
+
 void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
                           bool is_linear) {
   const IterationReport& last = history.back();

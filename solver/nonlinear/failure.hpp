@@ -13,6 +13,9 @@ namespace comma::solver {
 /// "DY at N12": where a reduced residual is largest.
 std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh);
 
+/// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
+bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);
+
 /// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
 [[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
                                        bool is_linear);

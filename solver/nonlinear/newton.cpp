@@ -25,6 +25,8 @@ constexpr double negligible_step = 4e-16;
 constexpr double rounding_share = 1e-14;
 /// A residual beyond this share of the applied loads has not taken them up.
 constexpr double lost_load = 0.5;
+/// A rigid body is one up to this share of its size.
+constexpr double largest_violation = 1e-9;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
 /// all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
@@ -69,7 +71,7 @@ void NewtonSolver::start_step(double duration) {
   most_iterations_ = std::max(most_iterations_, options_.max_elastic_iterations);
 }
 
-int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
+int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset,
                         const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(conditions, offset, state);
@@ -81,23 +83,25 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, const Eige
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
     Correction correction = correct(state, offset);
+    if (relations_.update) offset = relations_.update(time, state);
     const bool is_joint = mixed_ && mixed_->is_joint();
     if (is_joint) correction.changes = mixed_->linearise(state.u, time);
     if (searches(iteration))
       search(before, external, offset, state);
     else
       evaluate(state, external);
-    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_));
+    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged && (!is_joint || correction.changes == 0)) {
-      if (!is_joint) polish(state, external, offset);
+    if (measure.converged && (!is_joint || correction.changes == 0) && is_satisfied(state.u)) {
+      if (!is_joint && !relations_.update) polish(state, external, offset);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;
     look_at_residuals(watch_, history);
     if (iteration == most && earlier + most == most_iterations_) most += further_iterations(time, history, measure.excess);
   }
+  if (stands_unconverged(options_, history)) return history.back().iteration;
   fail(time, history);
 }
 
@@ -188,8 +192,11 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   return correction;
 }
 
+/// Whether relations that are taken anew in each iteration hold.
+bool NewtonSolver::is_satisfied(const Eigen::VectorXd& u) const { return !relations_.violation || relations_.violation(u) <= largest_violation; }
+
 bool NewtonSolver::searches(int iteration) const {
-  return options_.line_search && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
+  return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
 }
 
 /// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there.

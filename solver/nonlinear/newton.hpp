@@ -48,7 +48,7 @@ class NewtonSolver {
   /// always. `active_set_limit`: changes of the active set allowed in one iteration.
   /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
   /// `singular-matrix`, and what look_at_residuals throws.
-  int solve(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, const ConditionSet& conditions,
+  int solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset, const ConditionSet& conditions,
             int earlier, int active_set_limit, NewtonState& state);
 
   /// How inequalities are solved from now on; the definition must outlive the solver.
@@ -69,6 +69,13 @@ class NewtonSolver {
   int accepted_steps() const { return steps_; }
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }
+  /// What takes relations between displacements anew at the unknowns, which it brings to satisfy them and renumbers, and returns the offset g; and how
+  /// far they are from what the relations stand for, as a share. Empty: they stay.
+  struct Relinearisation {
+    std::function<Eigen::VectorXd(double time, NewtonState& state)> update;
+    std::function<double(const Eigen::VectorXd& u)> violation;
+  };
+  void relinearise(Relinearisation relations) { relations_ = std::move(relations); }
   /// The forces act beside the external ones from now on; they must outlive the solver.
   void follow(const FollowerForces& forces) { followers_ = &forces; }
 
@@ -90,6 +97,7 @@ class NewtonSolver {
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   int further_iterations(double time, const std::vector<IterationReport>& history, double excess) const;
+  bool is_satisfied(const Eigen::VectorXd& u) const;
   bool searches(int iteration) const;
   void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
@@ -121,6 +129,7 @@ class NewtonSolver {
   ConvergenceCriterion criterion_;
   const ReferenceForces& reference_;
 
+  Relinearisation relations_;
   const ContactDefinition* definition_ = nullptr;
   MixedContact* mixed_ = nullptr;
   const FollowerForces* followers_ = nullptr;

@@ -39,7 +39,7 @@ PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, c
       observer_(observer),
       criterion_(options),
       reference_(reference) {
-  if (control_.measure != PathMeasure::elastic_prediction) number_controlled();
+  if (control_.measure != PathMeasure::elastic_prediction && control_.measure != PathMeasure::strain) number_controlled();
 }
 
 void PathFollowing::number_controlled() {
@@ -65,6 +65,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   intensity_ = accepted_;
   ended_ = false;
   if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
+  if (control_.measure == PathMeasure::strain) strains_ = std::make_unique<StrainControl>(problem_, dofs_, assembler_, control_.cells, start_);
   const double wanted = duration / control_.scale;
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
@@ -76,7 +77,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
     for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = u[elimination_.kept()[static_cast<std::size_t>(i)]];
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
-    const auto measure = criterion_.measure(largest(residual_), load_, false, reference_.share(residual_));
+    const auto measure = criterion_.measure(largest(residual_), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(time, iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -85,6 +86,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
     }
     if (!std::isfinite(measure.absolute)) break;
   }
+  if (stands_unconverged(options_, history)) return history.back().iteration;
   throw_no_convergence(time, history, options_, tangent_.is_constant());
 }
 
@@ -149,6 +151,7 @@ std::vector<double> PathFollowing::candidates(double wanted, const Correction& c
   switch (control_.measure) {
     case PathMeasure::displacement: return by_displacement(wanted, constant, change.linear);
     case PathMeasure::arc_length: return by_arc_length(wanted, constant, change.linear);
+    case PathMeasure::strain: return strains_->intensities(wanted, constant, change.linear);
     case PathMeasure::elastic_prediction: return prediction_->intensities(wanted, constant, change.linear);
   }
   return {};
@@ -218,6 +221,7 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
       least = own;
     }
   }
+  if (takes_other_ && admitted.size() == 2) return admitted[admitted[0] == best ? 1 : 0];
   return best;
 }
 

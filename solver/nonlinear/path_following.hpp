@@ -14,6 +14,7 @@
 #include "solver/nonlinear/elastic_prediction.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
+#include "solver/nonlinear/strain_control.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 
 namespace comma::solver {
@@ -45,6 +46,8 @@ class PathFollowing {
   void set_intensity(double value) { intensity_ = accepted_ = value; }
   /// The path came here by such an increment of displacement, and goes on in its direction where the choice is by the angle.
   void set_direction(const Eigen::VectorXd& increment) { last_step_ = motions(increment); }
+  /// Of two solutions the next steps take the one that the choice passes over, or again the one that it makes.
+  void take_other_solution(bool other) { takes_other_ = other; }
   /// Whether the last step has reached a bound of the intensity.
   bool has_ended() const { return ended_; }
 
@@ -81,6 +84,7 @@ class PathFollowing {
   ConvergenceCriterion criterion_;
   const ReferenceForces& reference_;
   std::unique_ptr<ElasticPrediction> prediction_;
+  std::unique_ptr<StrainControl> strains_;
   std::vector<int> controlled_;  ///< degrees of freedom
   int controlled_nodes_ = 0;
   double time_ = 0.0;
@@ -92,6 +96,7 @@ class PathFollowing {
   double load_ = 0.0;
   int steps_ = 0;
   bool ended_ = false;
+  bool takes_other_ = false;
 };
 
 }  // namespace comma::solver

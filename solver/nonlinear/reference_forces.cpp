@@ -1,5 +1,6 @@
 #include "solver/nonlinear/reference_forces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -20,6 +21,8 @@ using Eigen::VectorXd;
 constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
 
+/// Internal forces below this share of the largest are rounding.
+constexpr double vanishing_force = 1e-12;
 /// More than any force.
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -118,11 +121,17 @@ VectorXd reference_forces(const Model& model, const DofMap& dofs, const Referenc
   return Summation(model, dofs, efforts).of_all();
 }
 
-ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options) {
-  if (!options.referred_residual) return;
-  const VectorXd all = reference_forces(model, dofs, options.reference);
+ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options) : dofs_(dofs) {
+  if (options.referred_residual) all_ = reference_forces(model, dofs, options.reference);
+  renumber(elimination);
+}
+
+void ReferenceForces::renumber(const Elimination& elimination) {
+  kinds_.clear();
+  for (const int dof : elimination.kept()) kinds_.push_back(static_cast<int>(dofs_.component_of(dof)));
+  if (all_.size() == 0) return;
   reduced_.resize(elimination.reduced_size());
-  for (Eigen::Index i = 0; i < reduced_.size(); ++i) reduced_[i] = all[elimination.kept()[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < reduced_.size(); ++i) reduced_[i] = all_[elimination.kept()[static_cast<std::size_t>(i)]];
 }
 
 double ReferenceForces::share(const VectorXd& residual) const {
@@ -130,6 +139,25 @@ double ReferenceForces::share(const VectorXd& residual) const {
   for (Eigen::Index i = 0; i < reduced_.size(); ++i)
     if (reduced_[i] > 0.0) largest = std::max(largest, std::abs(residual[i]) / reduced_[i]);
   return largest;
+}
+
+void ReferenceForces::begin_step(const VectorXd& internal_forces) {
+  largest_.fill(0.0);
+  for (int dof = 0; dof < dofs_.size(); ++dof) {
+    double& largest = largest_[static_cast<std::size_t>(dofs_.component_of(dof))];
+    largest = std::max(largest, std::abs(internal_forces[dof]));
+  }
+}
+
+std::optional<double> ReferenceForces::share_by_component(const VectorXd& residual) const {
+  const double of_all = std::ranges::max(largest_);
+  if (!(of_all > 0.0)) return std::nullopt;
+  double share = 0.0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    const double own = largest_[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(i)])];
+    share = std::max(share, std::abs(residual[i]) / (own > vanishing_force * of_all ? own : of_all));
+  }
+  return share;
 }
 
 }  // namespace comma::solver

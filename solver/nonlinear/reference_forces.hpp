@@ -1,5 +1,9 @@
-// Forces of the size that a user expects, against which residuals are measured (R5.03.01, RESI_REFE_RELA).
+// Forces against which residuals are measured component by component (R5.03.01, RESI_REFE_RELA and RESI_COMP_RELA).
 #pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -20,8 +24,22 @@ class ReferenceForces {
   /// The largest share that a component of a reduced residual has of its reference; 0 where none is asked for.
   double share(const Eigen::VectorXd& residual) const;
 
+  /// Reduced unknowns are those of this elimination from now on.
+  void renumber(const Elimination& elimination);
+
+  /// A step begins with these internal forces, one a degree of freedom.
+  void begin_step(const Eigen::VectorXd& internal_forces);
+
+  /// The largest of the shares that the largest residual of each kind of component has of the largest internal force of that kind where the step
+  /// began; a kind without such a force takes the largest of all. Nothing where there is none at all.
+  std::optional<double> share_by_component(const Eigen::VectorXd& residual) const;
+
  private:
+  const DofMap& dofs_;
+  Eigen::VectorXd all_;  ///< empty unless RESI_REFE_RELA is asked for
   Eigen::VectorXd reduced_;
+  std::vector<int> kinds_;  ///< the component of each reduced unknown
+  std::array<double, component_count> largest_{};  ///< internal force by component
 };
 
 /// Over all degrees of freedom; zero where no element is. Throws as above.

@@ -46,6 +46,8 @@ struct StabilityAnalysis {
   InstabilitySign sign = InstabilitySign::either;
   std::vector<double> instants;        ///< when; empty: every `period` steps
   int period = 1;
+  double instant_tolerance = 1e-6;     ///< instants this near are the same: a share of them, or s
+  bool absolute_tolerance = false;
   std::function<void(const StabilityReport&)> report;
 };
 

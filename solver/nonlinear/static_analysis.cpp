@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/constraints/turning_links.hpp"
 #include "solver/contact/contact_field.hpp"
 #include "solver/contact/straight_faces.hpp"
 #include "solver/contact/watched_zones.hpp"
@@ -39,7 +40,8 @@ class StaticAnalysis {
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()),
         followers_(*problem.model, dofs_, problem.followers),
-        elimination_(mesh_, dofs_, with_contact_relations()),
+        links_(mesh_, dofs_, problem.turning_links),
+        elimination_(mesh_, dofs_, all_conditions(Eigen::VectorXd::Zero(dofs_.size()))),
         tangent_(*problem.model, dofs_, assembler_, elimination_, options, counters),
         reference_(*problem.model, dofs_, elimination_, options),
         contact_nodes_(nodes_of_contact()),
@@ -52,6 +54,7 @@ class StaticAnalysis {
     }
     require_symmetry();
     if (options.stability) require_modes(*options.stability, problem);
+    if (!links_.empty()) let_links_turn();
     if (options.path) follow_path();
     if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
       throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
@@ -66,6 +69,7 @@ class StaticAnalysis {
     if (plan.instants.empty()) return;
     plan_ = &plan;
     start(plan.instants.front());
+    begin_measuring();
     watch(plan);
     if (mixed_) mixed_->iterate_jointly(iterates_jointly(plan));
     StepSequence sequence(plan);
@@ -81,6 +85,7 @@ class StaticAnalysis {
       note_doubts_about_surfaces(instant);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);
+      begin_measuring();
       const bool unstable = find_modes(instant, ++accepted_);
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
@@ -179,6 +184,7 @@ class StaticAnalysis {
     try {
       return solve_and_check(instant);
     } catch (const Error& error) {
+      if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
       const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
       if (!may_unload || !is_failure_of_step(error.code())) throw;
     }
@@ -187,6 +193,21 @@ class StaticAnalysis {
     newton_.predict_with(TangentKind::elastic);
     const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
     return solve_and_check(instant);
+  }
+
+  /// With the solution of the path that was passed over, where the plan says so; nothing where that fails too.
+  std::optional<int> solve_the_other_way(double instant, const Progress& before, const Error& failure) {
+    if (!path_ || !plan_->tries_other_solution || !is_failure_of_step(failure.code())) return std::nullopt;
+    take_back(before);
+    if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and is tried with the other intensity", instant)));
+    path_->take_other_solution(true);
+    const OnExit as_before([&] { path_->take_other_solution(false); });
+    try {
+      return solve_and_check(instant);
+    } catch (const Error& error) {
+      if (!is_failure_of_step(error.code())) throw;
+      return std::nullopt;
+    }
   }
 
   int solve_and_check(double instant) {
@@ -285,6 +306,36 @@ class StaticAnalysis {
     return loads;
   }
 
+  /// With the relations of rigid bodies at the displacements u.
+  std::vector<AppliedLoad> all_conditions(const Eigen::VectorXd& u) const {
+    std::vector<AppliedLoad> loads = with_contact_relations();
+    if (links_.empty()) return loads;
+    auto rigid = std::make_shared<Load>();
+    rigid->relations = links_.at(u);
+    loads.push_back({std::move(rigid), {}});
+    return loads;
+  }
+
+  void let_links_turn() {
+    if (problem_.contact || !problem_.unilateral.empty() || options_.path || options_.stability)
+      throw Error("unsupported", "rigid bodies in large rotations go with neither contact, unilateral conditions, path following nor modes of buckling",
+                  "leave out TYPE_CHARGE='SUIV' of LIAISON_SOLIDE where rotations are small");
+    newton_.relinearise({[this](double time, NewtonState& state) { return turn_links(time, state); }, [this](const Eigen::VectorXd& u) { return links_.violation(u); }});
+  }
+
+  /// The relations of rigid bodies at the state, which then satisfies them as they are linear there; returns the offset.
+  Eigen::VectorXd turn_links(double time, NewtonState& state) {
+    elimination_ = Elimination(mesh_, dofs_, all_conditions(state.u));
+    elimination_.measure_from(differential_from_);
+    reference_.renumber(elimination_);
+    tangent_.forget();
+    state.reduced.resize(elimination_.reduced_size());
+    for (Eigen::Index i = 0; i < state.reduced.size(); ++i) state.reduced[i] = state.u[elimination_.kept()[i]];
+    Eigen::VectorXd offset = elimination_.offset(time);
+    state.u = elimination_.transformation() * state.reduced + offset;
+    return offset;
+  }
+
   std::vector<int> nodes_of_contact() const {
     std::set<int> nodes;
     if (problem_.contact)
@@ -319,7 +370,8 @@ class StaticAnalysis {
     } else if (!result_.steps.empty()) {
       take_last_step();
     }
-    elimination_.measure_from(differential_reference());
+    differential_from_ = differential_reference();
+    elimination_.measure_from(differential_from_);
     now_.state.reduced.resize(elimination_.reduced_size());
     for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
     assembler_.set_time(instant);
@@ -337,6 +389,11 @@ class StaticAnalysis {
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
+  }
+
+  /// The next step is measured against the internal forces of the moment.
+  void begin_measuring() {
+    if (options_.component_residual) reference_.begin_step(assembler_.internal_forces(now_.state.u));
   }
 
   /// What the conditions of differential loads count from.
@@ -494,6 +551,7 @@ class StaticAnalysis {
       return path_->solve(time, time - last_instant_, driven_loads(time), now_.state.reduced, now_.state.u);
     }
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
+    if (!links_.empty()) turn_links(last_instant_, now_.state);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
     if (mixed_) mixed_->start_step(now_.state.u, time - last_instant_);
@@ -647,7 +705,9 @@ class StaticAnalysis {
   DofMap dofs_;
   Assembler assembler_;
   FollowerForces followers_;
+  TurningLinks links_;
   Elimination elimination_;
+  Eigen::VectorXd differential_from_;  ///< what differential conditions count from
   TangentSystem tangent_;
   ReferenceForces reference_;
   std::vector<int> contact_nodes_;

@@ -49,6 +49,7 @@ struct StaticProblem {
   std::shared_ptr<const ElementProperties> properties;  ///< never null, may be empty
   std::vector<AppliedLoad> loads;      ///< on the initial geometry
   std::vector<AppliedLoad> followers;  ///< on the deformed one: see follower_forces.hpp
+  std::vector<RigidLink> turning_links;  ///< rigid bodies of nodes in large rotations: see turning_links.hpp
   std::vector<AppliedLoad> driven;     ///< on the initial geometry, times the intensity that NewtonOptions::path finds
   std::vector<UnilateralCondition> unilateral;
   std::optional<ContactDefinition> contact;
@@ -100,9 +101,11 @@ struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
   std::optional<double> referred_residual;         ///< RESI_REFE_RELA: against forces that the reference efforts make
+  std::optional<double> component_residual;        ///< RESI_COMP_RELA: component by component, against the internal forces where the step began
   ReferenceEfforts reference;
   bool one_criterion = false;                      ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
+  std::function<void(double)> note_unconverged;    ///< set: steps that do not converge within those iterations stand all the same, and are told here by their instant (ARRET='NON')
   int max_elastic_iterations = 25;                 ///< ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;

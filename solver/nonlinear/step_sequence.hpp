@@ -82,6 +82,7 @@ struct StepPlan {
   std::optional<StepAdaptation> adaptation;
   std::vector<StepEvent> events;
   double further_iterations = 0.0;  ///< PCENT_ITER_PLUS: share of the most iterations that is allowed beyond them where the residuals promise to get there
+  bool tries_other_solution = false; ///< ACTION='AUTRE_PILOTAGE': a step of path following that fails is tried with the other of two solutions before it is cut
   bool stops_when_unstable = false;  ///< EVENEMENT='INSTABILITE', ACTION='ARRET'
 
   StepPlan() = default;

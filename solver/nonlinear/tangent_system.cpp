@@ -63,6 +63,13 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   return true;
 }
 
+void TangentSystem::forget() {
+  factorised_ = false;
+  solver_.reset();
+  unsymmetric_.reset();
+  known_.forget();
+}
+
 SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
   SymmetricMatrix whole = kind == TangentKind::elastic ? assembler_.elastic_stiffness(u) : assembler_.stiffness(u);
   if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);

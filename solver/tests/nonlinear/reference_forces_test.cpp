@@ -50,6 +50,36 @@ TEST_CASE("Structures take the resultants themselves, and an effort that lacks i
   CHECK(reference_forces(*scene.problem.model, dofs, efforts)[dofs.dof(node, Component::dy)] == 3.0);
 }
 
+TEST_CASE("Residuals of each kind of component are measured against internal forces of that kind") {
+  Scene scene;
+  const int node = scene.node("A", 0, 0);
+  scene.ground_spring("k", node, 1.0, 1.0);
+  const DofMap dofs(*scene.problem.model);
+  const Elimination elimination(*scene.mesh, dofs, {});
+  ReferenceForces reference(*scene.problem.model, dofs, elimination, NewtonOptions{});
+  Eigen::VectorXd forces(2), residual(2);
+  residual[dofs.dof(node, Component::dx)] = 1.0;
+  residual[dofs.dof(node, Component::dy)] = 0.5;
+  CHECK_FALSE(reference.share_by_component(residual));
+  forces[dofs.dof(node, Component::dx)] = -100.0;
+  forces[dofs.dof(node, Component::dy)] = 10.0;
+  reference.begin_step(forces);
+  CHECK(*reference.share_by_component(residual) == Approx(0.05));
+  // A kind without forces takes the largest of all.
+  forces[dofs.dof(node, Component::dy)] = 0.0;
+  reference.begin_step(forces);
+  CHECK(*reference.share_by_component(residual) == Approx(0.01));
+}
+
+TEST_CASE("RESI_COMP_RELA takes the loads where no internal force is known") {
+  NewtonOptions options;
+  options.relative_residual.reset();
+  options.component_residual = 1e-3;
+  CHECK(ConvergenceCriterion(options).measure(0.9, 1000.0, false).converged);
+  CHECK_FALSE(ConvergenceCriterion(options).measure(0.9, 1000.0, false, 0.0, 0.9e-2).converged);
+  CHECK(ConvergenceCriterion(options).measure(10.0, 1000.0, false, 0.0, 0.9e-3).converged);
+}
+
 TEST_CASE("RESI_REFE_RELA alone, or with others") {
   NewtonOptions options;
   options.relative_residual.reset();
