@@ -1,13 +1,13 @@
 #include "solver/constraints/turning_links.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "solver/constraints/rigid_link.hpp"
 #include "solver/error.hpp"
+#include "solver/model/deformed_places.hpp"
 
 namespace comma::solver {
 
@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 
 Vector3d mean(std::span<const Vector3d> places) {
   Vector3d sum = Vector3d::Zero();
@@ -44,13 +42,6 @@ TurningLinks::TurningLinks(const Mesh& mesh, const DofMap& dofs, std::span<const
                     "leave out TYPE_CHARGE='SUIV' where rotations are small, or join nodes of solids alone");
 }
 
-Vector3d TurningLinks::displacement(int node, const Eigen::VectorXd& u) const {
-  Vector3d moved = Vector3d::Zero();
-  for (int c = 0; c < 3; ++c)
-    if (const int dof = dofs_.dof(node, translations[static_cast<std::size_t>(c)]); dof >= 0) moved[c] = u[dof];
-  return moved;
-}
-
 std::vector<Vector3d> TurningLinks::initial_places(const RigidLink& link) const {
   std::vector<Vector3d> places;
   for (const int node : link.nodes) places.emplace_back(mesh_.nodes[static_cast<std::size_t>(node)].data());
@@ -60,7 +51,7 @@ std::vector<Vector3d> TurningLinks::initial_places(const RigidLink& link) const 
 std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, const Eigen::VectorXd& u) const {
   const std::vector<Vector3d> initial = initial_places(link);
   std::vector<Vector3d> moved = initial;
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += displacement(link.nodes[i], u);
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += displacement_of(link.nodes[i], u, dofs_);
   const Vector3d from = mean(initial), to = mean(moved);
   const Matrix3d turn = nearest_rotation(initial, from, moved, to);
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = to + turn * (initial[i] - from);
@@ -89,7 +80,7 @@ double TurningLinks::violation(const Eigen::VectorXd& u) const {
     double size = 0.0, missed = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       size = std::max(size, (initial[i] - centre).norm());
-      missed = std::max(missed, (initial[i] + displacement(link.nodes[i], u) - places[i]).norm());
+      missed = std::max(missed, (initial[i] + displacement_of(link.nodes[i], u, dofs_) - places[i]).norm());
     }
     if (size > 0.0) largest = std::max(largest, missed / size);
   }

@@ -27,7 +27,6 @@ class TurningLinks {
  private:
   std::vector<Eigen::Vector3d> initial_places(const RigidLink& link) const;
   std::vector<Eigen::Vector3d> nearest_places(const RigidLink& link, const Eigen::VectorXd& u) const;
-  Eigen::Vector3d displacement(int node, const Eigen::VectorXd& u) const;
 
   const Mesh& mesh_;
   const DofMap& dofs_;

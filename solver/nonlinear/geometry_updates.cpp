@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/nonlinear/deformed_places.hpp"
+#include "solver/model/deformed_places.hpp"
 
 namespace comma::solver {
 namespace {

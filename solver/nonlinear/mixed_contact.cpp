@@ -15,7 +15,7 @@
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/slave_cut.hpp"
-#include "solver/nonlinear/deformed_places.hpp"
+#include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/unilateral/rounds.hpp"
 

@@ -1,4 +1,4 @@
-#include "solver/nonlinear/deformed_places.hpp"
+#include "solver/model/deformed_places.hpp"
 
 #include <array>
 
