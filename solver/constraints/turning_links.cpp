@@ -48,9 +48,8 @@ std::vector<Vector3d> TurningLinks::initial_places(const RigidLink& link) const 
   return places;
 }
 
-std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, const Eigen::VectorXd& u) const {
-  const std::vector<Vector3d> initial = initial_places(link);
-  std::vector<Vector3d> moved = initial;
+std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, std::span<const Vector3d> initial, const Eigen::VectorXd& u) const {
+  std::vector<Vector3d> moved(initial.begin(), initial.end());
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += displacement_of(link.nodes[i], u, dofs_);
   const Vector3d from = mean(initial), to = mean(moved);
   const Matrix3d turn = nearest_rotation(initial, from, moved, to);
@@ -61,9 +60,9 @@ std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, const 
 std::vector<LinearRelation> TurningLinks::at(const Eigen::VectorXd& u) const {
   std::vector<LinearRelation> relations;
   for (const RigidLink& link : links_) {
-    const std::vector<Vector3d> places = nearest_places(link, u);
+    const std::vector<Vector3d> initial = initial_places(link), places = nearest_places(link, initial, u);
     std::map<int, Vector3d> rigid;
-    for (std::size_t i = 0; i < places.size(); ++i) rigid[link.nodes[i]] = places[i] - Vector3d(mesh_.nodes[static_cast<std::size_t>(link.nodes[i])].data());
+    for (std::size_t i = 0; i < places.size(); ++i) rigid[link.nodes[i]] = places[i] - initial[i];
     for (LinearRelation& relation : rigid_link(mesh_, dofs_, link.nodes, places, link.coincidence, link.origin)) {
       for (const auto& term : relation.terms) relation.value += term.coefficient * rigid.at(term.node)[static_cast<int>(term.component)];
       relations.push_back(std::move(relation));
@@ -75,7 +74,7 @@ std::vector<LinearRelation> TurningLinks::at(const Eigen::VectorXd& u) const {
 double TurningLinks::violation(const Eigen::VectorXd& u) const {
   double largest = 0.0;
   for (const RigidLink& link : links_) {
-    const std::vector<Vector3d> initial = initial_places(link), places = nearest_places(link, u);
+    const std::vector<Vector3d> initial = initial_places(link), places = nearest_places(link, initial, u);
     const Vector3d centre = mean(initial);
     double size = 0.0, missed = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -26,7 +26,7 @@ class TurningLinks {
 
  private:
   std::vector<Eigen::Vector3d> initial_places(const RigidLink& link) const;
-  std::vector<Eigen::Vector3d> nearest_places(const RigidLink& link, const Eigen::VectorXd& u) const;
+  std::vector<Eigen::Vector3d> nearest_places(const RigidLink& link, std::span<const Eigen::Vector3d> initial, const Eigen::VectorXd& u) const;
 
   const Mesh& mesh_;
   const DofMap& dofs_;

@@ -22,7 +22,6 @@ std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contac
 double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now) { return gap_at(pair, mesh, now) + pair.thickness; }
 
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
-  if (!contact.stop_on_interpenetration) return;
   for (const auto& [k, pair] : watched_pairs(contact, mesh, now)) {
     const double depth = -surface_gap(pair, mesh, now);
     if (depth <= contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;

@@ -14,7 +14,7 @@ std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contac
 /// The gap between the surfaces themselves (m), without the thicknesses that DIST_MAIT and DIST_ESCL add.
 double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now);
 
-/// STOP_INTERP: throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
+/// For STOP_INTERP='OUI': throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
 
 }  // namespace comma::solver

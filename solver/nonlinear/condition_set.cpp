@@ -57,6 +57,18 @@ bool same_rows(const ConditionSet& a, const ConditionSet& b) {
   return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && a.full.softness == b.full.softness && same_matrix(a.full.rows, b.full.rows);
 }
 
+std::vector<int> unknowns_behind(const std::set<int>& nodes, const DofMap& dofs, const Elimination& elimination) {
+  std::set<int> unknowns;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> transformation = elimination.transformation();
+  for (const int node : nodes)
+    for (int component = 0; component < component_count; ++component) {
+      const int dof = dofs.dof(node, static_cast<Component>(component));
+      if (dof < 0) continue;
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(transformation, dof); it; ++it) unknowns.insert(static_cast<int>(it.col()));
+    }
+  return {unknowns.begin(), unknowns.end()};
+}
+
 std::string describe(const ConditionSet& set, int row, const Mesh& mesh, const DofMap& dofs) {
   const int slot = set.row_slots[row];
   if (slot >= static_cast<int>(set.pairs.size()))

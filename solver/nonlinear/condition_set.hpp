@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "solver/constraints/elimination.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/contact/pairing.hpp"
 #include "solver/unilateral/conditions.hpp"
@@ -30,6 +32,9 @@ ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const Uni
 
 /// Whether two sets have the same rows and bounds to the last bit.
 bool same_rows(const ConditionSet& a, const ConditionSet& b);
+
+/// The reduced unknowns behind all displacements of nodes, rising.
+std::vector<int> unknowns_behind(const std::set<int>& nodes, const DofMap& dofs, const Elimination& elimination);
 
 /// "contact of node A with facet M2" or "the unilateral condition -1*DY(A) <= 0".
 std::string describe(const ConditionSet& set, int row, const Mesh& mesh, const DofMap& dofs);

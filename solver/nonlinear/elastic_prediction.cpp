@@ -1,7 +1,6 @@
 #include "solver/nonlinear/elastic_prediction.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +8,7 @@
 
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
+#include "solver/fields/tensor_reader.hpp"
 
 namespace comma::solver {
 namespace {
@@ -18,21 +18,9 @@ using Eigen::VectorXd;
 /// The plastic strain that a unit of the measure stands for under VMIS_ISOT_NL.
 constexpr double strain_for_unit = 0.05;
 
-constexpr std::array<const char*, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
-
 bool is_isotropic(Relation relation) {
   return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction || relation == Relation::isotropic_power ||
          relation == Relation::isotropic_nonlinear;
-}
-
-Vector6d stress_at(const ElementField& field, int cell, int point) {
-  Vector6d stress = Vector6d::Zero();
-  for (std::size_t i = 0; i < stress_names.size(); ++i) {
-    const int column = field.component(stress_names[i]);
-    const double value = column < 0 ? 0.0 : field.at(cell, point, column);
-    if (!std::isnan(value)) stress[static_cast<Eigen::Index>(i)] = value;
-  }
-  return stress;
 }
 
 /// 3/2 of the product of the deviators of two stresses.
@@ -71,11 +59,12 @@ void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const E
   ContinuumPoints continuum(*problem.model);
   const auto& samples = continuum.samples(cell);
   const int cumulated = variables.component("V1");
+  const TensorReader stress(stresses, stress_components);
   for (int point = 0; point < stresses.points(cell); ++point) {
     const ContinuumSample& sample = samples[static_cast<std::size_t>(point)];
     const MaterialPoint at = continuum.material_point(cell, elastic_.state(), sample, continuum.locate(cell, sample).at, point);
     points_.push_back({static_cast<std::size_t>(cell), point, plastic_point(elasticity, material.plasticity, behaviour.relation, at),
-                       behaviour.relation == Relation::isotropic_nonlinear, variables.at(cell, point, cumulated), stress_at(stresses, cell, point)});
+                       behaviour.relation == Relation::isotropic_nonlinear, variables.at(cell, point, cumulated), stress.at(cell, point)});
   }
 }
 
@@ -92,13 +81,14 @@ std::vector<double> ElasticPrediction::intensities(double wanted, const VectorXd
   const ElementField at_rest = elastic_.stresses(rest_);
   const ElementField by_constant = elastic_.stresses(constant);
   const ElementField by_linear = elastic_.stresses(linear);
+  const TensorReader resting(at_rest, stress_components), constant_part(by_constant, stress_components), linear_part(by_linear, stress_components);
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   for (const Point& point : points_) {
     const int cell = static_cast<int>(point.cell);
-    const Vector6d none = stress_at(at_rest, cell, point.point);
-    const Vector6d a = point.stress + stress_at(by_constant, cell, point.point) - none;
-    const Vector6d b = stress_at(by_linear, cell, point.point) - none;
+    const Vector6d none = resting.at(cell, point.point);
+    const Vector6d a = point.stress + constant_part.at(cell, point.point) - none;
+    const Vector6d b = linear_part.at(cell, point.point) - none;
     const double most = limit(point, wanted);
     const double square = deviatoric_product(b, b);
     const double own = deviatoric_product(a, a) - most * most;

@@ -17,6 +17,7 @@
 #include "solver/nonlinear/critical_modes.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
+#include "solver/nonlinear/known_displacements.hpp"
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
 #include "solver/nonlinear/step_watch.hpp"
@@ -212,7 +213,7 @@ class StaticAnalysis {
 
   int solve_and_check(double instant) {
     const int iterations = solve_step(instant);
-    if (problem_.contact) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
+    if (problem_.contact && problem_.contact->stop_on_interpenetration) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
     return iterations;
   }
 
@@ -329,8 +330,7 @@ class StaticAnalysis {
     elimination_.measure_from(differential_from_);
     reference_.renumber(elimination_);
     tangent_.forget();
-    state.reduced.resize(elimination_.reduced_size());
-    for (Eigen::Index i = 0; i < state.reduced.size(); ++i) state.reduced[i] = state.u[elimination_.kept()[i]];
+    state.reduced = state.u(elimination_.kept());
     Eigen::VectorXd offset = elimination_.offset(time);
     state.u = elimination_.transformation() * state.reduced + offset;
     return offset;
@@ -349,16 +349,7 @@ class StaticAnalysis {
   std::vector<int> support() const {
     std::set<int> nodes(contact_nodes_.begin(), contact_nodes_.end());
     for (const UnilateralCondition& condition : problem_.unilateral) nodes.insert(condition.nodes.begin(), condition.nodes.end());
-    std::set<int> unknowns;
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> transformation = elimination_.transformation();
-    for (const int node : nodes)
-      for (int component = 0; component < component_count; ++component) {
-        const int dof = dofs_.dof(node, static_cast<Component>(component));
-        if (dof < 0) continue;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(transformation, dof); it; ++it)
-          unknowns.insert(static_cast<int>(it.col()));
-      }
-    return {unknowns.begin(), unknowns.end()};
+    return unknowns_behind(nodes, dofs_, elimination_);
   }
 
   /// From the initial state, unstressed and undisplaced, or where the result's last step left off.
@@ -366,14 +357,13 @@ class StaticAnalysis {
     last_instant_ = instant;
     now_.state.u = Eigen::VectorXd::Zero(dofs_.size());
     if (problem_.initial) {
-      if (problem_.initial->displacement) take_displacements(*problem_.initial->displacement, now_.state.u);
+      if (problem_.initial->displacement) take_displacements(*problem_.initial->displacement, dofs_, now_.state.u);
     } else if (!result_.steps.empty()) {
       take_last_step();
     }
     differential_from_ = differential_reference();
     elimination_.measure_from(differential_from_);
-    now_.state.reduced.resize(elimination_.reduced_size());
-    for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = now_.state.u[elimination_.kept()[i]];
+    now_.state.reduced = now_.state.u(elimination_.kept());
     assembler_.set_time(instant);
     resume();
     go_on_with_intensity();
@@ -399,7 +389,7 @@ class StaticAnalysis {
   /// What the conditions of differential loads count from.
   Eigen::VectorXd differential_reference() const {
     Eigen::VectorXd u = now_.state.u;
-    if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, u);
+    if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, dofs_, u);
     return u;
   }
 
@@ -412,61 +402,28 @@ class StaticAnalysis {
     const auto before = result_.steps[result_.steps.size() - 2].fields.find("DEPL");
     if (before == result_.steps[result_.steps.size() - 2].fields.end()) return;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
-    take_displacements(std::get<NodalField>(before->second), u);
+    take_displacements(std::get<NodalField>(before->second), dofs_, u);
     path_->set_direction(now_.state.u - u);
-  }
-
-  /// The body starts without stress even where its first temperature is not that of reference.
-  static ElementField unstressed(ElementField field) {
-    for (double& value : field.values) value = std::isnan(value) ? value : 0.0;
-    return field;
   }
 
   void take_last_step() {
     const auto found = result_.steps.back().fields.find("DEPL");
     if (found == result_.steps.back().fields.end())
       throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
-    take_displacements(std::get<NodalField>(found->second), now_.state.u);
-  }
-
-  void take_displacements(const NodalField& field, Eigen::VectorXd& u) const {
-    for (int dof = 0; dof < dofs_.size(); ++dof) {
-      const int column = field.component(name_of(dofs_.component_of(dof)));
-      if (column < 0) continue;
-      const double value = field.at(dofs_.node_of(dof), column);
-      if (!std::isnan(value)) u[dof] = value;
-    }
+    take_displacements(std::get<NodalField>(found->second), dofs_, now_.state.u);
   }
 
   /// Puts the unknowns where the step is guessed to end, if anything but where it begins.
   void guess(double time, const Eigen::VectorXd& offset) {
     Eigen::VectorXd u = now_.state.u;
     if (options_.guessed)
-      u = displacements_of(*options_.guessed, time);
+      u = displacements_at(time, *options_.guessed, dofs_, now_.state.u);
     else if (options_.guess == StepGuess::extrapolate && speed_.size() == u.size())
       u += (time - last_instant_) * speed_;
     else
       return;
-    for (Eigen::Index i = 0; i < now_.state.reduced.size(); ++i) now_.state.reduced[i] = u[elimination_.kept()[i]];
+    now_.state.reduced = u(elimination_.kept());
     now_.state.u = elimination_.transformation() * now_.state.reduced + offset;
-  }
-
-  /// Linear between the steps of a result, constant beyond.
-  Eigen::VectorXd displacements_of(const Result& result, double time) const {
-    std::vector<std::pair<double, const NodalField*>> known;
-    for (const ResultStep& step : result.steps)
-      if (const auto found = step.fields.find("DEPL"); found != step.fields.end()) known.emplace_back(step.instant, &std::get<NodalField>(found->second));
-    if (known.empty()) throw Error("missing-field", "the result that steps should start from has no displacement (DEPL)");
-    const auto next = std::ranges::find_if(known, [&](const auto& each) { return each.first >= time; });
-    const auto& to = next == known.end() ? known.back() : *next;
-    const auto& from = next == known.begin() || next == known.end() ? to : *(next - 1);
-    Eigen::VectorXd u = now_.state.u;
-    take_displacements(*to.second, u);
-    if (from.first == to.first) return u;
-    Eigen::VectorXd before = now_.state.u;
-    take_displacements(*from.second, before);
-    const double share = (time - from.first) / (to.first - from.first);
-    return (1.0 - share) * before + share * u;
   }
 
   void resume() {
@@ -484,9 +441,12 @@ class StaticAnalysis {
     return variables != nullptr && variables->components.size() > 1 ? variables : nullptr;
   }
 
+  /// Without an initial state the body starts without stress, even where its first temperature is not that of reference.
   ElementField initial_stresses() const {
     ElementField field = assembler_.stresses(now_.state.u);
-    return problem_.initial ? field : unstressed(std::move(field));
+    for (double& value : field.values)
+      if (!problem_.initial && !std::isnan(value)) value = 0.0;
+    return field;
   }
 
   /// Null where the step has it not.

@@ -1,7 +1,6 @@
 #include "solver/nonlinear/strain_control.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,29 +8,18 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/fields/continuum_points.hpp"
 #include "solver/fields/strains.hpp"
+#include "solver/fields/tensor_reader.hpp"
 
 namespace comma::solver {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-constexpr std::array<const char*, 6> names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
 /// Strains below this share of the largest have no direction of their own.
 constexpr double least_share = 1e-9;
 
-Vector6 strain_at(const ElementField& field, int cell, int point) {
-  Vector6 strain = Vector6::Zero();
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const int column = field.component(names[c]);
-    const double value = column < 0 ? 0.0 : field.at(cell, point, column);
-    if (!std::isnan(value)) strain[static_cast<Eigen::Index>(c)] = value;
-  }
-  return strain;
-}
-
 /// Of tensors, whose shears count twice.
-double product(const Vector6& a, const Vector6& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
+double product(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
 
 std::vector<int> continuum_cells(const StaticProblem& problem, std::vector<int> cells) {
   const Model& model = *problem.model;
@@ -39,7 +27,8 @@ std::vector<int> continuum_cells(const StaticProblem& problem, std::vector<int> 
     cells.resize(static_cast<std::size_t>(model.mesh->cell_count()));
     std::iota(cells.begin(), cells.end(), 0);
   }
-  std::erase_if(cells, [&](int cell) { return continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0 || model.is_skin(cell); });
+  const ContinuumPoints continuum(model);
+  std::erase_if(cells, [&](int cell) { return !continuum.covers(cell); });
   if (cells.empty()) throw Error("missing-cells", "no cell that the path is to control is part of a solid or plane body", "name cells of a body");
   for (const int cell : cells)
     if (problem.behaviours && (*problem.behaviours)[static_cast<std::size_t>(cell)].kinematics != Kinematics::small)
@@ -52,10 +41,11 @@ std::vector<int> continuum_cells(const StaticProblem& problem, std::vector<int> 
 StrainControl::StrainControl(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const std::vector<int>& cells, const Eigen::VectorXd& u)
     : problem_(problem), dofs_(dofs), state_(assembler.state()) {
   const ElementField field = strains_of(u);
+  const TensorReader strain(field, strain_components);
   double largest = 0.0;
   for (const int cell : continuum_cells(problem, cells))
     for (int point = 0; point < field.points(cell); ++point) {
-      points_.push_back({cell, point, strain_at(field, cell, point)});
+      points_.push_back({cell, point, strain.at(cell, point)});
       largest = std::max(largest, product(points_.back().direction, points_.back().direction));
     }
   std::erase_if(points_, [&](const Point& point) { return product(point.direction, point.direction) <= least_share * least_share * largest; });
@@ -70,10 +60,11 @@ ElementField StrainControl::strains_of(const Eigen::VectorXd& u) const {
 /// Each point admits a half line of intensities; what all admit ends where one reaches what is wanted.
 std::vector<double> StrainControl::intensities(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const {
   const ElementField by_constant = strains_of(constant), by_linear = strains_of(linear);
+  const TensorReader constant_strain(by_constant, strain_components), linear_strain(by_linear, strain_components);
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   for (const Point& point : points_) {
-    const double left = wanted - product(point.direction, strain_at(by_constant, point.cell, point.point));
-    const double slope = product(point.direction, strain_at(by_linear, point.cell, point.point));
+    const double left = wanted - product(point.direction, constant_strain.at(point.cell, point.point));
+    const double slope = product(point.direction, linear_strain.at(point.cell, point.point));
     if (slope > 0.0) high = std::min(high, left / slope);
     else if (slope < 0.0) low = std::max(low, left / slope);
     else if (left < 0.0) return {};
