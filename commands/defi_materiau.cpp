@@ -5,6 +5,7 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/behaviour/hyperelastic.hpp"
+#include "solver/materials/mean_expansion.hpp"
 
 namespace comma::commands {
 
@@ -73,7 +74,14 @@ solver::IsotropicElasticity varying_isotropic(const Keywords& law) {
     throw DiagnosticError("missing-keyword", "DEFI_MATERIAU/ELAS_FO needs TEMP_DEF_ALPHA beside ALPHA", law.span,
                           "TEMP_DEF_ALPHA is the temperature from which ALPHA was measured");
   }
-  return isotropic(law);
+  solver::IsotropicElasticity elasticity = isotropic(law);
+  if (!law.has("ALPHA")) return elasticity;
+  const auto& function = interpreter::data_of<FunctionConcept>(law.concept_of("ALPHA"), "ALPHA");
+  const auto* table = function.table();
+  if (table == nullptr || function.parameters().front() != "TEMP") return elasticity;
+  elasticity.expansion = solver::mean_expansion(*table, elasticity.definition_temperature, law.real("PRECISION"));
+  elasticity.definition_temperature = solver::from_reference;
+  return elasticity;
 }
 
 solver::OrthotropicElasticity orthotropic(const Keywords& law) {
