@@ -191,6 +191,13 @@ void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, F
   throw Error("unsupported", "initial stresses as a load are known of solids and plane bodies alone");
 }
 
+void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
+  if (has_memory() || state.empty()) return;
+  std::vector<long double> held(forces.size(), 0.0L);
+  add_internal_forces(Eigen::VectorXd::Zero(u.size()), state, held);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
+}
+
 void ElementBlock::add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const {
   throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
 }
@@ -226,6 +233,12 @@ SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
 SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
   for (const auto& block : blocks_->list) block->add_elastic_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
+  return matrix;
+}
+
+SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const {
+  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
+  for (const auto& block : blocks_->list) block->add_starting_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
   return matrix;
 }
 
@@ -340,7 +353,17 @@ ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const Element
   return field;
 }
 
-Eigen::VectorXd Assembler::variable_forces() const { return -internal_forces(Eigen::VectorXd::Zero(dofs_.size())); }
+Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  for (const auto& block : blocks_->list) block->add_starting_forces(u, state_, sums);
+  return rounded(sums);
+}
+
+Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  for (const auto& block : blocks_->list) block->add_variable_forces(u, state_, sums);
+  return rounded(sums);
+}
 
 Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);

@@ -82,8 +82,13 @@ class Assembler {
   /// Elastic energy for an initial volume at the Gauss points of cells with a memory (TOTALE), from stresses and internal variables.
   ElementField energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const;
 
-  /// The forces (n) that hold up the strains of the command variables: -internal_forces(0). Statics read K u = f_ext + f_strains.
-  Eigen::VectorXd variable_forces() const;
+  /// Where a step starts at u, nothing having moved yet: the tangent of the flow as it was, and the internal forces with what the command variables
+  /// have changed taken up elastically. Elsewhere, and without a memory, the same as stiffness() and internal_forces().
+  SymmetricMatrix starting_stiffness(const Eigen::VectorXd& u) const;
+  Eigen::VectorXd starting_forces(const Eigen::VectorXd& u) const;
+
+  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables. Linear statics read K u = f_ext + f_strains.
+  Eigen::VectorXd variable_forces(const Eigen::VectorXd& u) const;
 
   /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains take part as
   /// the forces of the stresses that would undo them, initial stresses by their own.

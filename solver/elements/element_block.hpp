@@ -47,6 +47,13 @@ class ElementBlock {
   virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
+  /// The tangent and the internal forces from which a step starts, nothing having moved yet (PointLaw::begin).
+  virtual void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+    add_stiffness(u, state, column_starts, values);
+  }
+  virtual void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const { add_internal_forces(u, state, forces); }
+  /// The forces at u with which the elastic material would hold up the strains of the command variables; 0 of elements with a memory that know none.
+  virtual void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const;
   /// What the stresses at u add to the stiffness when the element turns, in small displacements from u (R7.05.01). Throws Error `unsupported`
   /// where the element knows none.
   virtual void add_geometric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const;

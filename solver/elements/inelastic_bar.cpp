@@ -121,6 +121,12 @@ class InelasticBar final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element)
       add_force(element, members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress, forces);
   }
+  void add_variable_forces(const Eigen::VectorXd&, const VariableState& state, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const BarMaterial now = material(element, state);
+      add_force(element, members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion, forces);
+    }
+  }
   void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element) add_force(element, reported[static_cast<std::size_t>(element)], forces);
   }

@@ -52,6 +52,21 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    assemble(u, state, column_starts, values, &PointLaw::begin);
+  }
+  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      return respond(element, g, x, gradient, state, &PointLaw::begin).stress;
+    });
+  }
+  void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      const Constants constants(*this, element, g, x, state);
+      return law_.stress_of_variables({gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
+    });
+  }
+
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
       const Vector6d stress = padded(reported.data() + (element * this->point_count() + g) * strains);

@@ -84,6 +84,11 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    add_stiffness(u, state, column_starts, values);
+  }
+  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override { add_internal_forces(u, state, forces); }
+
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
     if (!has_memory()) return add_internal_forces(u, state, forces);
     add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient, const Fields& fields) {

@@ -121,8 +121,9 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
+  variable_forces_ = assembler_.state().empty() ? Eigen::VectorXd() : assembler_.variable_forces(state.u);
   if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
-  evaluate(state, external);
+  measure(state, external, assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
@@ -153,15 +154,23 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   }
 }
 
-/// Residual of the reduced unknowns and the size of the loads, reactions and contact forces included.
-void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
+TangentKind NewtonSolver::kind_of(int iteration) const {
+  if (iteration > 1 || is_short_) return policy_.correction;
+  return prediction_ == TangentKind::tangent ? TangentKind::starting : prediction_;
+}
+
+void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) { measure(state, external, assembler_.internal_forces(state.u)); }
+
+/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables included.
+void NewtonSolver::measure(const NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& internal) {
   Eigen::VectorXd loads = external;
   if (followers_) loads += followers_->at(state.u);
-  const Eigen::VectorXd unbalanced = loads - assembler_.internal_forces(state.u);
+  const Eigen::VectorXd unbalanced = loads - internal;
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
   load_ = std::max(largest(loads), largest(unbalanced));
+  if (variable_forces_.size()) load_ = std::max(load_, largest(internal + variable_forces_));
   applied_ = largest(loads);
 }
 

@@ -91,7 +91,7 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
-  TangentKind kind_of(int iteration) const { return iteration == 1 && !is_short_ ? prediction_ : policy_.correction; }
+  TangentKind kind_of(int iteration) const;
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
@@ -110,6 +110,7 @@ class NewtonSolver {
   ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);
   ActiveSetSolution solve_by_gradients(const ActiveSetProblem& problem);
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
+  void measure(const NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& internal);
   bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   std::optional<double> penetration(const NewtonState& state) const;
@@ -141,6 +142,7 @@ class NewtonSolver {
   Eigen::VectorXd row_multipliers_;  ///< one a reduced row
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
+  Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push (all unknowns); empty where there are none
   double load_ = 0.0;
   double applied_ = 0.0;  ///< the largest component of the external forces
   int steps_ = 0;                    ///< accepted so far

@@ -58,8 +58,9 @@ struct StaticProblem {
 };
 
 enum class TangentKind : std::uint8_t {
-  tangent,  ///< of what the material does
-  elastic   ///< as if it could only answer elastically
+  tangent,   ///< of what the material does
+  starting,  ///< the same where a step starts (Assembler::starting_stiffness)
+  elastic    ///< as if it could only answer elastically
 };
 
 /// When the stiffness of nonlinear bodies is made again, and which one (U4.51.03, NEWTON). It changes the way to the solution alone.

@@ -157,14 +157,16 @@ void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& inc
   plastic += change;
 }
 
-PlasticResponse PointLaw::integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const {
+PlasticResponse PointLaw::integrate(const PointInput& input, const PlasticPoint& now, const Vector6d& increment) const {
+  const PointPast& past = input.past;
   const PlasticState state = state_of(past);
+  if (input.begins) return (in_plane_ ? begin_von_mises_in_plane : begin_von_mises)(past.moduli, now, state, past.inelastic, input.inelastic);
   return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment) : integrate_von_mises(past.moduli, now, state, increment);
 }
 
 PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) const {
   const Vector6d increment = small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
-  const PlasticResponse result = integrate(input.past, now, increment);
+  const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, stress, stress, {}};
   write(result.state, response);
@@ -176,7 +178,7 @@ PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) 
 PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now) const {
   const Eigen::Matrix3d back = deformation_gradient(input.gradient).inverse();
   const Eigen::Matrix3d moved = (input.gradient - input.past.gradient) * back;
-  const PlasticResponse result = integrate(input.past, now, small_strain(moved) - (input.inelastic - input.past.inelastic));
+  const PlasticResponse result = integrate(input, now, small_strain(moved) - (input.inelastic - input.past.inelastic));
   const Vector6d& stress = result.state.stress;
   PointResponse response{second_stress_of(input.gradient, stress), Matrix6d::Zero(), stress, stress, {}};
   for (int k = 0; k < tensor_size; ++k) {
@@ -194,7 +196,7 @@ PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now
 PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint& now) const {
   const LogarithmicStrain strain(input.gradient);
   const Vector6d increment = strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
-  const PlasticResponse result = integrate(input.past, now, increment);
+  const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& t = result.state.stress;
   PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), t, {}};
   response.reported = cauchy_stress(input.gradient, response.stress);
@@ -280,7 +282,7 @@ PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) 
   const Vector6d strain = green_strain(input.gradient);
   const Vector6d increment = strain - green_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
   deformation_gradient(input.gradient);  // which must not be turned inside out
-  const PlasticResponse result = integrate(input.past, now, increment);
+  const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, cauchy_stress(input.gradient, stress), stress, {}};
   if (in_plane_) response.reported /= std::sqrt(1.0 + 2.0 * strain_across(strain, stress, input.inelastic, now));
@@ -301,6 +303,21 @@ PointResponse PointLaw::respond_elastically(const PointInput& input) const {
   PlasticPoint elastic{input.constants, NoYield{}};
   elastic.hyperelasticity = input.constants.hyperelasticity;
   return respond_with(input, elastic);
+}
+
+PointResponse PointLaw::begin(const PointInput& input) const {
+  const PointPast& past = input.past;
+  const bool is_known = behaviour_.relation != Relation::hyperelastic && behaviour_.kinematics != Kinematics::multiplicative;
+  const bool has_changed = input.inelastic != past.inelastic || input.constants.shear != past.moduli.shear || input.constants.bulk != past.moduli.bulk;
+  if (!is_known || !has_changed || past.moduli.shear == 0.0 || input.gradient != past.gradient) return respond(input);
+  PointInput beginning = input;
+  beginning.begins = true;
+  return respond(beginning);
+}
+
+Vector6d PointLaw::stress_of_variables(const PointInput& input) const {
+  if (behaviour_.relation == Relation::hyperelastic || input.inelastic.isZero(0.0)) return Vector6d::Zero();
+  return (in_plane_ ? elastic_stress_in_plane : elastic_stress)(input.constants, input.inelastic);
 }
 
 double PointLaw::flow_between(const std::array<double, most_variables>& before, const std::array<double, most_variables>& after) const {

@@ -30,6 +30,7 @@ struct PointInput {
   const Vector6d& inelastic;
   const PlasticPoint& constants;
   const PointPast& past;
+  bool begins = false;  ///< nothing has moved yet: see PointLaw::begin
 };
 
 struct PointResponse {
@@ -63,7 +64,13 @@ class PointLaw {
   /// The same as if nothing could flow from here on.
   PointResponse respond_elastically(const PointInput& input) const;
 
-  /// The same for a point that goes on as in the last step, flowing where it flowed, `ratio` times as much: linear in the strain (R5.03.81; after Oliver,
+  /// The same for a point where a step begins: what has flowed goes on flowing, and what the command variables have changed is taken up elastically
+  /// (begin_von_mises). Where the point has moved already, or is of the multiplicative split, as respond().
+  PointResponse begin(const PointInput& input) const;
+  /// The stress (as PointResponse::stress) with which the elastic material would hold up the strain of the command variables.
+  Vector6d stress_of_variables(const PointInput& input) const;
+
+  /// The same as respond() for a point that goes on as in the last step, flowing where it flowed, `ratio` times as much: linear in the strain (R5.03.81; after Oliver,
   /// Huespe and Cante, Computer Methods in Applied Mechanics and Engineering 197, 2008). Throws Error `unsupported` but for elasticity and isotropic hardening in small strains,
   /// without plane stress.
   PointResponse respond_extrapolated(const PointInput& input, double ratio) const;
@@ -83,7 +90,7 @@ class PointLaw {
   void write(const PlasticState& state, PointResponse& response) const;
   bool keeps_plastic_strain() const;
   void write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state, PointResponse& response) const;
-  PlasticResponse integrate(const PointPast& past, const PlasticPoint& now, const Vector6d& increment) const;
+  PlasticResponse integrate(const PointInput& input, const PlasticPoint& now, const Vector6d& increment) const;
   Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
   PointResponse green(const PointInput& input, const PlasticPoint& now) const;
   PointResponse rubber(const PointInput& input, const PlasticPoint& now) const;

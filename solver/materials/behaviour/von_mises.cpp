@@ -14,6 +14,8 @@ namespace {
 /// Of the stresses, what rounding leaves of an equation between them.
 constexpr double rounding_share = 1e-14;
 constexpr int most_iterations = 200;
+/// The component of tensors out of the plane.
+constexpr int across = 2;
 
 double trace(const Vector6d& t) { return t[0] + t[1] + t[2]; }
 
@@ -46,6 +48,21 @@ double stiffness_ratio(double now, double before) { return before != 0.0 ? now /
 /// Adds the part of the flow to an elastic matrix. `normal`: 3/2 (s - X) / (its size), with single shears.
 void subtract_flow(Matrix6d& d, const PlasticModuli& now, const Vector6d& normal, double factor) {
   d -= (4.0 * now.shear * now.shear * factor) * normal * normal.transpose();
+}
+
+/// What flows goes on flowing: along `relative`, s - X.
+void flow_on(Matrix6d& d, const PlasticPoint& now, const Vector6d& relative, double p) {
+  const double size = std::sqrt(1.5 * inner(relative, relative));
+  if (!(size > 0.0)) return;
+  subtract_flow(d, now, 1.5 / size * relative, 1.0 / (3.0 * now.shear + 1.5 * now.kinematic + hardening(now.curve, p).second));
+}
+
+/// The matrix where no stress crosses the plane.
+void release_across(Matrix6d& d) {
+  const Vector6d column = d.col(across);
+  d -= column * column.transpose() / column[across];
+  d.row(across).setZero();
+  d.col(across).setZero();
 }
 
 }  // namespace
@@ -87,9 +104,8 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
     response.tangent = elastic_matrix(now, 1.0);
     if (may_flow && state.flowing && size > 0.0 && increment.isZero(0.0)) {
       // Nothing moves yet: what flowed in the last step is taken to flow on.
-      const Vector6d normal = 1.5 / size * relative;
       response.state.flowing = true;
-      subtract_flow(response.tangent, now, normal, 1.0 / (hardness + hardening(now.curve, state.p).second));
+      flow_on(response.tangent, now, relative, state.p);
     }
   } else {
     const double dp = plastic_increment(now.curve, size, hardness, state.p);
@@ -108,7 +124,6 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
 
 PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
                                              const Vector6d& increment) {
-  constexpr int across = 2;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Vector6d strain = increment;
@@ -129,12 +144,37 @@ PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const 
     if (strain[across] == last) break;
     response = integrate_von_mises(before, now, state, strain);
   }
-  const Vector6d column = response.tangent.col(across);
-  response.tangent -= column * column.transpose() / column[across];
-  response.tangent.row(across).setZero();
-  response.tangent.col(across).setZero();
+  release_across(response.tangent);
   response.state.stress[across] = 0.0;
   return response;
+}
+
+PlasticResponse begin_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
+                                const Vector6d& strain_now) {
+  PlasticResponse response{state, elastic_matrix(now, 1.0)};
+  response.state.stress += elastic_stress(before, strain_before) - elastic_stress(now, strain_now);
+  const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
+  const Vector6d relative =
+      stiffness_ratio(now.shear, before.shear) * deviator(state.stress) - stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
+  if (may_flow && state.flowing) flow_on(response.tangent, now, relative, state.p);
+  return response;
+}
+
+PlasticResponse begin_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
+                                         const Vector6d& strain_now) {
+  PlasticResponse response = begin_von_mises(before, now, state, strain_before, strain_now);
+  response.state.stress = state.stress + elastic_stress_in_plane(before, strain_before) - elastic_stress_in_plane(now, strain_now);
+  release_across(response.tangent);
+  return response;
+}
+
+Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain) { return elastic_matrix(moduli, 1.0) * strain; }
+
+Vector6d elastic_stress_in_plane(const PlasticModuli& moduli, const Vector6d& strain) {
+  Matrix6d d = elastic_matrix(moduli, 1.0);
+  if (d(across, across) == 0.0) return Vector6d::Zero();
+  release_across(d);
+  return d * strain;
 }
 
 }  // namespace comma::solver

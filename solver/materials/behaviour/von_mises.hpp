@@ -33,7 +33,21 @@ double plastic_increment(const HardeningCurve& curve, double trial, double hardn
 /// Elastic strains and plastic strains are kept when the constants change. Throws what plastic_increment() does.
 PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment);
 
-/// The same without stress across the plane: the strain zz is an unknown (the row and column of zz of the tangent are zero).
+/// Where a step begins and nothing has moved but the strain of the command variables, from `strain_before` to `strain_now`: the stress changes by what
+/// these would hold up in the elastic material, each by its own moduli, and what flowed in the last step flows on along the normal that it has.
+/// So Code_Aster predicts a step (hsnv125b tells).
+PlasticResponse begin_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
+                                const Vector6d& strain_now);
+/// The same without stress across the plane.
+PlasticResponse begin_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
+                                         const Vector6d& strain_now);
+
+/// Hooke's law.
+Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain);
+/// The same without stress across the plane, whatever the strain there.
+Vector6d elastic_stress_in_plane(const PlasticModuli& moduli, const Vector6d& strain);
+
+/// integrate_von_mises() without stress across the plane: the strain zz is an unknown (the row and column of zz of the tangent are zero).
 PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
                                              const Vector6d& increment);
 

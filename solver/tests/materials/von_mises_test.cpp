@@ -151,6 +151,34 @@ TEST_CASE("when the modulus changes, the elastic strain stays") {
   CHECK(response.state.stress.head<3>().sum() == Approx(0.25 * 120.0));
 }
 
+TEST_CASE("a step begins with what flowed flowing on, and with its expansion held up by the elastic material") {
+  const PlasticPoint before = point_of(Relation::mixed_linear);
+  PlasticPoint now = before;
+  now.shear *= 0.9;
+  now.bulk *= 0.8;
+  PlasticState state = step(Relation::mixed_linear, {}, size_of_flow()).state;
+  REQUIRE(state.flowing);
+  Vector6d cold = Vector6d::Zero(), warm = Vector6d::Zero();
+  cold.head<3>().setConstant(1e-3);
+  warm.head<3>().setConstant(4e-3);
+  const PlasticResponse response = begin_von_mises(before, now, state, cold, warm);
+  Vector6d change = response.state.stress - state.stress;
+  CHECK(change.tail<3>().norm() == 0.0);
+  CHECK(change[0] == Approx(3e-3 * before.bulk - 12e-3 * now.bulk));
+  CHECK(response.state.p == state.p);
+  // With the same moduli the tangent is that of a step in which nothing moves; of what did not flow it is the elastic one.
+  CHECK(begin_von_mises(before, before, state, cold, warm).tangent.isApprox(step(Relation::mixed_linear, state, Vector6d::Zero()).tangent));
+  state.flowing = false;
+  CHECK(begin_von_mises(before, before, state, cold, warm).tangent.isApprox(step(Relation::elastic, {}, Vector6d::Zero()).tangent));
+  const PlasticState flat = step(Relation::mixed_linear, {}, size_of_flow(), true).state;
+  const PlasticResponse in_plane = begin_von_mises_in_plane(before, now, flat, cold, warm);
+  CHECK(in_plane.state.stress[2] == 0.0);
+  CHECK(in_plane.tangent.col(2).norm() == 0.0);
+  const double plane_before = young / (1.0 - poisson), e = 9.0 * now.bulk * now.shear / (3.0 * now.bulk + now.shear);
+  const double plane_now = e / (1.0 - (e / (2.0 * now.shear) - 1.0));
+  CHECK(in_plane.state.stress[0] - flat.stress[0] == Approx(1e-3 * plane_before - 4e-3 * plane_now));
+}
+
 TEST_CASE("a material that lacks what the law needs, or whose curve is off the elastic line, says so") {
   const IsotropicElasticity elasticity{young, poisson};
   CHECK_THROWS_WITH(plastic_point(elasticity, {}, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("ECRO_LINE"));

@@ -90,6 +90,36 @@ TEST_CASE("which stiffness the iterations take changes the way, not the solution
   CHECK(expected > yield);
 }
 
+TEST_CASE("residuals are measured against the forces of an expansion too, and steps of heat alone begin with what it held up") {
+  // Held between two walls and across the plane, free along x: pressed alike in two directions, it flows by half of p in each.
+  Square square(0.0);
+  Scene& scene = square.scene;
+  auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
+  for (auto& material : materials->by_cell) {
+    if (!material) continue;
+    Material metal = *material;
+    std::get<IsotropicElasticity>(*metal.elasticity).expansion = 1e-3;
+    material = std::make_shared<const Material>(metal);
+  }
+  CommandVariable heat;
+  heat.reference = 0.0;
+  for (const double t : {0.0, 4.0})
+    heat.snapshots.push_back({t, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), 5.0 * t)})});
+  materials->variables = {heat};
+  scene.problem.materials = materials;
+  NewtonOptions options;
+  options.relative_residual = 1e-10;
+  std::vector<IterationReport> reports;
+  scene.solve(4, options, [&](const IterationReport& report) { reports.push_back(report); });
+  const double strain = 1e-3 * 20.0;
+  const double hardness = young * slope / (young - slope);
+  CHECK(square.at_first_point("SIEF_ELGA", "SIYY", 4) == Approx(-(yield + 2.0 * hardness * strain) / (1.0 + 2.0 * hardness / young)));
+  // A corner is pushed by half the width of a cell times E alpha T; what pushes inner nodes balances.
+  for (const IterationReport& report : reports)
+    if (report.relative_residual > 0.0) CHECK(report.absolute_residual / report.relative_residual >= 0.99 * young * 1e-3 * 5.0 * report.instant * 0.25);
+  CHECK(scene.counters.newton_iterations <= 12);
+}
+
 TEST_CASE("a step that is cut leaves nothing of its trial behind") {
   StepPlan plan({0.0, 1.0});
   plan.cutting = StepCutting{};
