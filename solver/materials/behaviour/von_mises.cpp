@@ -116,7 +116,8 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
     response.state.back_stress += now.kinematic * dp * normal;
     const double slope = hardening(now.curve, state.p + dp).second;
     response.tangent = elastic_matrix(now, 1.0 - 3.0 * now.shear * dp / size);
-    subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
+    // What flows because moduli or the radius have changed, while the strain goes back, is not taken to flow by the strain (R5.03.02; hsnv125a tells).
+    if (inner(relative, strain) >= 0.0) subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
   }
   response.state.stress.head<3>().array() += pressure;
   return response;

@@ -18,7 +18,9 @@ struct PlasticState {
 
 struct PlasticResponse {
   PlasticState state;
-  Matrix6d tangent;  ///< d stress / d strain: consistent with the integration, of the flow itself where the strain does not change
+  /// d stress / d strain: consistent with the integration, of the flow itself where the strain does not change. Where moduli that have changed make
+  /// it flow while the strain goes back, without the flow.
+  Matrix6d tangent;
 };
 
 /// dp >= 0 with trial - hardness dp - R(p + dp) = 0, for trial > R(p). Throws Error `integration-failure` for softening steeper than the elasticity

@@ -151,6 +151,22 @@ TEST_CASE("when the modulus changes, the elastic strain stays") {
   CHECK(response.state.stress.head<3>().sum() == Approx(0.25 * 120.0));
 }
 
+TEST_CASE("what flows by a stiffer modulus alone, the strain going back, has a tangent without the flow") {
+  const PlasticPoint before = point_of(Relation::isotropic_linear);
+  PlasticPoint now = before;
+  now.shear *= 1.5;
+  const PlasticState state = pull(Relation::isotropic_linear, {}, 0.01).state;
+  Vector6d back = Vector6d::Zero();
+  back[0] = -1e-5;
+  const PlasticResponse returning = integrate_von_mises(before, now, state, back);
+  REQUIRE(returning.state.p > state.p);
+  const PlasticResponse pulled = integrate_von_mises(before, now, state, -back);
+  const double shear = 0.5 * (returning.tangent(0, 0) - returning.tangent(0, 1));
+  CHECK(returning.tangent(3, 3) == Approx(shear));  // isotropic: no direction of flow
+  CHECK(shear < now.shear);                         // but softened by it
+  CHECK(pulled.tangent(0, 0) < 0.7 * returning.tangent(0, 0));
+}
+
 TEST_CASE("a step begins with what flowed flowing on, and with its expansion held up by the elastic material") {
   const PlasticPoint before = point_of(Relation::mixed_linear);
   PlasticPoint now = before;
