@@ -12,6 +12,7 @@
 #include "solver/contact/relaxation.hpp"
 #include "solver/contact/shared_friction.hpp"
 #include "solver/linear/dense_solve.hpp"
+#include "solver/linear/largest_component.hpp"
 
 namespace comma::solver {
 namespace {
@@ -35,7 +36,6 @@ constexpr double rounding_scale = 1e-6;
 /// precision leave 1e-7.
 constexpr double product_tolerance = 1e-5;
 
-double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 /// By how much friction grows at first, and at least, as a share of the whole.
 constexpr double first_friction_step = 0.125;
 constexpr double least_friction_step = 1.0 / 1024.0;
@@ -395,7 +395,7 @@ class CondensedSolver {
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
-    scale_ = std::max({rounding_scale * problem_.displacement, largest(problem_.free), largest(balanced - problem_.free)});
+    scale_ = std::max({rounding_scale * problem_.displacement, largest_component(problem_.free), largest_component(balanced - problem_.free)});
     residual_ = 0.0;
     for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
     for (Index i = 0; i < law_residual.size(); ++i)

@@ -192,7 +192,7 @@ void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, F
 }
 
 void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
-  if (has_memory() || state.empty()) return;
+  if (has_memory()) return;
   std::vector<long double> held(forces.size(), 0.0L);
   add_internal_forces(Eigen::VectorXd::Zero(u.size()), state, held);
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
@@ -360,6 +360,7 @@ Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
 }
 
 Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
+  if (state_.empty()) return {};
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) block->add_variable_forces(u, state_, sums);
   return rounded(sums);

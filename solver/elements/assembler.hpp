@@ -87,7 +87,8 @@ class Assembler {
   SymmetricMatrix starting_stiffness(const Eigen::VectorXd& u) const;
   Eigen::VectorXd starting_forces(const Eigen::VectorXd& u) const;
 
-  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables. Linear statics read K u = f_ext + f_strains.
+  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables; empty where none is given. Linear statics read
+  /// K u = f_ext + f_strains.
   Eigen::VectorXd variable_forces(const Eigen::VectorXd& u) const;
 
   /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains take part as

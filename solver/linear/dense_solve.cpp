@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/linear/blas_threads.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/linear/shared_library.hpp"
 
 namespace comma::solver {
@@ -125,7 +126,7 @@ SingleTriangle::SingleTriangle(const Eigen::MatrixXd& lower) : values_(lower.row
 }
 
 Eigen::VectorXd SingleTriangle::operator*(const Eigen::VectorXd& x) const {
-  const double size = x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
+  const double size = largest_component(x);
   if (!(size > 0.0)) return Eigen::VectorXd::Zero(x.size());
   const Eigen::VectorXf given = (x / size).cast<float>();
   Eigen::VectorXf product = Eigen::VectorXf::Zero(x.size());

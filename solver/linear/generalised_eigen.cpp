@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 
 namespace comma::solver {
 
@@ -95,7 +96,7 @@ ComplexPairs largest_pairs(ShiftedInverse& inverse, int count) {
 /// From those of the inverse.
 EigenPairs real_pairs(const ComplexPairs& found, double shift) {
   std::vector<std::pair<double, Eigen::VectorXd>> pairs;
-  const double largest = found.values.size() ? found.values.cwiseAbs().maxCoeff() : 0.0;
+  const double largest = largest_component(found.values);
   for (Eigen::Index k = 0; k < found.values.size(); ++k) {
     const double value = found.values[k].real();
     // What B does not see has an infinite eigenvalue.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/contact/extent.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 
 namespace comma::solver {
@@ -77,7 +78,7 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
 
 void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
                               ContactDoubts& doubts) const {
-  const double least = negligible_slip * (u.size() ? u.cwiseAbs().maxCoeff() : 0.0);
+  const double least = negligible_slip * largest_component(u);
   double creep = 0.0;
   double reach = 0.0;
   double limit = 0.0;

@@ -1,4 +1,5 @@
 #include "solver/nonlinear/convergence.hpp"
+#include "solver/linear/largest_component.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,11 @@ namespace {
 double excess_over(double limit, double value) { return value / std::max(limit, std::numeric_limits<double>::min()); }
 
 }  // namespace
+
+double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) {
+  const double size = std::max(largest_component(loads), largest_component(loads - internal));
+  return variable_forces.size() ? std::max(size, largest_component(internal + variable_forces)) : size;
+}
 
 ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred, std::optional<double> by_component) const {
   Measure result;

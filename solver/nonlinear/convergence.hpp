@@ -8,6 +8,10 @@
 
 namespace comma::solver {
 
+/// What a residual is measured against: the largest of the loads, of what they leave to supports and contact, and of these and the forces of the command
+/// variables together, which the internal ones balance (R5.03.01). `variable_forces`: as Assembler::variable_forces() gives them.
+double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces);
+
 /// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
 /// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks
 /// |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force;

@@ -7,6 +7,7 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 
 namespace comma::solver {
@@ -18,10 +19,6 @@ constexpr int max_corrections = 3;
 constexpr double negligible_step = 4e-16;
 /// A factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at 400,000.
 constexpr std::size_t few_solutions = 5;
-
-double largest(const Eigen::VectorXd& v) {
-  return v.size() ? v.cwiseAbs().maxCoeff() : 0.0;
-}
 
 NewtonOptions tangent_options(const LinearStaticOptions& options, std::size_t solutions) {
   NewtonOptions result;
@@ -49,7 +46,7 @@ class LinearStaticAnalysis {
     // The linear solver refines its solution to the last digits. What it cannot see is the rounding of forces that
     // large imposed displacements cause, which a body held by weak springs feels: corrections remove that.
     // Where there is no factor the scene is one solid without springs, and a solution costs as much as the first.
-    const int corrections = largest(offset) > 0.0 && tangent_.has_factor() ? max_corrections : 0;
+    const int corrections = largest_component(offset) > 0.0 && tangent_.has_factor() ? max_corrections : 0;
     Eigen::VectorXd reduced = Eigen::VectorXd::Zero(elimination_.reduced_size());
     Eigen::VectorXd u = offset;
     double last = std::numeric_limits<double>::infinity();
@@ -58,7 +55,7 @@ class LinearStaticAnalysis {
       tangent_.solve(step);
       reduced += step;
       u = elimination_.transformation() * reduced + offset;
-      const double share = largest(step) / std::max(largest(reduced), std::numeric_limits<double>::min());
+      const double share = largest_component(step) / std::max(largest_component(reduced), std::numeric_limits<double>::min());
       if (share <= negligible_step || (k > 0 && share > 0.5 * last)) break;
       last = share;
     }

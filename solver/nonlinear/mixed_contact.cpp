@@ -14,6 +14,7 @@
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/mesh/slave_cut.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -467,7 +468,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
                                            Eigen::VectorXd& corrected) {
   const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
   const Eigen::VectorXd free = jumps(u);
-  problem_.displacement = u.size() ? u.cwiseAbs().maxCoeff() : 0.0;
+  problem_.displacement = largest_component(u);
   check_blocked_points(free);
   const Index point_rows = rows_.rows();
   problem_.held = forces;
@@ -490,14 +491,14 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
     return std::nullopt;
   }
   const Eigen::VectorXd change = solution.forces - forces;
-  const double most = change.size() ? change.cwiseAbs().maxCoeff() : 0.0;
+  const double most = largest_component(change);
   if (most > 0.0) {
     Eigen::MatrixXd push = schur_->rows().transpose() * change;
     tangent_.solve_once(push);
     corrected += push;
   }
   forces = solution.forces;
-  const double size = forces.size() ? forces.cwiseAbs().maxCoeff() : 0.0;
+  const double size = largest_component(forces);
   return size > 0.0 ? most / size : most;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/line_search.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
@@ -32,8 +33,6 @@ constexpr double largest_violation = 1e-9;
 constexpr int max_polishing = 3;
 /// Conditions of which gradients take the compliance as a matrix: beyond (288 MB), they solve for each product instead.
 constexpr int most_dense_rows = 6000;
-
-double largest(const Eigen::VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 int count_changes(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> changed;
@@ -90,7 +89,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
       search(before, external, offset, state);
     else
       evaluate(state, external);
-    const auto measure = criterion_.measure(largest(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
+    const auto measure = criterion_.measure(largest_component(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
     if (measure.converged && (!is_joint || correction.changes == 0) && is_satisfied(state.u)) {
@@ -121,7 +120,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
-  variable_forces_ = assembler_.state().empty() ? Eigen::VectorXd() : assembler_.variable_forces(state.u);
+  variable_forces_ = assembler_.variable_forces(state.u);
   if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   measure(state, external, assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
@@ -156,7 +155,7 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
 
 TangentKind NewtonSolver::kind_of(int iteration) const {
   if (iteration > 1 || is_short_) return policy_.correction;
-  return prediction_ == TangentKind::tangent ? TangentKind::starting : prediction_;
+  return at_start(prediction_);
 }
 
 void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) { measure(state, external, assembler_.internal_forces(state.u)); }
@@ -169,18 +168,17 @@ void NewtonSolver::measure(const NewtonState& state, const Eigen::VectorXd& exte
   residual_ = elimination_.transformation().transpose() * unbalanced;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = std::max(largest(loads), largest(unbalanced));
-  if (variable_forces_.size()) load_ = std::max(load_, largest(internal + variable_forces_));
-  applied_ = largest(loads);
+  load_ = load_size(loads, internal, variable_forces_);
+  applied_ = largest_component(loads);
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that the loads are lost in them: a body
 /// that nothing holds has flown away.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
-  if (applied_ > 0.0 && largest(residual_) > lost_load * applied_) return false;
+  if (applied_ > 0.0 && largest_component(residual_) > lost_load * applied_) return false;
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
   return sizes.size() == residual_.size() && !tangent_.is_saddle() &&
-         (residual_.array().abs() <= rounding_share * largest(state.u) * sizes.array()).all();
+         (residual_.array().abs() <= rounding_share * largest_component(state.u) * sizes.array()).all();
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
@@ -195,8 +193,8 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
     state.reduced = before + step;
     if (row_multipliers_.size()) correction = correct_with_conditions(state);
   }
-  const double size = largest(state.reduced);
-  correction.step = size > 0.0 ? largest(state.reduced - before) / size : 0.0;
+  const double size = largest_component(state.reduced);
+  correction.step = size > 0.0 ? largest_component(state.reduced - before) / size : 0.0;
   state.u = elimination_.transformation() * state.reduced + offset;
   return correction;
 }
@@ -248,7 +246,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   // The present multipliers balance the displacements: taking them back gives what those would be without any.
   const Eigen::VectorXd held = push_of_active();
   problem.excess = rows.rows * state.reduced - rows.bounds + held;
-  const double displacement = largest(state.reduced);
+  const double displacement = largest_component(state.reduced);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
   for (int row = 0; row < rows.rows.outerSize(); ++row)
     for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += displacement * std::abs(it.value());
@@ -267,8 +265,8 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   }
   row_multipliers_ = std::move(solution.multipliers);
   active_ = std::move(solution.active);
-  const double size = largest(row_multipliers_);
-  return size > 0.0 ? largest(change) / size : largest(change);
+  const double size = largest_component(row_multipliers_);
+  return size > 0.0 ? largest_component(change) / size : largest_component(change);
 }
 
 void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const {
@@ -293,7 +291,7 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
 }
 
 double NewtonSolver::pushed_back() {
-  return largest(push_of_active());
+  return largest_component(push_of_active());
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/line_search.hpp"
 
@@ -20,8 +21,6 @@ using Eigen::VectorXd;
 constexpr double no_influence = 1e-12;
 /// Intensities that differ by less than this share are one.
 constexpr double same_intensity = 1e-12;
-
-double largest(const VectorXd& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 }  // namespace
 
@@ -62,6 +61,7 @@ void PathFollowing::number_controlled() {
 int PathFollowing::solve(double time, double duration, const DrivenLoads& loads, VectorXd& q, VectorXd& u) {
   time_ = time;
   start_ = u;
+  variable_forces_ = assembler_.variable_forces(u);
   intensity_ = accepted_;
   ended_ = false;
   if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
@@ -74,10 +74,10 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
     if (options_.line_search && iteration > 1) shorten(time, wanted, loads, u, change);
     intensity_ = chosen(time, candidates(wanted, change, u), change, loads, u);
     u += change.constant + intensity_ * change.linear;
-    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = u[elimination_.kept()[static_cast<std::size_t>(i)]];
+    q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
-    const auto measure = criterion_.measure(largest(residual_), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
+    const auto measure = criterion_.measure(largest_component(residual_), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(time, iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -104,12 +104,12 @@ void PathFollowing::accept_step(const VectorXd& u) {
 
 /// With what the conditions on displacements move as a correction from where the nodes are.
 PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenLoads& loads, const VectorXd& q, const VectorXd& u) {
-  const TangentKind kind = iteration == 1 ? options_.tangent.prediction : options_.tangent.correction;
+  const TangentKind kind = iteration == 1 ? at_start(options_.tangent.prediction) : options_.tangent.correction;
   if (is_tangent_due(options_.tangent, tangent_, iteration, steps_)) tangent_.refresh(u, kind);
   const VectorXd moved = elimination_.transformation() * q + loads.fixed_offset - u;
   const auto& t = elimination_.transformation();
   Eigen::MatrixXd columns(elimination_.reduced_size(), 2);
-  columns.col(0) = t.transpose() * (loads.fixed - assembler_.internal_forces(u));
+  columns.col(0) = t.transpose() * (loads.fixed - (iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u)));
   columns.col(1) = t.transpose() * loads.driven;
   if (!moved.isZero(0.0)) columns.col(0) -= tangent_.reduced_forces(u, moved, kind);
   if (!loads.driven_offset.isZero(0.0)) columns.col(1) -= tangent_.reduced_forces(u, loads.driven_offset, kind);
@@ -122,11 +122,9 @@ void PathFollowing::shorten(double time, double wanted, const DrivenLoads& loads
   if (!loads.driven_offset.isZero(0.0))
     throw Error("unsupported", "a line search along the path needs driven loads that are forces, not imposed displacements", "leave out RECH_LINEAIRE");
   const Correction whole = change;
-  const auto direction = [&] {
-    VectorXd step(elimination_.reduced_size());
+  const auto direction = [&]() -> VectorXd {
     const VectorXd full = whole.constant + intensity_ * whole.linear;
-    for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = full[elimination_.kept()[static_cast<std::size_t>(i)]];
-    return step;
+    return full(elimination_.kept());
   };
   const auto work = [&](double share) {
     change = {share * whole.constant, share * whole.linear};
@@ -167,7 +165,7 @@ VectorXd PathFollowing::motions(VectorXd u) const {
 
 std::vector<double> PathFollowing::by_displacement(double wanted, const VectorXd& constant, const VectorXd& linear) const {
   const double slope = controlled(linear).sum();
-  if (!(std::abs(slope) > no_influence * largest(motions(linear)))) return {};
+  if (!(std::abs(slope) > no_influence * largest_component(motions(linear)))) return {};
   return {(wanted - controlled(constant).sum()) / slope};
 }
 
@@ -177,7 +175,7 @@ std::vector<double> PathFollowing::by_arc_length(double wanted, const VectorXd& 
   const VectorXd b = controlled(linear);
   const auto count = static_cast<double>(controlled_nodes_);
   const double square = b.squaredNorm();
-  if (!(std::sqrt(square) > no_influence * largest(motions(linear)))) return {};
+  if (!(std::sqrt(square) > no_influence * largest_component(motions(linear)))) return {};
   const double middle = -a.dot(b) / square;
   const double apart = middle * middle - (a.squaredNorm() - count * wanted * wanted) / square;
   if (apart < 0.0) return {};
@@ -210,7 +208,7 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
       return -increment.dot(last_step_) / std::max(increment.norm(), std::numeric_limits<double>::min());
     if (control_.choice != PathChoice::smallest_residual) return increment.norm();
     evaluate(intensity, loads, u + change.constant + intensity * change.linear);
-    return largest(residual_);
+    return largest_component(residual_);
   };
   double best = admitted.back();
   double least = cost(best);
@@ -227,9 +225,9 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
 
 void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const VectorXd& u) {
   const VectorXd forces = loads.fixed + intensity * loads.driven;
-  const VectorXd unbalanced = forces - assembler_.internal_forces(u);
-  residual_ = elimination_.transformation().transpose() * unbalanced;
-  load_ = std::max(largest(forces), largest(unbalanced));
+  const VectorXd internal = assembler_.internal_forces(u);
+  residual_ = elimination_.transformation().transpose() * (forces - internal);
+  load_ = load_size(forces, internal, variable_forces_);
 }
 
 IterationReport PathFollowing::report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const {

@@ -91,6 +91,7 @@ class PathFollowing {
   double intensity_ = 0.0;
   double accepted_ = 0.0;      ///< intensity of the last accepted step
   Eigen::VectorXd start_;      ///< u where the step begins
+  Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push in this step
   Eigen::VectorXd last_step_;  ///< increment of the last accepted step; empty before it
   Eigen::VectorXd residual_;   ///< reduced
   double load_ = 0.0;

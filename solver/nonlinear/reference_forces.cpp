@@ -130,8 +130,7 @@ void ReferenceForces::renumber(const Elimination& elimination) {
   kinds_.clear();
   for (const int dof : elimination.kept()) kinds_.push_back(static_cast<int>(dofs_.component_of(dof)));
   if (all_.size() == 0) return;
-  reduced_.resize(elimination.reduced_size());
-  for (Eigen::Index i = 0; i < reduced_.size(); ++i) reduced_[i] = all_[elimination.kept()[static_cast<std::size_t>(i)]];
+  reduced_ = all_(elimination.kept());
 }
 
 double ReferenceForces::share(const VectorXd& residual) const {

@@ -63,6 +63,9 @@ enum class TangentKind : std::uint8_t {
   elastic    ///< as if it could only answer elastically
 };
 
+/// Which one the first iteration takes, nothing having moved yet.
+constexpr TangentKind at_start(TangentKind prediction) { return prediction == TangentKind::tangent ? TangentKind::starting : prediction; }
+
 /// When the stiffness of nonlinear bodies is made again, and which one (U4.51.03, NEWTON). It changes the way to the solution alone.
 struct TangentPolicy {
   TangentKind prediction = TangentKind::tangent;  ///< of the first iteration of a step

@@ -8,6 +8,7 @@
 #include "solver/constraints/rigid_motion.hpp"
 #include "solver/constraints/solid_unknowns.hpp"
 #include "solver/error.hpp"
+#include "solver/linear/largest_component.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace comma::solver {
@@ -111,7 +112,7 @@ SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u) const {
 bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& reduced) {
   if (!may_add_springs_ || report.null_rows.empty()) return false;
   const Eigen::VectorXd diagonal = reduced.diagonal();
-  const double otherwise = diagonal.size() ? diagonal.cwiseAbs().maxCoeff() : 0.0;
+  const double otherwise = largest_component(diagonal);
   for (const int row : report.null_rows) {
     const double own = diagonal[row];
     springs_.emplace_back(row, own > 0.0 ? own : otherwise);

@@ -1,4 +1,5 @@
 #include "solver/unilateral/active_set.hpp"
+#include "solver/linear/largest_component.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -232,7 +233,7 @@ class ActiveSetSolver {
   std::pair<double, int> longest_step(const Eigen::VectorXd& direction) const {
     double step = infinite;
     int leaving = -1;
-    const double threshold = dependence_tolerance * (direction.size() ? direction.cwiseAbs().maxCoeff() : 0.0);
+    const double threshold = dependence_tolerance * largest_component(direction);
     for (Eigen::Index i = 0; i < direction.size(); ++i) {
       if (direction[i] <= threshold) continue;
       const double ratio = std::max(0.0, multipliers_[i]) / direction[i];
