@@ -4,6 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/field_extraction.hpp"
+#include "commands/field_reading.hpp"
 #include "commands/field_types.hpp"
 #include "commands/input_field_reading.hpp"
 #include "commands/result_reading.hpp"
@@ -124,27 +125,29 @@ const std::vector<std::string>& components_of(const solver::Field& field) {
   return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
 }
 
-solver::FieldPiece piece_of(const Keywords& occurrence) {
+solver::FieldPiece piece_of(const Keywords& occurrence, interpreter::Diagnostics& diagnostics) {
   solver::FieldPiece piece;
   piece.field = &number_field(occurrence.concept_of("CHAM_GD"), occurrence, "CHAM_GD").field;
-  piece.from = occurrence.given("NOM_CMP") ? occurrence.texts("NOM_CMP") : components_of(*piece.field);
-  piece.to = occurrence.given("NOM_CMP_RESU") ? occurrence.texts("NOM_CMP_RESU") : piece.from;
+  const std::vector<std::string>& all = components_of(*piece.field);
+  const bool renames = occurrence.given("NOM_CMP_RESU");
+  piece.from = !occurrence.given("NOM_CMP") ? all : renames ? occurrence.texts("NOM_CMP") : known_components(occurrence, all, diagnostics);
+  piece.to = renames ? occurrence.texts("NOM_CMP_RESU") : piece.from;
   if (piece.from.size() != piece.to.size()) {
     throw DiagnosticError("wrong-count", fmt::format("CREA_CHAMP: {} components become {}", piece.from.size(), piece.to.size()),
                           occurrence.span_of("NOM_CMP_RESU"), "give as many names in NOM_CMP_RESU as in NOM_CMP");
   }
-  for (const std::string& name : piece.from) component_of(occurrence, components_of(*piece.field), name);
+  for (const std::string& name : piece.from) component_of(occurrence, all, name);
   piece.factor = occurrence.real("COEF_R");
   piece.adds = occurrence.text("CUMUL") == "OUI";
   return piece;
 }
 
-FieldPtr from_pieces(const Call& call, const FieldType& type) {
+FieldPtr from_pieces(const Call& call, const FieldType& type, interpreter::Diagnostics& diagnostics) {
   FieldPtr product = on_support(call);
   std::vector<solver::FieldPiece> pieces;
   std::vector<std::string> components;
   for (const Keywords& occurrence : call.factors("ASSE")) {
-    pieces.push_back(piece_of(occurrence));
+    pieces.push_back(piece_of(occurrence, diagnostics));
     const char* keyword = occurrence.given("NOM_CMP_RESU") ? "NOM_CMP_RESU" : occurrence.given("NOM_CMP") ? "NOM_CMP" : "CHAM_GD";
     for (const std::string& name : pieces.back().to) {
       check_component(occurrence, keyword, type, name);
@@ -235,10 +238,10 @@ FieldPtr extracted(const Call& call, const FieldType& type) {
   return call.has("CHARGE") ? field_of_load(call) : of_mesh(call);
 }
 
-FieldPtr made_by(const Call& call, const FieldType& type) {
+FieldPtr made_by(const Call& call, const FieldType& type, Context& context) {
   const std::string& operation = call.text("OPERATION");
   if (operation == "AFFE") return from_values(call, type);
-  if (operation == "ASSE") return from_pieces(call, type);
+  if (operation == "ASSE") return from_pieces(call, type, context.diagnostics);
   if (operation == "COMB") return from_terms(call);
   if (operation == "EVAL") return from_functions(call, type);
   if (operation == "NORMALE") return of_normals(call);
@@ -247,9 +250,9 @@ FieldPtr made_by(const Call& call, const FieldType& type) {
 
 }  // namespace
 
-Product crea_champ(const Call& call, Context&) {
+Product crea_champ(const Call& call, Context& context) {
   const FieldType type = field_type(call.text("TYPE_CHAM"));
-  FieldPtr product = made_by(call, type);
+  FieldPtr product = made_by(call, type, context);
   if (!lies_at(product->field, type.place)) {
     throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says",
                                                     describe(place_of(product->field)), describe(type.place)),

@@ -122,9 +122,12 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
 }
 
 // One row a node, or a point of a cell, that carries any of the components (U4.33.02).
-void add_field(Table& table, const Keywords& source) {
+void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
   for (const FieldSource& from : field_sources(source)) {
-    const auto components = chosen_components(source, components_of(from.field));
+    const std::vector<std::string>& all = components_of(from.field);
+    std::vector<int> components;
+    if (!source.given("NOM_CMP")) components = chosen_components(source, all);
+    else for (const std::string& name : known_components(source, all, diagnostics)) components.push_back(component_of(source, all, name));
     if (std::holds_alternative<solver::NodalField>(from.field)) {
       add_nodes(table, source, from, components);
     } else {
@@ -135,11 +138,11 @@ void add_field(Table& table, const Keywords& source) {
 
 }  // namespace
 
-Product crea_table(const Call& call, Context&) {
+Product crea_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   for (const Keywords& list : call.factors("LISTE")) add_list(product->table, list);
   for (const Keywords& source : call.factors("FONCTION")) add_function(product->table, source);
-  for (const Keywords& source : call.factors("RESU")) add_field(product->table, source);
+  for (const Keywords& source : call.factors("RESU")) add_field(product->table, source, context.diagnostics);
   if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
   return product;
 }

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "commands/field_types.hpp"
-#include "interpreter/diagnostic.hpp"
 #include "solver/fields/extrapolation.hpp"
 
 namespace comma::commands {
@@ -68,6 +68,19 @@ std::vector<int> chosen_components(const Keywords& keywords, const std::vector<s
   chosen.resize(components.size());
   std::iota(chosen.begin(), chosen.end(), 0);
   return chosen;
+}
+
+std::vector<std::string> known_components(const Keywords& keywords, const std::vector<std::string>& components, interpreter::Diagnostics& diagnostics) {
+  const auto is_variable = [](const std::string& name) { return name.size() > 1 && name[0] == 'V' && std::ranges::all_of(name.substr(1), [](char c) { return c >= '0' && c <= '9'; }); };
+  const bool of_variables = std::ranges::all_of(components, is_variable);
+  std::vector<std::string> known, missing;
+  for (const std::string& name : keywords.texts("NOM_CMP")) (std::ranges::count(components, name) != 0 ? known : missing).push_back(name);
+  for (const std::string& name : missing)
+    if (known.empty() || !of_variables || !is_variable(name)) component_of(keywords, components, name);
+  if (!missing.empty())
+    diagnostics.alarm("unknown-component", fmt::format("no law there has {}: left out", fmt::join(missing, ", ")), keywords.span_of("NOM_CMP"),
+                      fmt::format("the field has {}", fmt::join(components, ", ")));
+  return known;
 }
 
 }  // namespace comma::commands
