@@ -122,7 +122,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces(state.u);
   if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
-  measure(state, external, assembler_.starting_forces(state.u));
+  measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
@@ -158,14 +158,18 @@ TangentKind NewtonSolver::kind_of(int iteration) const {
   return at_start(prediction_);
 }
 
-void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) { measure(state, external, assembler_.internal_forces(state.u)); }
+/// With those that follow.
+Eigen::VectorXd NewtonSolver::loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const {
+  return followers_ ? Eigen::VectorXd(external + followers_->at(u)) : external;
+}
+
+void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
+  measure(loads_at(state.u, external), assembler_.internal_forces(state.u));
+}
 
 /// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables included.
-void NewtonSolver::measure(const NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& internal) {
-  Eigen::VectorXd loads = external;
-  if (followers_) loads += followers_->at(state.u);
-  const Eigen::VectorXd unbalanced = loads - internal;
-  residual_ = elimination_.transformation().transpose() * unbalanced;
+void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
+  residual_ = elimination_.transformation().transpose() * (loads - internal);
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
   load_ = load_size(loads, internal, variable_forces_);
@@ -206,19 +210,22 @@ bool NewtonSolver::searches(int iteration) const {
   return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
 }
 
-/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there.
+/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there. While the line is
+/// searched, loads that follow stay as they were (R5.03.01; ssnv122b tells).
 void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
   const Eigen::VectorXd step = state.reduced - before;
   const auto go = [&](double rho) {
     state.reduced = before + rho * step;
     state.u = elimination_.transformation() * state.reduced + offset;
   };
+  const double start = step.dot(residual_);
+  go(0.0);
+  const Eigen::VectorXd held = loads_at(state.u, external);
   const auto work = [&](double rho) {
     go(rho);
-    evaluate(state, external);
+    measure(held, assembler_.internal_forces(state.u));
     return step.dot(residual_);
   };
-  const double start = step.dot(residual_);
   const double reached = search_line(*options_.line_search, start, work);
   go(reached);
   evaluate(state, external);

@@ -110,7 +110,8 @@ class NewtonSolver {
   ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);
   ActiveSetSolution solve_by_gradients(const ActiveSetProblem& problem);
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
-  void measure(const NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& internal);
+  Eigen::VectorXd loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const;
+  void measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal);
   bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   std::optional<double> penetration(const NewtonState& state) const;

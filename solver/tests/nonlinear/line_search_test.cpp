@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "scene.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/line_search.hpp"
 
 using namespace comma::solver;
+using comma::solver::testing::Scene;
 
 TEST_CASE("the line search leaves a full step that is good enough, and finds where work vanishes") {
   LineSearch options;
@@ -31,4 +33,27 @@ TEST_CASE("the line search keeps to its bounds and comes back from where the law
   });
   CHECK(rho == Approx(0.5));
   CHECK_THROWS_WITH(search_line(options, 1.0, [](double) -> double { throw Error("integration-failure", "nowhere"); }), "nowhere");
+}
+
+TEST_CASE("while a line is searched, loads that follow stay as they were: the solution is the same, and the way to it longer") {
+  // A block is drawn by a traction that turns and grows with its upper side.
+  const auto solve = [](std::optional<LineSearch> search) {
+    Scene scene;
+    const Scene::Block block = scene.block("b", {0, 0}, {3, 0.6}, 6, 2, 1000.0, 0.3);
+    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::green_lagrange, Relation::elastic});
+    for (const Component component : {Component::dx, Component::dy}) scene.impose(block.nodes.front(), component, 0.0);
+    auto traction = std::make_shared<Load>();
+    for (const int cell : block.top) traction->pressures.push_back({cell, -600.0, 0.0, {}, {}});
+    scene.problem.followers.push_back({traction, {}});
+    NewtonOptions options;
+    options.relative_residual = 1e-10;
+    options.max_iterations = 60;
+    options.line_search = search;
+    scene.solve(1, options);
+    return std::pair(scene.displacement(block.nodes.back().back(), Component::dy), scene.counters.newton_iterations);
+  };
+  const auto [lifted, few] = solve(std::nullopt);
+  const auto [searched, many] = solve(LineSearch{.tolerance = 1e-6, .max_iterations = 10});
+  CHECK(searched == Approx(lifted).epsilon(1e-8));
+  CHECK(many > few + 3);
 }
