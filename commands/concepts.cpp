@@ -36,6 +36,11 @@ Value TableConcept::subscript(const Value& key) const {
       table.rows[row - 1][column]);
 }
 
+Value ListConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if ((name == "Valeurs" || name == "getValues") && arguments.empty() && keywords.empty()) return list_of(values);
+  return ConceptData::method(name, arguments, keywords);
+}
+
 Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return extracted_table(table);
   return ConceptData::method(name, arguments, keywords);

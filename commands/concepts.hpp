@@ -56,6 +56,8 @@ struct LoadConcept : ConceptData {
 
 struct ListConcept : ConceptData {
   std::vector<double> values;
+  /// Valeurs() and getValues(): the numbers as a list.
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
 /// Instants with rules on how steps are cut and adapted.

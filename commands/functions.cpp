@@ -63,6 +63,17 @@ double weight(solver::Scale scale, double lower, double upper, double at) {
 
 }  // namespace
 
+Value list_of(std::span<const double> values) { return Value::list(std::vector<Value>(values.begin(), values.end())); }
+
+Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if (table() != nullptr && arguments.empty() && keywords.empty()) {
+    if (name == "Absc") return list_of(table()->x);
+    if (name == "Ordo") return list_of(table()->y);
+    if (name == "Valeurs") return Value::list({list_of(table()->x), list_of(table()->y)});
+  }
+  return ConceptData::method(name, arguments, keywords);
+}
+
 Value FunctionConcept::call(const std::vector<Value>& arguments) const {
   try {
     return ConceptData::call(arguments);

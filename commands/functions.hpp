@@ -19,6 +19,9 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
+  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02).
+  interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
+                            const std::map<std::string, interpreter::Value>& keywords) const override;
   /// The table behind it, or null when it has none.
   virtual const solver::TabulatedFunction* table() const { return nullptr; }
 };
@@ -79,6 +82,9 @@ class SurfaceConcept : public FunctionConcept {
   std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows_;
   std::vector<std::string> parameters_;
 };
+
+/// Numbers as a list of the language.
+interpreter::Value list_of(std::span<const double> values);
 
 /// The function of time behind a concept. Throws DiagnosticError `unknown-parameter` at `span` when it depends on anything
 /// but INST, naming it. The function keeps the concept's data alive.
