@@ -121,13 +121,17 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
   }
 }
 
+std::vector<int> known_indices(const Keywords& source, const std::vector<std::string>& all, interpreter::Diagnostics& diagnostics) {
+  std::vector<int> indices;
+  for (const std::string& name : known_components(source, all, diagnostics)) indices.push_back(component_of(source, all, name));
+  return indices;
+}
+
 // One row a node, or a point of a cell, that carries any of the components (U4.33.02).
 void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
   for (const FieldSource& from : field_sources(source)) {
     const std::vector<std::string>& all = components_of(from.field);
-    std::vector<int> components;
-    if (!source.given("NOM_CMP")) components = chosen_components(source, all);
-    else for (const std::string& name : known_components(source, all, diagnostics)) components.push_back(component_of(source, all, name));
+    const std::vector<int> components = source.given("NOM_CMP") ? known_indices(source, all, diagnostics) : chosen_components(source, all);
     if (std::holds_alternative<solver::NodalField>(from.field)) {
       add_nodes(table, source, from, components);
     } else {
