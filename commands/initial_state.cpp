@@ -47,6 +47,12 @@ const solver::ResultStep& step_of_order(const Keywords& keywords, const char* ke
                         keywords.span_of(keyword), steps.empty() ? "" : fmt::format("it has those from {} to {}", steps.front().order, steps.back().order));
 }
 
+// What a path that goes on from there needs to know of it.
+void take_path(const solver::Result& result, const solver::ResultStep& step, solver::InitialState& state) {
+  if (const auto intensity = step.parameters.find("ETA_PILOTAGE"); intensity != step.parameters.end()) state.intensity = intensity->second;
+  if (&step != &result.steps.front()) take_held(*(&step - 1), "DEPL", state.earlier);
+}
+
 // Stresses and variables live at Gauss points.
 void bring_to_points(const interpreter::Call& call, std::optional<solver::ElementField>& field) {
   if (!field || field->support == solver::Support::gauss_point) return;
@@ -65,6 +71,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     take_held(step, "DEPL", state->displacement);
     take_held(step, "SIEF_ELGA", state->stresses);
     take_held(step, "VARI_ELGA", state->variables);
+    take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
     choice.instant = step.instant;
     choice.order = step.order;
   }

@@ -207,8 +207,7 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
     if (control_.choice == PathChoice::smallest_angle && last_step_.size() && !last_step_.isZero(0.0))
       return -increment.dot(last_step_) / std::max(increment.norm(), std::numeric_limits<double>::min());
     if (control_.choice != PathChoice::smallest_residual) return increment.norm();
-    evaluate(intensity, loads, u + change.constant + intensity * change.linear);
-    return largest_component(residual_);
+    return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
   };
   double best = admitted.back();
   double least = cost(best);
@@ -221,6 +220,17 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
   }
   if (takes_other_ && admitted.size() == 2) return admitted[admitted[0] == best ? 1 : 0];
   return best;
+}
+
+/// Where the body cannot be, no residual is larger.
+double PathFollowing::residual_or_infinity(double intensity, const DrivenLoads& loads, const VectorXd& u) {
+  try {
+    evaluate(intensity, loads, u);
+    return largest_component(residual_);
+  } catch (const Error& error) {
+    if (error.code() != "integration-failure") throw;
+    return std::numeric_limits<double>::infinity();
+  }
 }
 
 void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const VectorXd& u) {

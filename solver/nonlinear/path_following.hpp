@@ -68,6 +68,7 @@ class PathFollowing {
   Eigen::VectorXd motions(Eigen::VectorXd u) const;
   double chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
   double bounded(double intensity) const;
+  double residual_or_infinity(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
   void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
   IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const;
 

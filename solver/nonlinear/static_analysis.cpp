@@ -95,7 +95,7 @@ class StaticAnalysis {
       if (path_ && path_->has_ended()) return;
       if (unstable && plan.stops_when_unstable)
         throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
-                    "the steps up to there are kept; ACTION='CONTINUE' goes on");
+                    "with reuse= the steps up to there are kept; ACTION='CONTINUE' goes on");
     }
     if (passed_master_) passed_master_->conclude(doubts_);
   }
@@ -366,7 +366,7 @@ class StaticAnalysis {
     now_.state.reduced = now_.state.u(elimination_.kept());
     assembler_.set_time(instant);
     resume();
-    go_on_with_intensity();
+    go_on_with_path();
     if (!result_.steps.empty()) return;
     result_.model = problem_.model;
     ResultStep step;
@@ -375,7 +375,7 @@ class StaticAnalysis {
     step.fields.emplace("SIEF_ELGA", initial_stresses());
     add_internal_variables(step);
     step.parameters["ITER_GLOB"] = 0.0;
-    if (path_) step.parameters["ETA_PILOTAGE"] = 0.0;
+    if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
     if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
     add_patch_state(step);
     append(std::move(step));
@@ -393,16 +393,13 @@ class StaticAnalysis {
     return u;
   }
 
-  /// That of the last step, where the result goes on from one that had it.
-  void go_on_with_intensity() {
-    if (!path_ || result_.steps.empty()) return;
-    const auto& parameters = result_.steps.back().parameters;
-    if (const auto known = parameters.find("ETA_PILOTAGE"); known != parameters.end()) path_->set_intensity(known->second);
-    if (result_.steps.size() < 2) return;
-    const auto before = result_.steps[result_.steps.size() - 2].fields.find("DEPL");
-    if (before == result_.steps[result_.steps.size() - 2].fields.end()) return;
+  /// A path that goes on has an intensity and a direction.
+  void go_on_with_path() {
+    if (!path_ || !problem_.initial) return;
+    if (problem_.initial->intensity) path_->set_intensity(*problem_.initial->intensity);
+    if (!problem_.initial->earlier) return;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
-    take_displacements(std::get<NodalField>(before->second), dofs_, u);
+    take_displacements(*problem_.initial->earlier, dofs_, u);
     path_->set_direction(now_.state.u - u);
   }
 

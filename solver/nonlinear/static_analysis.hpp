@@ -41,6 +41,8 @@ struct InitialState {
   std::optional<ElementField> stresses;   ///< as SIEF_ELGA
   std::optional<ElementField> variables;  ///< as VARI_ELGA
   std::optional<NodalField> differential_reference;  ///< from which differential loads count; absent: from `displacement`
+  std::optional<NodalField> earlier;  ///< the displacement a step before, which gives a path its direction
+  std::optional<double> intensity;    ///< of driven loads; absent: 0
 };
 
 struct StaticProblem {
