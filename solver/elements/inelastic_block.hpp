@@ -47,18 +47,14 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
-      return respond(element, g, x, gradient, state, &PointLaw::respond).stress;
-    });
+    add_law_forces(u, state, forces, &PointLaw::respond);
   }
 
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
-      return respond(element, g, x, gradient, state, &PointLaw::begin).stress;
-    });
+    add_law_forces(u, state, forces, &PointLaw::begin);
   }
   void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
@@ -284,6 +280,10 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     }
     if constexpr (Axisymmetric) result(2, 0) = f(2, 2) * this->samples_[g].values(a) / point.radius;
     return result;
+  }
+
+  void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) { return respond(element, g, x, gradient, state, how).stress; });
   }
 
   /// `stress_at`(element, g, coordinates, H): the stress whose work on the strain is that of the forces.
