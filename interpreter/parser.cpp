@@ -53,11 +53,12 @@ bool is_compound_word(std::string_view word) {
   return word == "if" || word == "for" || word == "else";
 }
 
-/// A comprehension, too, has `for` and `if` at the start of a line; only a header ends its line with a colon.
-bool line_ends_with_colon(std::string_view text) {
+/// Whether a line that begins with `for` or `if` is the head of a block, which ends with its colon or with a bracket that goes on, and not a part of a
+/// comprehension.
+bool ends_as_head(std::string_view text) {
   const std::string_view line = text.substr(0, text.find_first_of("\r\n#"));
   const std::size_t last = line.find_last_not_of(" \t");
-  return last != std::string_view::npos && line[last] == ':';
+  return last != std::string_view::npos && std::string_view(":([{").find(line[last]) != std::string_view::npos;
 }
 
 std::string_view closing_of(std::string_view opening) {
@@ -236,7 +237,7 @@ bool Parser::starts_statement(const Token& token) const {
   const std::string_view rest = file_->text().substr(token.begin);
   if (token.kind == TokenKind::keyword) {
     const bool only_there = std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
-    return only_there || (is_compound_word(token.text) && line_ends_with_colon(rest));
+    return only_there || (is_compound_word(token.text) && ends_as_head(rest));
   }
   if (token.kind != TokenKind::name) return false;
   if (looks_like_command(rest)) return true;

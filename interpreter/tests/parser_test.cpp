@@ -37,6 +37,7 @@ TEST_CASE("One mistake makes one error, at its place", "[parser]") {
        "unclosed-bracket 1:19"},
       {"x = (1, 2\n", "unclosed-bracket 1:5"},
       {"x = [1, 2\ndef f():\n    return 1\n", "unclosed-bracket 1:5"},
+      {"x = LIST(VALE=(1, 2)\nfor each, other in (\n    (1, 2),\n    (3, 4),\n):\n    f(each)\n", "unclosed-bracket 1:9"},
       {"A(B=1 C=2)\n", "missing-comma 1:7"},
       {"A(B=1, B=2)\n", "repeated-keyword 1:8"},
       {"x = (1]\n", "unmatched-bracket 1:7"},
