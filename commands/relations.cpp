@@ -244,11 +244,11 @@ Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const
   return solver::shell_embedding_relations(target.mesh, target.dofs, embeddings, origin);
 }
 
-// ELIM_MULT='OUI': a node that an earlier occurrence has glued stays as it is.
+// A node that an earlier occurrence has glued stays as it is, unless ELIM_MULT='OUI' lets it be eliminated several times.
 void add_glued_nodes(const Keywords& call, const LoadedModel& target, Relations& relations) {
   std::set<int> glued;
   for (const Keywords& occurrence : call.factors("LIAISON_MAIL")) {
-    const Relations found = glued_nodes(occurrence, target, occurrence.text("ELIM_MULT") == "OUI" ? glued : std::set<int>(), origin_of(occurrence, "LIAISON_MAIL"));
+    const Relations found = glued_nodes(occurrence, target, occurrence.text("ELIM_MULT") == "OUI" ? std::set<int>() : glued, origin_of(occurrence, "LIAISON_MAIL"));
     for (const auto& relation : found) glued.insert(relation.terms.front().node);
     append(relations, found);
   }
