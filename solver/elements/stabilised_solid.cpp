@@ -50,7 +50,7 @@ class Stabilised : public Base {
   }
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     Base::add_internal_forces(u, state, forces);
-    for (int element = 0; element < this->map_.element_count(); ++element) spread(element, pattern_forces(element, u, state), forces);
+    add_pattern_forces(u, state, forces);
   }
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> shown, ForceSum forces) const override {
     if (shown.empty()) return add_internal_forces(u, state, forces);
@@ -99,6 +99,9 @@ class Stabilised : public Base {
       this->map_.add(element, k.data(), column_starts, values);
     }
   }
+  void add_pattern_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
+    for (int element = 0; element < this->map_.element_count(); ++element) spread(element, pattern_forces(element, u, state), forces);
+  }
 
  private:
   void spread(int element, const PatternForces& patterns, ForceSum forces) const {
@@ -138,6 +141,14 @@ class StabilisedInelastic final : public Stabilised<InelasticBlock<3, 8, false>>
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     InelasticBlock::add_elastic_stiffness(u, state, column_starts, values);
     add_pattern_stiffness(u, state, column_starts, values);
+  }
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    InelasticBlock::add_starting_stiffness(u, state, column_starts, values);
+    add_pattern_stiffness(u, state, column_starts, values);
+  }
+  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    InelasticBlock::add_starting_forces(u, state, forces);
+    add_pattern_forces(u, state, forces);
   }
   bool is_elastically_linear() const override { return false; }
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {

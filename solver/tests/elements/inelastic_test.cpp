@@ -109,6 +109,18 @@ TEST_CASE("a trial leaves no trace until it is accepted") {
   CHECK(body.assembler->internal_forces(u) == before);
 }
 
+TEST_CASE("where no command variable has changed a step starts with the tangent and the forces of where it is") {
+  const auto [type, formulation] = GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::hexa8, Formulation::solid_reduced},
+                                            std::pair{CellType::tetra10, Formulation::solid_reduced}, std::pair{CellType::tria6, Formulation::plane_stress},
+                                            std::pair{CellType::quad8, Formulation::axisymmetric_reduced});
+  const Flowed body(type, formulation, {Kinematics::small, Relation::isotropic_linear});
+  const Eigen::VectorXd u = body.rough(0.03);
+  const Eigen::VectorXd forces = body.assembler->internal_forces(u);
+  CHECK((body.assembler->starting_forces(u) - forces).norm() <= 1e-14 * forces.norm());
+  const Eigen::MatrixXd tangent = body.assembler->stiffness(u), starting = body.assembler->starting_stiffness(u);
+  CHECK((starting - tangent).norm() <= 1e-14 * tangent.norm());
+}
+
 TEST_CASE("a turned body keeps its stresses in its own axes") {
   const Kinematics kinematics = GENERATE(Kinematics::logarithmic, Kinematics::multiplicative);
   Flowed body(CellType::hexa8, Formulation::solid, {kinematics, Relation::isotropic_linear});
