@@ -203,8 +203,22 @@ void ElementBlock::add_geometric_stiffness(const Eigen::VectorXd&, const Variabl
 }
 
 struct Assembler::Blocks {
+  using StiffnessTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const;
+  using ForceTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, ForceSum) const;
+
   SparsePattern pattern;
   std::vector<std::unique_ptr<ElementBlock>> list;
+
+  SymmetricMatrix sum(StiffnessTerm add, const Eigen::VectorXd& u, const VariableState& state) const {
+    SymmetricMatrix matrix = pattern.zero_matrix();
+    for (const auto& block : list) ((*block).*add)(u, state, pattern.column_starts(), matrix.valuePtr());
+    return matrix;
+  }
+  Eigen::VectorXd sum(ForceTerm add, const Eigen::VectorXd& u, const VariableState& state) const {
+    std::vector<long double> sums(static_cast<std::size_t>(u.size()), 0.0L);
+    for (const auto& block : list) ((*block).*add)(u, state, sums);
+    return rounded(sums);
+  }
 };
 
 Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
@@ -224,23 +238,11 @@ void Assembler::set_time(double time) {
   if (!constant) ++version_;
 }
 
-SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
-  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
-  for (const auto& block : blocks_->list) block->add_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
-  return matrix;
-}
+SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_stiffness, u, state_); }
 
-SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
-  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
-  for (const auto& block : blocks_->list) block->add_elastic_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
-  return matrix;
-}
+SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_); }
 
-SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const {
-  SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
-  for (const auto& block : blocks_->list) block->add_starting_stiffness(u, state_, blocks_->pattern.column_starts(), matrix.valuePtr());
-  return matrix;
-}
+SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_stiffness, u, state_); }
 
 SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
@@ -277,10 +279,12 @@ SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
   return matrix;
 }
 
-Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
-  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& block : blocks_->list) block->add_internal_forces(u, state_, sums);
-  return rounded(sums);
+Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_internal_forces, u, state_); }
+
+Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_forces, u, state_); }
+
+Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
+  return state_.empty() ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
 }
 
 Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
@@ -351,19 +355,6 @@ ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const Element
     write_block(*block, field.components, values, field);
   }
   return field;
-}
-
-Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
-  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& block : blocks_->list) block->add_starting_forces(u, state_, sums);
-  return rounded(sums);
-}
-
-Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
-  if (state_.empty()) return {};
-  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& block : blocks_->list) block->add_variable_forces(u, state_, sums);
-  return rounded(sums);
 }
 
 Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, double time) const {
