@@ -6,6 +6,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/fields/row_functions.hpp"
 
@@ -49,7 +50,7 @@ std::vector<solver::RowFunction> row_functions(const Keywords& occurrence, const
 }
 
 solver::Field own_field(const Keywords& occurrence, const solver::Field& source) {
-  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, source);
+  const auto& components = solver::components_of(source);
   try {
     return solver::made_of_rows(source, row_functions(occurrence, components));
   } catch (const solver::Error& error) {

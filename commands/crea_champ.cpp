@@ -121,14 +121,10 @@ FieldPtr from_values(const Call& call, const FieldType& type) {
   return product;
 }
 
-const std::vector<std::string>& components_of(const solver::Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-}
-
 solver::FieldPiece piece_of(const Keywords& occurrence, interpreter::Diagnostics& diagnostics) {
   solver::FieldPiece piece;
   piece.field = &number_field(occurrence.concept_of("CHAM_GD"), occurrence, "CHAM_GD").field;
-  const std::vector<std::string>& all = components_of(*piece.field);
+  const std::vector<std::string>& all = solver::components_of(*piece.field);
   const bool renames = occurrence.given("NOM_CMP_RESU");
   piece.from = !occurrence.given("NOM_CMP") ? all : renames ? occurrence.texts("NOM_CMP") : known_components(occurrence, all, diagnostics);
   piece.to = renames ? occurrence.texts("NOM_CMP_RESU") : piece.from;

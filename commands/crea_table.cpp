@@ -59,10 +59,6 @@ void add_function(Table& table, const Keywords& source) {
 
 using Row = std::vector<std::pair<std::string, Cell>>;
 
-const std::vector<std::string>& components_of(const solver::Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-}
-
 // One row for values that are not all absent.
 template <class ValueAt>
 void add_values(Table& table, Row row, const solver::Field& field, const std::vector<int>& components, ValueAt value_at) {
@@ -70,7 +66,7 @@ void add_values(Table& table, Row row, const solver::Field& field, const std::ve
   for (const int component : components) {
     const double value = value_at(component);
     carried |= !std::isnan(value);
-    row.emplace_back(components_of(field)[static_cast<std::size_t>(component)], std::isnan(value) ? Cell() : Cell(value));
+    row.emplace_back(solver::components_of(field)[static_cast<std::size_t>(component)], std::isnan(value) ? Cell() : Cell(value));
   }
   if (carried) table.add_row(row);
 }
@@ -130,7 +126,7 @@ std::vector<int> known_indices(const Keywords& source, const std::vector<std::st
 // One row a node, or a point of a cell, that carries any of the components (U4.33.02).
 void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
   for (const FieldSource& from : field_sources(source)) {
-    const std::vector<std::string>& all = components_of(from.field);
+    const std::vector<std::string>& all = solver::components_of(from.field);
     const std::vector<int> components = source.given("NOM_CMP") ? known_indices(source, all, diagnostics) : chosen_components(source, all);
     if (std::holds_alternative<solver::NodalField>(from.field)) {
       add_nodes(table, source, from, components);

@@ -9,6 +9,7 @@
 #include "commands/selection.hpp"
 #include "commands/text_listing.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/gmsh_writer.hpp"
 #include "solver/io/med_file.hpp"
@@ -41,7 +42,7 @@ struct Part {
 // Only the components of NOM_CMP that the field has; false if it has none of them.
 bool choose_components(const Keywords& print, solver::Field& field) {
   if (!print.given("NOM_CMP")) return true;
-  const auto& known = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+  const auto& known = solver::components_of(field);
   std::vector<int> chosen;
   for (const std::string& name : print.texts("NOM_CMP")) {
     const auto found = std::ranges::find(known, name);
@@ -241,7 +242,7 @@ std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {
 void add_views(const Keywords& print, const Part& part, std::vector<solver::GmshView>& views) {
   for (const solver::ResultStep& step : part.result.steps) {
     for (const auto& [name, field] : step.fields) {
-      const auto& components = std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
+      const auto& components = solver::components_of(field);
       const std::string label = name.empty() ? part.name : part.name + " " + name;
       if (print.text("TYPE_CHAM") != "SCALAIRE") {
         views.push_back({label, step.instant, step.order, &field, gmsh_layout(print, components.size())});

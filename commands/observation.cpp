@@ -15,6 +15,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
@@ -91,7 +92,7 @@ solver::Field formula_of(const Keywords& keywords, const solver::Field& held) {
   if (!keywords.has("FORMULE")) throw DiagnosticError("missing-keyword", "OBSERVATION: EVAL_CMP='FORMULE' needs FORMULE", keywords.span);
   const auto& handle = keywords.concept_of("FORMULE");
   const auto& function = interpreter::data_of<FunctionConcept>(handle, "FORMULE");
-  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, held);
+  const auto& components = solver::components_of(held);
   try {
     const auto value = [&function](std::span<const double> at) { return function.evaluate(at); };
     solver::Field made = solver::made_of_rows(held, std::array{solver::formula(components, {function.parameters(), value})});
@@ -143,7 +144,7 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
   solver::Field made;
   const solver::Field& field = watched(keywords, field_of(keywords, step), behaviours_, made);
-  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, field);
+  const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");
   const bool by_formula = keywords.text("EVAL_CMP") == "FORMULE";
   for (const int component : by_formula ? std::vector<int>{0} : chosen_components(keywords, components)) {

@@ -13,6 +13,7 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/external_work.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/fields/mass_inertia.hpp"
 #include "solver/fields/statistics.hpp"
@@ -197,7 +198,7 @@ void list_integrals(Table& table, const Call& call) {
 // --- extremes ---------------------------------------------------------------------------------------------------------------
 
 void add_extremes(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source) {
-  const auto& components = std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, source.field);
+  const auto& components = solver::components_of(source.field);
   const bool nodal = std::holds_alternative<solver::NodalField>(source.field);
   for (const Part& part : parts_of(call, occurrence, source.mesh)) {
     const std::vector<int> places = nodal ? source.mesh.nodes_of_cells(part.cells) : part.cells;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/statistics.hpp"
 
 namespace comma::commands {
@@ -21,10 +22,6 @@ std::string header(const std::string& place, const std::vector<std::string>& col
   std::string text = fmt::format(" {:<10}", place);
   for (const std::string& name : columns) text += fmt::format(" {:>{}}", name, reals.width());
   return text + "\n";
-}
-
-const std::vector<std::string>& components_of(const solver::Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
 }
 
 std::string place_name(const solver::Field& field, const solver::Mesh& mesh, int place, int point) {
@@ -52,7 +49,7 @@ std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh
     const int node = node_at(field, mesh, place, point);
     for (std::size_t i = 0; i < 3; ++i) values.push_back(node < 0 ? solver::absent : mesh.nodes[static_cast<std::size_t>(node)][i]);
   }
-  for (int c = 0; c < static_cast<int>(components_of(field).size()); ++c) {
+  for (int c = 0; c < static_cast<int>(solver::components_of(field).size()); ++c) {
     const double value = value_at(field, place, point, c);
     const bool shown = value >= style.least && value <= style.greatest;  // false for what is absent
     values.push_back(shown ? value : solver::absent);
@@ -76,7 +73,7 @@ std::string listing(const solver::Field& field, const solver::Mesh& mesh, const 
   const bool nodal = std::holds_alternative<solver::NodalField>(field);
   std::vector<std::string> columns;
   if (style.coordinates) columns = {"X", "Y", "Z"};
-  columns.insert(columns.end(), components_of(field).begin(), components_of(field).end());
+  columns.insert(columns.end(), solver::components_of(field).begin(), solver::components_of(field).end());
   std::string text = header(nodal ? "NOEUD" : "MAILLE", columns, style.reals);
   const int places = nodal ? mesh.node_count() : mesh.cell_count();
   for (int place = 0; place < places; ++place) {
@@ -91,12 +88,12 @@ std::string listing(const solver::Field& field, const solver::Mesh& mesh, const 
 
 std::string extreme_listing(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, std::span<const Extremum> wanted) {
   std::string text;
-  for (std::size_t c = 0; c < components_of(field).size(); ++c) {
+  for (std::size_t c = 0; c < solver::components_of(field).size(); ++c) {
     const auto found = solver::extremes(field, static_cast<int>(c));
     if (!found) continue;
     for (const Extremum which : wanted) {
       const solver::Extreme& extreme = which == Extremum::greatest ? found->greatest : found->least;
-      text += fmt::format(" {:<10} {} {} at {}\n", components_of(field)[c], which == Extremum::greatest ? "largest " : "smallest", style.reals(extreme.value),
+      text += fmt::format(" {:<10} {} {} at {}\n", solver::components_of(field)[c], which == Extremum::greatest ? "largest " : "smallest", style.reals(extreme.value),
                           place_name(field, mesh, extreme.place, extreme.point));
     }
   }

@@ -11,10 +11,6 @@ namespace comma::solver {
 
 namespace {
 
-const std::vector<std::string>& components_of(const Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-}
-
 const std::string& quantity_of(const Field& field) {
   return std::visit([](const auto& values) -> const std::string& { return values.quantity; }, field);
 }

@@ -13,9 +13,6 @@ namespace comma::solver {
 
 namespace {
 
-const std::vector<std::string>& components_of(const Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-}
 std::vector<std::string>& components_of(Field& field) {
   return std::visit([](auto& values) -> std::vector<std::string>& { return values.components; }, field);
 }
@@ -114,6 +111,10 @@ ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vecto
 NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components) {
   std::vector<double> values(mesh.nodes.size() * components.size(), absent);
   return {std::move(quantity), std::move(components), std::move(values)};
+}
+
+const std::vector<std::string>& components_of(const Field& field) {
+  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
 }
 
 NodalField node_coordinates(const Mesh& mesh) {

@@ -21,6 +21,9 @@ ElementField empty_element_field(const Model& model, std::string quantity, Suppo
 ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
 NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
 
+/// The names of the components of a field of either kind.
+const std::vector<std::string>& components_of(const Field& field);
+
 /// Components X Y Z.
 NodalField node_coordinates(const Mesh& mesh);
 /// One component with the same value wherever the other field has points.

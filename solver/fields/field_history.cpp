@@ -10,9 +10,6 @@ namespace comma::solver {
 
 namespace {
 
-const std::vector<std::string>& components_of(const Field& field) {
-  return std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, field);
-}
 const std::vector<double>& values_of(const Field& field) {
   return std::visit([](const auto& any) -> const std::vector<double>& { return any.values; }, field);
 }
