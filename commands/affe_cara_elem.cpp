@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "commands/commands.hpp"
+#include "commands/angles.hpp"
 #include "commands/discrete_building.hpp"
 #include "commands/plate_building.hpp"
 #include "commands/section_building.hpp"
@@ -15,8 +16,6 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Angles in radians; those left out are 0.
 Eigen::Vector3d angles_of(const Keywords& frame, const std::string& keyword) {

@@ -35,7 +35,7 @@ void rename(Table& table, const Keywords& action) {
   table.columns[static_cast<std::size_t>(column)] = names.back();
 }
 
-Value value_of(const Cell& cell) {
+Value argument_of(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return Value(*text);
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return Value(*integer);
   return Value(std::get<double>(cell));
@@ -103,7 +103,7 @@ void compute(Table& table, const Keywords& action) {
     std::vector<Value> arguments;
     for (const int source : sources) {
       const Cell& cell = row[static_cast<std::size_t>(source)];
-      if (!std::holds_alternative<std::monostate>(cell)) arguments.push_back(value_of(cell));
+      if (!std::holds_alternative<std::monostate>(cell)) arguments.push_back(argument_of(cell));
     }
     Cell& result = row[static_cast<std::size_t>(target)];
     result = Cell();

@@ -57,7 +57,7 @@ void take_support(ResultConcept& product, const Keywords& occurrence, const Fiel
 }
 
 // The instants of an occurrence; of LIST_INST those from NUME_INIT to NUME_FIN, which count from 1.
-std::vector<double> instants(const Keywords& occurrence) {
+std::vector<double> instants_of(const Keywords& occurrence) {
   if (!occurrence.has("LIST_INST")) return occurrence.reals("INST");
   const auto& all = occurrence.data<ListConcept>("LIST_INST").values;
   const auto count = static_cast<std::int64_t>(all.size());
@@ -81,7 +81,7 @@ void add_field(ResultConcept& product, const Keywords& occurrence) {
   const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
   take_support(product, occurrence, data);
   take_state(product, occurrence);
-  for (const double instant : instants(occurrence)) {
+  for (const double instant : instants_of(occurrence)) {
     solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
     step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant));
   }

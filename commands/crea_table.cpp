@@ -57,8 +57,6 @@ void add_function(Table& table, const Keywords& source) {
   }
 }
 
-using Row = std::vector<std::pair<std::string, Cell>>;
-
 // One row for values that are not all absent.
 template <class ValueAt>
 void add_values(Table& table, Row row, const solver::Field& field, const std::vector<int>& components, ValueAt value_at) {

@@ -49,7 +49,7 @@ solver::NormalSide normal_side(const std::string& word) {
   return word == "MAIT_ESCL" ? solver::NormalSide::average : solver::NormalSide::master;
 }
 
-std::array<double, 3> vector_of(const Keywords& zone, const std::string& keyword) {
+std::array<double, 3> direction_of(const Keywords& zone, const std::string& keyword) {
   const auto values = zone.reals(keyword);
   std::array<double, 3> vector{};
   std::copy(values.begin(), values.end(), vector.begin());
@@ -63,7 +63,7 @@ void take_normal(const Keywords& zone, const std::string& side, solver::NormalRu
   if (!zone.has(keyword) || zone.text(keyword) == "AUTO") return;
   const bool fixed = zone.text(keyword) == "FIXE";
   rule = fixed ? solver::NormalRule::fixed : solver::NormalRule::along_y;
-  vector = vector_of(zone, side + (fixed ? "_FIXE" : "_VECT_Y"));
+  vector = direction_of(zone, side + (fixed ? "_FIXE" : "_VECT_Y"));
 }
 
 // DIST_POUTRE and DIST_COQUE: both surfaces lie off the cells by what their elements take up.
@@ -103,7 +103,7 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("NORMALE")) zone.normal_side = normal_side(keywords.text("NORMALE"));
   take_normal(keywords, "MAIT", zone.master_normal, zone.master_vector);
   take_normal(keywords, "ESCL", zone.slave_normal, zone.slave_vector);
-  if (keywords.text("TYPE_APPA") == "FIXE") zone.pairing_direction = vector_of(keywords, "DIRE_APPA");
+  if (keywords.text("TYPE_APPA") == "FIXE") zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";

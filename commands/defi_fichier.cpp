@@ -2,12 +2,6 @@
 
 namespace comma::commands {
 
-namespace {
-
-constexpr int text_unit = 8;
-
-}  // namespace
-
 // comma opens a file when a command writes to it and closes it again, so LIBERER finds everything written. ASSOCIER empties
 // the file: what is written next starts anew (U4.12.03).
 Product defi_fichier(const Call& call, Context& context) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/angles.hpp"
 #include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/occurrences.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 using interpreter::DiagnosticError;
 using Groups = std::map<std::string, std::vector<int>, std::less<>>;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // The groups of one kind in a mesh, and how messages call them.
 struct Target {

@@ -28,7 +28,7 @@ std::vector<double> instants(const Keywords& list) {
   return list.reals("VALE");
 }
 
-void check_rising(const std::vector<double>& values, const Keywords& list) {
+void require_rising(const std::vector<double>& values, const Keywords& list) {
   for (std::size_t k = 1; k < values.size(); ++k) {
     if (values[k] > values[k - 1]) continue;
     throw DiagnosticError("wrong-order", fmt::format("DEFI_LIST_INST: {} does not lie beyond {}", values[k], values[k - 1]), list.span,
@@ -159,7 +159,7 @@ Product defi_list_inst(const Call& call, Context&) {
   const Keywords& list = call.factor("DEFI_LIST");
   auto product = std::make_shared<StepPlanConcept>();
   product->plan.instants = instants(list);
-  check_rising(product->plan.instants, list);
+  require_rising(product->plan.instants, list);
   read_failures(call, product->plan);
   if (call.text("METHODE") == "AUTO") product->plan.adaptation = adaptation(call, list);
   return product;

@@ -17,15 +17,15 @@ using solver::Parameter;
 using solver::Property;
 
 // What a property may depend on (U4.43.01), in the solver's words.
-constexpr std::pair<const char*, Parameter> parameters[] = {
+constexpr std::pair<const char*, Parameter> parameter_names[] = {
     {"TEMP", Parameter::temperature}, {"SECH", Parameter::drying},    {"HYDR", Parameter::hydration},
     {"NEUT1", Parameter::neutral_1},  {"NEUT2", Parameter::neutral_2}, {"NEUT3", Parameter::neutral_3},
     {"INST", Parameter::time},        {"X", Parameter::x},             {"Y", Parameter::y},
     {"Z", Parameter::z}};
 
 Parameter parameter_named(const std::string& name, const Keywords& law, const std::string& keyword) {
-  const auto found = std::ranges::find_if(parameters, [&](const auto& known) { return name == known.first; });
-  if (found != std::end(parameters)) return found->second;
+  const auto found = std::ranges::find_if(parameter_names, [&](const auto& known) { return name == known.first; });
+  if (found != std::end(parameter_names)) return found->second;
   throw DiagnosticError("unknown-parameter", keyword + " depends on " + name + ", which a material does not know", law.span_of(keyword),
                         "here a function may depend on TEMP, SECH, HYDR, NEUT1, NEUT2, NEUT3, INST, X, Y, Z");
 }

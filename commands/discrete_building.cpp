@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "commands/angles.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -17,8 +18,6 @@ using solver::DiscreteFrame;
 using solver::Formulation;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 bool is_plane(Formulation formulation) {
   return formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d;

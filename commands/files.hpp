@@ -11,6 +11,9 @@
 
 namespace comma::commands {
 
+/// Where commands write text that name no unit.
+inline constexpr int text_unit = 8;
+
 /// One line `F type name D|R|DR|RC unit` of an .export.
 struct ExportFile {
   std::string type;

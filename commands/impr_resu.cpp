@@ -22,15 +22,11 @@ namespace {
 using interpreter::DiagnosticError;
 
 constexpr int med_unit = 80;
-constexpr int text_unit = 8;
 constexpr int mesh_unit = 30;
-
-const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
-const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
 
 // What one occurrence of RESU writes: the chosen part of a result, or of a field as a result of one step whose field has no name
 // of its own. Without a result, the mesh alone.
-struct Part {
+struct PrintedPart {
   const solver::Mesh& mesh;
   std::string name;
   solver::Result result;
@@ -99,7 +95,7 @@ solver::Result result_of_field(const Keywords& print) {
   return result;
 }
 
-Part part_of(const Keywords& print, bool med) {
+PrintedPart part_of(const Keywords& print, bool med) {
   if (!print.has("RESULTAT") && !print.has("CHAM_GD")) {
     const auto& handle = print.concept_of("MAILLAGE");
     return {*interpreter::data_of<MeshConcept>(handle, "MAILLAGE").mesh, handle->name, {}, true};
@@ -108,7 +104,7 @@ Part part_of(const Keywords& print, bool med) {
   const auto& handle = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
   const solver::Mesh& mesh = whole_result ? interpreter::data_of<ResultConcept>(handle, "RESULTAT").result.mesh()
                                           : *interpreter::data_of<FieldConcept>(handle, "CHAM_GD").mesh;
-  Part part{mesh, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
+  PrintedPart part{mesh, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
   for (solver::ResultStep& step : part.result.steps) {
     for (auto item = step.fields.begin(); item != step.fields.end();) {
       const bool kept = choose_components(print, item->second);
@@ -119,7 +115,7 @@ Part part_of(const Keywords& print, bool med) {
   return part;
 }
 
-void check_same_mesh(const std::vector<Part>& parts, std::size_t i, const Call& call) {
+void check_same_mesh(const std::vector<PrintedPart>& parts, std::size_t i, const Call& call) {
   if (&parts[i].mesh == &parts.front().mesh) return;
   throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
                         "write them by several IMPR_RESU, each to a UNITE of its own");
@@ -128,7 +124,7 @@ void check_same_mesh(const std::vector<Part>& parts, std::size_t i, const Call& 
 // --- MED --------------------------------------------------------------------------------------------------------------------
 
 // The names that the file gives to the fields: those of NOM_CHAM_MED, or the one of the result with that of the field.
-void add_med_results(const Keywords& print, Part& part, std::vector<solver::NamedResult>& results) {
+void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solver::NamedResult>& results) {
   if (!print.given("NOM_CHAM_MED")) {
     results.push_back({std::move(part.result), print.given("NOM_RESU_MED") ? print.text("NOM_RESU_MED") : part.name});
     return;
@@ -153,7 +149,7 @@ void add_med_results(const Keywords& print, Part& part, std::vector<solver::Name
 }
 
 void write_med(const Call& call, const std::string& path) {
-  std::vector<Part> parts;
+  std::vector<PrintedPart> parts;
   for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, true));
   std::vector<solver::NamedResult> results;
   std::string mesh_name = "MAIL";
@@ -186,7 +182,7 @@ std::vector<Extremum> wanted_extremes(const Keywords& print) {
 }
 
 std::string text_of(const Keywords& print) {
-  const Part part = part_of(print, false);
+  const PrintedPart part = part_of(print, false);
   const ListingStyle style = style_of(print);
   if (part.mesh_alone) return listing(part.mesh, style);
   const auto extremes = wanted_extremes(print);
@@ -217,7 +213,7 @@ std::vector<int> written_cells(const Call& call, const solver::Mesh& mesh) {
 
 // FORMAT="ASTER" holds meshes, no fields: of a result, its mesh.
 std::string mesh_text(const Call& call, const Keywords& print) {
-  const Part part = part_of(print, false);
+  const PrintedPart part = part_of(print, false);
   const auto cells = written_cells(call, part.mesh);
   if (static_cast<int>(cells.size()) == part.mesh.cell_count()) return solver::format_aster_mesh(part.mesh);
   return solver::format_aster_mesh(solver::restricted(part.mesh, cells));
@@ -239,7 +235,7 @@ std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {
                         "name them in NOM_CMP: X, Y, Z, or XX, YY, ZZ, XY, XZ, YZ");
 }
 
-void add_views(const Keywords& print, const Part& part, std::vector<solver::GmshView>& views) {
+void add_views(const Keywords& print, const PrintedPart& part, std::vector<solver::GmshView>& views) {
   for (const solver::ResultStep& step : part.result.steps) {
     for (const auto& [name, field] : step.fields) {
       const auto& components = solver::components_of(field);
@@ -254,7 +250,7 @@ void add_views(const Keywords& print, const Part& part, std::vector<solver::Gmsh
 }
 
 std::string gmsh_text(const Call& call) {
-  std::vector<Part> parts;
+  std::vector<PrintedPart> parts;
   std::vector<solver::GmshView> views;
   for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, false));
   for (std::size_t i = 0; i < parts.size(); ++i) {

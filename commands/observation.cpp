@@ -24,16 +24,13 @@ namespace {
 
 using interpreter::DiagnosticError;
 using interpreter::Keywords;
-using Row = std::vector<std::pair<std::string, Cell>>;
-
 // A value and the columns that say where it was read.
 struct Sample {
   Row place;
   double value;
 };
 
-const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
-const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+const PlaceKeywords places_of_nodes = {"", "GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
 
 template <class Values>
 double reduced(const std::string& operation, const Values& values) {
@@ -114,9 +111,9 @@ const solver::Field& watched(const Keywords& keywords, const solver::Field& held
 
 Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours) : mesh_(mesh), behaviours_(behaviours) {
   for (const Keywords& given : call.factors("OBSERVATION")) {
-    const bool everywhere = !names_a_place(given, node_places);
+    const bool everywhere = !names_a_place(given, places_of_nodes);
     Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
-                            everywhere ? all_indices(mesh.node_count()) : selected_nodes(given, mesh, node_places),
+                            everywhere ? all_indices(mesh.node_count()) : selected_nodes(given, mesh, places_of_nodes),
                             everywhere ? all_indices(mesh.cell_count()) : selected_cells(given, mesh, cell_places),
                             given.reals("INST")};
     if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;

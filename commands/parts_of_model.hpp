@@ -14,8 +14,6 @@
 
 namespace comma::commands {
 
-using Row = std::vector<std::pair<std::string, Cell>>;
-
 /// A part of the model with the name and kind that its row shows.
 struct Part {
   std::string name, kind;

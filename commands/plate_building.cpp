@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "commands/angles.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -24,7 +25,6 @@ Eigen::Vector3d direction_of(const Keywords& assignment) {
   }
   if (!assignment.given("ANGL_REP")) return Eigen::Vector3d::UnitX();
   const auto angles = assignment.reals("ANGL_REP");
-  constexpr double degree = std::numbers::pi / 180.0;
   return solver::nautical_axes(angles[0] * degree, angles[1] * degree, 0.0).row(0).transpose();
 }
 

@@ -113,7 +113,7 @@ void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
   for (const auto& [name, place] : entries) row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
 }
 
-Eigen::Vector3d point_of(const std::vector<double>& coordinates) {
+Eigen::Vector3d inertia_origin(const std::vector<double>& coordinates) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::ranges::copy(coordinates, point.data());
   return point;
@@ -154,7 +154,7 @@ void list_masses(Table& table, const Call& call) {
       add_inertia(row, found.inertia, "_G");
       const Eigen::Vector3d moments = solver::principal_moments(found.inertia);
       for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("I{}_PRIN_G", "XYZ"[i]), moments[i]);
-      if (occurrence.has("ORIG_INER")) add_inertia(row, solver::inertia_about(found, point_of(occurrence.reals("ORIG_INER"))), "_P");
+      if (occurrence.has("ORIG_INER")) add_inertia(row, solver::inertia_about(found, inertia_origin(occurrence.reals("ORIG_INER"))), "_P");
       table.add_row(row);
     }
   }

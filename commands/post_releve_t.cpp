@@ -20,11 +20,6 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-using Row = std::vector<std::pair<std::string, Cell>>;
-
-const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
-const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
-
 // The nodes of an action, and its values there in its frame.
 struct Reading {
   Row head;  ///< the columns that say where the values come from
@@ -104,7 +99,7 @@ Place place_of(const Keywords& action, const solver::Mesh& mesh) {
   return {std::move(nodes), selected_cells(action, mesh, cell_places)};
 }
 
-Row head_of(const Keywords& action, const FieldSource& source) {
+Row head_of_action(const Keywords& action, const FieldSource& source) {
   Row head = {{"INTITULE", action.has("INTITULE") ? action.text("INTITULE") : ""}};
   head.insert(head.end(), source.columns.begin(), source.columns.end());
   return head;
@@ -113,7 +108,7 @@ Row head_of(const Keywords& action, const FieldSource& source) {
 Reading read(const Keywords& action, const FieldSource& source) {
   auto [nodes, cells] = place_of(action, source.mesh);
   solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
-  Row head = head_of(action, source);
+  Row head = head_of_action(action, source);
   // A resultant is turned as a whole.
   if (!action.has("RESULTANTE")) field = values_in_frame(action, source.mesh, nodes, field);
   return {std::move(head), source.mesh, std::move(nodes), std::move(field)};
@@ -189,7 +184,7 @@ std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementF
 void extract_by_cells(Table& table, const Keywords& action, const FieldSource& source) {
   const solver::ElementField& field = field_by_cells(action, source);
   auto [nodes, cells] = place_of(action, source.mesh);
-  const Reading reading{head_of(action, source), source.mesh, std::move(nodes), {}};
+  const Reading reading{head_of_action(action, source), source.mesh, std::move(nodes), {}};
   const auto components = chosen_components(action, field.components);
   const auto along = abscissas(reading);
   const auto around = corners_at(source.mesh, field, cells, reading.nodes);

@@ -148,7 +148,7 @@ void read_table(const Call& call, solver::TabulatedFunction& function) {
 }
 
 // A function asks for rising abscissas, a table may have its rows in any order.
-void sort_points(const Call& call, solver::TabulatedFunction& function) {
+void sort_abscissas(const Call& call, solver::TabulatedFunction& function) {
   std::vector<std::size_t> order(function.x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
@@ -175,7 +175,7 @@ Product recu_fonction(const Call& call, Context& context) {
     read_result(call, function);
   }
   if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
-  sort_points(call, function);
+  sort_abscissas(call, function);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_VARI", "NOM_PARA_RESU", "PARA_Y"}) {
     if (!call.given(name)) continue;

@@ -23,7 +23,7 @@ Cell parameter_of(const solver::ResultStep& step, const std::string& name) {
   return found == step.parameters.end() ? Cell() : Cell(found->second);
 }
 
-Table parameters(const Call& call, const solver::Result& result) {
+Table parameter_table(const Call& call, const solver::Result& result) {
   Table table;
   for (const solver::ResultStep& step : result.steps) {
     std::vector<std::pair<std::string, Cell>> row = {{"NUME_ORDRE", std::int64_t{step.order}}};
@@ -47,7 +47,7 @@ Table named_table(const Call& call, const ResultConcept& data) {
 Product recu_table(const Call& call, Context&) {
   const ResultConcept& data = result_of(call);
   auto product = std::make_shared<TableConcept>();
-  product->table = call.has("NOM_TABLE") ? named_table(call, data) : parameters(call, data.result);
+  product->table = call.has("NOM_TABLE") ? named_table(call, data) : parameter_table(call, data.result);
   return product;
 }
 

@@ -41,7 +41,7 @@ std::shared_ptr<Dict> access_variables(const solver::Result& result) {
 }
 
 /// The access variables and the parameters, None where a step has one not.
-std::shared_ptr<Dict> parameters(const solver::Result& result) {
+std::shared_ptr<Dict> access_parameters(const solver::Result& result) {
   std::shared_ptr<Dict> lists = access_variables(result);
   for (const solver::ResultStep& described : result.steps)
     for (const auto& entry : described.parameters) {
@@ -73,7 +73,7 @@ Value ResultConcept::method(std::string_view name, const std::vector<Value>& arg
     throw DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
   }
   static const std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)> lists = {
-      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", parameters}, {"LIST_CHAMPS", fields}};
+      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", access_parameters}, {"LIST_CHAMPS", fields}};
   const auto list = lists.find(name);
   if (list == lists.end()) return ConceptData::method(name, arguments, keywords);
   if (arguments.empty() && keywords.empty()) return Value(list->second(result));

@@ -19,6 +19,10 @@ struct PlaceKeywords {
   std::string cells = "MAILLE";
 };
 
+/// Nodes by their own keywords alone, and cells by theirs.
+inline const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
+inline const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
+
 /// The nodes that the keywords name, those of named cells included, each once, in the order of the file.
 /// Throws DiagnosticError `unknown-group`, `unknown-node`, `unknown-cell` at the keyword's value, with the nearest name.
 std::vector<int> selected_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,

@@ -11,6 +11,8 @@
 namespace comma::commands {
 
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
+/// Cells by the names of their columns.
+using Row = std::vector<std::pair<std::string, Cell>>;
 
 /// Every row has as many cells as there are columns.
 struct Table {

@@ -50,9 +50,6 @@ std::string place_keyword(const Keywords& test, const PlaceKeywords& names) {
   return names.all;
 }
 
-const PlaceKeywords node_places = {"", "GROUP_NO", "NOEUD", "", ""};
-const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
-
 std::vector<int> components_tested(const Keywords& test, const std::vector<std::string>& components) {
   if (test.given("NOM_VARI")) return {component_of(test, components, test.text("NOM_VARI"), "NOM_VARI")};
   if (test.given("NOM_CMP")) {

@@ -23,16 +23,6 @@ constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
         fmt::format("unsupported operand type(s) for {}: '{}' and '{}'", symbol, a.type_name(), b.type_name()), hint);
 }
 
-std::optional<std::int64_t> small_integer(const Value& value) {
-  if (value.is_integer()) return value.as_integer();
-  if (value.is_bool()) return value.as_bool() ? 1 : 0;
-  return std::nullopt;
-}
-
-bool is_integral(const Value& value) {
-  return value.is_integer() || value.is_bool() || value.is_big_integer();
-}
-
 double remainder_of(double a, double b) {
   const double rest = std::fmod(a, b);
   if (rest == 0.0) return std::copysign(0.0, b);

@@ -12,10 +12,6 @@ namespace comma::interpreter {
 
 namespace {
 
-bool is_integral(const Value& value) {
-  return value.is_integer() || value.is_bool() || value.is_big_integer();
-}
-
 void append_number(const Value& value, std::vector<double>& data, bool& integers) {
   if (!is_numeric(value) || value.is_complex()) {
     raise(ErrorKind::type, fmt::format("an array is made of numbers, not of '{}'", value.type_name()), "use a list");

@@ -294,7 +294,7 @@ constexpr std::array refusals = {
     Refusal{"quit", "use sys.exit() after 'import sys'"},
 };
 
-constexpr std::array functions = {
+constexpr std::array general_table = {
     FunctionRow{"print", print},
     FunctionRow{"len", len},
     FunctionRow{"abs", abs},
@@ -318,10 +318,10 @@ constexpr std::array functions = {
     FunctionRow{"_F", factor},
 };
 
-using Names = std::unordered_map<std::string_view, Value>;
+using NameTable = std::unordered_map<std::string_view, Value>;
 
-Names make_builtins() {
-  Names names;
+NameTable make_builtins() {
+  NameTable names;
   for (const auto rows : {basic_functions(), sequence_functions()}) {
     for (const FunctionRow& row : rows) {
       names.emplace(
@@ -345,15 +345,15 @@ Names make_builtins() {
   return names;
 }
 
-const Names& builtins() {
-  static const Names names = make_builtins();
+const NameTable& builtins() {
+  static const NameTable names = make_builtins();
   return names;
 }
 
 }  // namespace
 
 std::span<const FunctionRow> basic_functions() {
-  return functions;
+  return general_table;
 }
 
 std::string_view refusal_of(std::string_view name) {

@@ -186,7 +186,7 @@ Value next(Evaluator&, const CallArguments& arguments) {
   throw RaisedError(std::move(error));
 }
 
-constexpr std::array functions = {
+constexpr std::array sequence_table = {
     FunctionRow{"enumerate", enumerate},
     FunctionRow{"zip", zip},
     FunctionRow{"map", map},
@@ -205,7 +205,7 @@ constexpr std::array functions = {
 }  // namespace
 
 std::span<const FunctionRow> sequence_functions() {
-  return functions;
+  return sequence_table;
 }
 
 Value make_set(const std::vector<Value>& items, bool frozen) {

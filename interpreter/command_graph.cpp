@@ -63,6 +63,10 @@ int file_resource(int unit) {
 
 }  // namespace
 
+int line_of(const CommandNode& node) {
+  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
+}
+
 std::string_view name_of(Hazard hazard) {
   switch (hazard) {
     case Hazard::read_after_write:

@@ -46,6 +46,9 @@ struct CommandNode {
   double seconds = 0;
 };
 
+/// Where the command starts in its file, 0 if that is not known.
+int line_of(const CommandNode& node);
+
 class CommandGraph {
  public:
   /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The

@@ -19,10 +19,6 @@ std::string dot_text(std::string_view text) {
   return result + '"';
 }
 
-int line_of(const CommandNode& node) {
-  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
-}
-
 std::string style_of(Need need) {
   switch (need) {
     case Need::verdict:

@@ -12,7 +12,7 @@ namespace comma::interpreter {
 
 namespace {
 
-constexpr int deepest_compared = 500;
+constexpr int deepest_ordered = 500;
 
 std::partial_ordering order_integer_and_real(const Value& integer, double real) {
   if (std::isnan(real)) return std::partial_ordering::unordered;
@@ -82,7 +82,7 @@ bool order_sequences(Operator op, std::span<const Value> a, std::span<const Valu
 }
 
 bool ordered(Operator op, const Value& a, const Value& b, int depth) {
-  if (depth > deepest_compared) raise(ErrorKind::recursion, "maximum recursion depth exceeded in comparison");
+  if (depth > deepest_ordered) raise(ErrorKind::recursion, "maximum recursion depth exceeded in comparison");
   if (a.is_unknown() || b.is_unknown()) return false;
   if (is_numeric(a) && is_numeric(b) && !a.is_complex() && !b.is_complex()) return fits(op, order_numbers(a, b));
   if (a.is_text() && b.is_text()) return fits(op, a.as_text() <=> b.as_text());
@@ -95,7 +95,7 @@ bool ordered(Operator op, const Value& a, const Value& b, int depth) {
 /// In the items of a list or tuple, or in theirs.
 bool holds_unknown(const Value& value, int depth = 0) {
   if (value.is_unknown()) return true;
-  if (!value.is_sequence() || depth > deepest_compared) return false;
+  if (!value.is_sequence() || depth > deepest_ordered) return false;
   return std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth + 1); });
 }
 

@@ -5,6 +5,7 @@
 #include "interpreter/big_integer.hpp"
 #include "interpreter/dict.hpp"
 #include "interpreter/exception.hpp"
+#include "interpreter/operations.hpp"
 
 namespace comma::interpreter {
 
@@ -14,16 +15,6 @@ namespace {
 constexpr int deepest_compared = 500;
 
 bool equal_at(const Value& a, const Value& b, int depth);
-
-bool is_numeric(const Value& value) {
-  return value.is_bool() || value.is_number() || value.is_complex();
-}
-
-std::optional<std::int64_t> small_integer(const Value& value) {
-  if (value.is_integer()) return value.as_integer();
-  if (value.is_bool()) return value.as_bool() ? 1 : 0;
-  return std::nullopt;
-}
 
 bool equal_to_real(const Value& integer, double real) {
   if (!std::isfinite(real) || real != std::trunc(real)) return false;

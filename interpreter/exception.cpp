@@ -11,46 +11,47 @@ namespace comma::interpreter {
 
 namespace {
 
-using enum ErrorKind;
-
 // In the order of ErrorKind.
-constexpr std::array classes{
-    ErrorClass{base_exception, base_exception, "BaseException", "exception"},
-    ErrorClass{system_exit, base_exception, "SystemExit", "exit"},
-    ErrorClass{keyboard_interrupt, base_exception, "KeyboardInterrupt", "exception"},
-    ErrorClass{exception, base_exception, "Exception", "exception"},
-    ErrorClass{arithmetic, exception, "ArithmeticError", "arithmetic-error"},
-    ErrorClass{zero_division, arithmetic, "ZeroDivisionError", "zero-division"},
-    ErrorClass{overflow, arithmetic, "OverflowError", "overflow"},
-    ErrorClass{floating_point, arithmetic, "FloatingPointError", "arithmetic-error"},
-    ErrorClass{assertion, exception, "AssertionError", "assertion-failed"},
-    ErrorClass{attribute, exception, "AttributeError", "unknown-attribute"},
-    ErrorClass{end_of_file, exception, "EOFError", "exception"},
-    ErrorClass{import, exception, "ImportError", "unknown-module"},
-    ErrorClass{module_not_found, import, "ModuleNotFoundError", "unknown-module"},
-    ErrorClass{lookup, exception, "LookupError", "lookup-error"},
-    ErrorClass{index, lookup, "IndexError", "index-error"},
-    ErrorClass{key, lookup, "KeyError", "key-error"},
-    ErrorClass{memory, exception, "MemoryError", "limit-memory"},
-    ErrorClass{name, exception, "NameError", "unknown-name"},
-    ErrorClass{unbound_local, name, "UnboundLocalError", "unknown-name"},
-    ErrorClass{os, exception, "OSError", "not-allowed"},
-    ErrorClass{file_not_found, os, "FileNotFoundError", "not-allowed"},
-    ErrorClass{runtime, exception, "RuntimeError", "runtime-error"},
-    ErrorClass{not_implemented, runtime, "NotImplementedError", "not-supported"},
-    ErrorClass{recursion, runtime, "RecursionError", "limit-depth"},
-    ErrorClass{stop_iteration, exception, "StopIteration", "stop-iteration"},
-    ErrorClass{syntax, exception, "SyntaxError", "syntax"},
-    ErrorClass{type, exception, "TypeError", "type-error"},
-    ErrorClass{value, exception, "ValueError", "value-error"},
-    ErrorClass{unicode, value, "UnicodeError", "value-error"},
-    ErrorClass{aster, exception, "AsterError", "command-failed"},
-    ErrorClass{convergence, aster, "ConvergenceError", "no-convergence"},
-    ErrorClass{contact, aster, "ContactError", "contact-failed"},
-    ErrorClass{solver, aster, "SolverError", "singular-matrix"},
-    ErrorClass{time_limit, aster, "TimeLimitError", "time-limit"},
-    ErrorClass{integration, aster, "IntegrationError", "integration-failure"},
-};
+constexpr std::array classes = [] {
+  using enum ErrorKind;
+  return std::array{
+      ErrorClass{base_exception, base_exception, "BaseException", "exception"},
+      ErrorClass{system_exit, base_exception, "SystemExit", "exit"},
+      ErrorClass{keyboard_interrupt, base_exception, "KeyboardInterrupt", "exception"},
+      ErrorClass{exception, base_exception, "Exception", "exception"},
+      ErrorClass{arithmetic, exception, "ArithmeticError", "arithmetic-error"},
+      ErrorClass{zero_division, arithmetic, "ZeroDivisionError", "zero-division"},
+      ErrorClass{overflow, arithmetic, "OverflowError", "overflow"},
+      ErrorClass{floating_point, arithmetic, "FloatingPointError", "arithmetic-error"},
+      ErrorClass{assertion, exception, "AssertionError", "assertion-failed"},
+      ErrorClass{attribute, exception, "AttributeError", "unknown-attribute"},
+      ErrorClass{end_of_file, exception, "EOFError", "exception"},
+      ErrorClass{import, exception, "ImportError", "unknown-module"},
+      ErrorClass{module_not_found, import, "ModuleNotFoundError", "unknown-module"},
+      ErrorClass{lookup, exception, "LookupError", "lookup-error"},
+      ErrorClass{index, lookup, "IndexError", "index-error"},
+      ErrorClass{key, lookup, "KeyError", "key-error"},
+      ErrorClass{memory, exception, "MemoryError", "limit-memory"},
+      ErrorClass{name, exception, "NameError", "unknown-name"},
+      ErrorClass{unbound_local, name, "UnboundLocalError", "unknown-name"},
+      ErrorClass{os, exception, "OSError", "not-allowed"},
+      ErrorClass{file_not_found, os, "FileNotFoundError", "not-allowed"},
+      ErrorClass{runtime, exception, "RuntimeError", "runtime-error"},
+      ErrorClass{not_implemented, runtime, "NotImplementedError", "not-supported"},
+      ErrorClass{recursion, runtime, "RecursionError", "limit-depth"},
+      ErrorClass{stop_iteration, exception, "StopIteration", "stop-iteration"},
+      ErrorClass{syntax, exception, "SyntaxError", "syntax"},
+      ErrorClass{type, exception, "TypeError", "type-error"},
+      ErrorClass{value, exception, "ValueError", "value-error"},
+      ErrorClass{unicode, value, "UnicodeError", "value-error"},
+      ErrorClass{aster, exception, "AsterError", "command-failed"},
+      ErrorClass{convergence, aster, "ConvergenceError", "no-convergence"},
+      ErrorClass{contact, aster, "ContactError", "contact-failed"},
+      ErrorClass{solver, aster, "SolverError", "singular-matrix"},
+      ErrorClass{time_limit, aster, "TimeLimitError", "time-limit"},
+      ErrorClass{integration, aster, "IntegrationError", "integration-failure"},
+  };
+}();
 
 std::vector<Value> one_text(std::string message) {
   std::vector<Value> values;

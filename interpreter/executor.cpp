@@ -20,10 +20,6 @@ bool is_readable(const CommandNode& source) {
   return source.state == NodeState::failed && source.forgiven && source.product && source.product->data;
 }
 
-int line_of(const CommandNode& node) {
-  return node.call.span ? node.call.span.file->position(node.call.span.begin).line : 0;
-}
-
 DiagnosticError not_computed(const CommandNode& source) {
   return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)),
           source.call.span};

@@ -14,7 +14,7 @@ namespace comma::interpreter {
 
 namespace {
 
-constexpr int widest_field = 1'000'000;
+constexpr int widest_legacy_field = 1'000'000;
 
 /// Reads "%..." conversions one after the other and draws their values.
 class PercentFormatter {
@@ -59,11 +59,11 @@ class PercentFormatter {
       ++at_;
       const Value width = draw();
       if (!integer_of(width)) raise(ErrorKind::type, "* wants int");
-      return static_cast<int>(std::clamp<std::int64_t>(index_of(width), -widest_field, widest_field));
+      return static_cast<int>(std::clamp<std::int64_t>(index_of(width), -widest_legacy_field, widest_legacy_field));
     }
     int number = 0;
     while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9')
-      number = std::min(number * 10 + (text_[at_++] - '0'), widest_field);
+      number = std::min(number * 10 + (text_[at_++] - '0'), widest_legacy_field);
     return number;
   }
 

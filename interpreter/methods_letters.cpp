@@ -17,7 +17,7 @@ bool is_lower(char32_t c) {
 bool is_upper(char32_t c) {
   return (c >= 'A' && c <= 'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7);
 }
-bool is_digit(char32_t c) {
+bool is_decimal(char32_t c) {
   return c >= '0' && c <= '9';
 }
 bool is_alpha(char32_t c) {
@@ -80,13 +80,13 @@ bool all_characters(const Value& self, Test test) {
 }
 
 Value isdigit(Evaluator&, const Value& self, const CallArguments&) {
-  return all_characters(self, is_digit);
+  return all_characters(self, is_decimal);
 }
 Value isalpha(Evaluator&, const Value& self, const CallArguments&) {
   return all_characters(self, is_alpha);
 }
 Value isalnum(Evaluator&, const Value& self, const CallArguments&) {
-  return all_characters(self, [](char32_t c) { return is_alpha(c) || is_digit(c); });
+  return all_characters(self, [](char32_t c) { return is_alpha(c) || is_decimal(c); });
 }
 Value isspace(Evaluator&, const Value& self, const CallArguments&) {
   return all_characters(self, is_blank_character);
@@ -104,10 +104,10 @@ Value islower(Evaluator&, const Value& self, const CallArguments&) {
 
 Value isidentifier(Evaluator&, const Value& self, const CallArguments&) {
   const Points points = decode_utf8(self.as_text());
-  return !points.empty() && !is_digit(points[0]) &&
-         all_characters(self, [](char32_t c) { return is_alpha(c) || is_digit(c) || c == '_'; });
+  return !points.empty() && !is_decimal(points[0]) &&
+         all_characters(self, [](char32_t c) { return is_alpha(c) || is_decimal(c) || c == '_'; });
 }
-constexpr std::array methods = {
+constexpr std::array letter_table = {
     MethodRow{"upper", upper},           MethodRow{"lower", lower},
     MethodRow{"capitalize", capitalize}, MethodRow{"title", title},
     MethodRow{"swapcase", swapcase},     MethodRow{"isdigit", isdigit},
@@ -121,7 +121,7 @@ constexpr std::array methods = {
 }  // namespace
 
 std::span<const MethodRow> letter_methods() {
-  return methods;
+  return letter_table;
 }
 
 }  // namespace comma::interpreter

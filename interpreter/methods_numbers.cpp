@@ -27,13 +27,13 @@ Value bit_length(Evaluator&, const Value& self, const CallArguments& arguments) 
   return static_cast<std::int64_t>(integer->bit_length());
 }
 
-constexpr std::array methods = {MethodRow{"is_integer", is_integer}, MethodRow{"conjugate", conjugate},
+constexpr std::array number_table = {MethodRow{"is_integer", is_integer}, MethodRow{"conjugate", conjugate},
                                 MethodRow{"bit_length", bit_length}};
 
 }  // namespace
 
 std::span<const MethodRow> number_methods() {
-  return methods;
+  return number_table;
 }
 
 }  // namespace comma::interpreter

@@ -423,7 +423,7 @@ Value format(Evaluator& evaluator, const Value& self, const CallArguments& argum
   return format_fields(
       self.as_text(), [&](std::string_view name) { return reader(name); }, evaluator.meter());
 }
-constexpr std::array methods = {
+constexpr std::array text_table = {
     MethodRow{"strip", strip},
     MethodRow{"lstrip", lstrip},
     MethodRow{"rstrip", rstrip},
@@ -454,7 +454,7 @@ constexpr std::array methods = {
 }  // namespace
 
 std::span<const MethodRow> text_methods() {
-  return methods;
+  return text_table;
 }
 
 }  // namespace comma::interpreter

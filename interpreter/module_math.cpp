@@ -44,10 +44,10 @@ Value binary(Evaluator&, const CallArguments& arguments) {
   return checked(Function(x, y), x, y);
 }
 
-double degrees(double x) {
+double to_degrees(double x) {
   return x * (180.0 / std::numbers::pi);
 }
-double radians(double x) {
+double to_radians(double x) {
   return x * (std::numbers::pi / 180.0);
 }
 
@@ -343,7 +343,7 @@ Value modf(Evaluator&, const CallArguments& arguments) {
   return Value::tuple({fraction, whole});
 }
 
-constexpr std::array functions = {
+constexpr std::array math_table = {
     FunctionRow{"sin", unary<std::sin>},
     FunctionRow{"cos", unary<std::cos>},
     FunctionRow{"tan", unary<std::tan>},
@@ -367,8 +367,8 @@ constexpr std::array functions = {
     FunctionRow{"sqrt", unary<std::sqrt>},
     FunctionRow{"cbrt", unary<std::cbrt>},
     FunctionRow{"fabs", unary<std::fabs>},
-    FunctionRow{"degrees", unary<degrees>},
-    FunctionRow{"radians", unary<radians>},
+    FunctionRow{"degrees", unary<to_degrees>},
+    FunctionRow{"radians", unary<to_radians>},
     FunctionRow{"gamma", unary<gamma_function>},
     FunctionRow{"lgamma", unary<log_gamma>},
     FunctionRow{"erf", unary<std::erf>},
@@ -400,11 +400,11 @@ constexpr std::array functions = {
     FunctionRow{"modf", modf},
 };
 
-using Names = std::unordered_map<std::string_view, Value>;
+using NameTable = std::unordered_map<std::string_view, Value>;
 
-Names make_math() {
-  Names names;
-  for (const FunctionRow& row : functions) {
+NameTable make_math() {
+  NameTable names;
+  for (const FunctionRow& row : math_table) {
     names.emplace(row.name,
                   Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>(std::string(row.name), row.function))));
   }
@@ -427,11 +427,11 @@ const Value* common_math_value(std::string_view name) {
 }
 
 std::span<const FunctionRow> math_functions() {
-  return functions;
+  return math_table;
 }
 
 const Value* math_value(std::string_view name) {
-  static const Names names = make_math();
+  static const NameTable names = make_math();
   const auto found = names.find(name);
   return found == names.end() ? nullptr : &found->second;
 }

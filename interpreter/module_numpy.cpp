@@ -108,7 +108,7 @@ Value number(double value, bool integers) {
   return integers ? Value(static_cast<std::int64_t>(value)) : Value(value);
 }
 
-Value sum(Evaluator& evaluator, const CallArguments& arguments) {
+Value array_sum(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("sum", arguments, 1, 1);
   Value holder;
   const ArrayObject& source = array_of(evaluator, arguments[0], holder);
@@ -122,7 +122,7 @@ Value mean(Evaluator& evaluator, const CallArguments& arguments) {
   return std::accumulate(source.data.begin(), source.data.end(), 0.0) / static_cast<double>(source.data.size());
 }
 
-Value extreme(Evaluator& evaluator, const CallArguments& arguments, bool largest, bool place) {
+Value array_extreme(Evaluator& evaluator, const CallArguments& arguments, bool largest, bool place) {
   expect_arguments("max", arguments, 1, 1);
   Value holder;
   const ArrayObject& source = array_of(evaluator, arguments[0], holder);
@@ -133,17 +133,17 @@ Value extreme(Evaluator& evaluator, const CallArguments& arguments, bool largest
   return number(*found, source.integers);
 }
 
-Value max(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, true, false);
+Value array_max(Evaluator& evaluator, const CallArguments& arguments) {
+  return array_extreme(evaluator, arguments, true, false);
 }
-Value min(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, false, false);
+Value array_min(Evaluator& evaluator, const CallArguments& arguments) {
+  return array_extreme(evaluator, arguments, false, false);
 }
 Value argmax(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, true, true);
+  return array_extreme(evaluator, arguments, true, true);
 }
 Value argmin(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, false, true);
+  return array_extreme(evaluator, arguments, false, true);
 }
 
 Value dot(Evaluator& evaluator, const CallArguments& arguments) {
@@ -227,19 +227,19 @@ Value transpose(Evaluator&, const Value& self, const CallArguments&) {
   return make_array(std::move(data), {columns, rows}, source->integers);
 }
 
-constexpr std::array functions = {
+constexpr std::array array_function_table = {
     FunctionRow{"array", array},
     FunctionRow{"asarray", array},
     FunctionRow{"zeros", zeros},
     FunctionRow{"ones", ones},
     FunctionRow{"linspace", linspace},
     FunctionRow{"arange", arange},
-    FunctionRow{"sum", sum},
+    FunctionRow{"sum", array_sum},
     FunctionRow{"mean", mean},
-    FunctionRow{"max", max},
-    FunctionRow{"min", min},
-    FunctionRow{"amax", max},
-    FunctionRow{"amin", min},
+    FunctionRow{"max", array_max},
+    FunctionRow{"min", array_min},
+    FunctionRow{"amax", array_max},
+    FunctionRow{"amin", array_min},
     FunctionRow{"argmax", argmax},
     FunctionRow{"argmin", argmin},
     FunctionRow{"dot", dot},
@@ -265,16 +265,16 @@ constexpr std::array functions = {
     FunctionRow{"ceil", elementwise<std::ceil>},
 };
 
-constexpr std::array methods = {
+constexpr std::array array_method_table = {
     MethodRow{"tolist", tolist},
     MethodRow{"copy", copy},
     MethodRow{"flatten", flatten},
     MethodRow{"ravel", flatten},
     MethodRow{"transpose", transpose},
-    MethodRow{"sum", as_method<sum>},
+    MethodRow{"sum", as_method<array_sum>},
     MethodRow{"mean", as_method<mean>},
-    MethodRow{"max", as_method<max>},
-    MethodRow{"min", as_method<min>},
+    MethodRow{"max", as_method<array_max>},
+    MethodRow{"min", as_method<array_min>},
     MethodRow{"argmax", as_method<argmax>},
     MethodRow{"argmin", as_method<argmin>},
     MethodRow{"dot", as_method<dot>},
@@ -283,10 +283,10 @@ constexpr std::array methods = {
 }  // namespace
 
 std::span<const FunctionRow> numpy_functions() {
-  return functions;
+  return array_function_table;
 }
 std::span<const MethodRow> array_methods() {
-  return methods;
+  return array_method_table;
 }
 
 }  // namespace comma::interpreter

@@ -44,6 +44,14 @@ std::int64_t index_of(const Value& value);
 /// A real number of an int, a bool or a float; raises TypeError, and OverflowError for an int beyond float's range.
 double real_of(const Value& value);
 bool is_numeric(const Value& value);  ///< bool, int, float, complex
+/// Whether it is a bool or an int of any size.
+inline bool is_integral(const Value& value) { return value.is_integer() || value.is_bool() || value.is_big_integer(); }
+/// An int that fits 64 bits, or a bool as 0 or 1; else nothing.
+inline std::optional<std::int64_t> small_integer(const Value& value) {
+  if (value.is_integer()) return value.as_integer();
+  if (value.is_bool()) return value.as_bool() ? 1 : 0;
+  return std::nullopt;
+}
 
 std::vector<Value> list_of(const Value& iterable, Meter& meter);
 

@@ -4,9 +4,9 @@ namespace comma::interpreter {
 
 namespace {
 
-using Names = std::vector<const NameNode*>;
+using NameNodes = std::vector<const NameNode*>;
 
-void add_target(const Node* target, Names& names) {
+void add_target(const Node* target, NameNodes& names) {
   if (target == nullptr) return;
   switch (target->kind) {
     case NodeKind::name:
@@ -31,7 +31,7 @@ void add_target(const Node* target, Names& names) {
 }
 
 /// items.append(x) changes items.
-void add_changed_object(const Node& expression, Names& names) {
+void add_changed_object(const Node& expression, NameNodes& names) {
   if (expression.kind != NodeKind::call) return;
   const Node& callee = *static_cast<const CallNode&>(expression).callee;
   if (callee.kind == NodeKind::attribute) add_target(static_cast<const AttributeNode&>(callee).object.get(), names);
@@ -72,7 +72,7 @@ void for_each_block(const Statement& statement, Visit visit) {
   }
 }
 
-void collect(const Statement& statement, Names& names) {
+void collect(const Statement& statement, NameNodes& names) {
   switch (statement.kind) {
     case StatementKind::assign:
       for (const NodePtr& target : static_cast<const AssignStatement&>(statement).targets)
@@ -117,7 +117,7 @@ void collect(const Statement& statement, bool in_loop, Exits& exits) {
 }  // namespace
 
 std::vector<const NameNode*> bound_names(const Statement& statement) {
-  Names names;
+  NameNodes names;
   collect(statement, names);
   return names;
 }

@@ -165,7 +165,7 @@ constexpr auto make_methods(std::index_sequence<index...>) {
                     MethodRow{"printSummary", print_summary}};
 }
 
-constexpr auto methods = make_methods(std::make_index_sequence<relations.size()>());
+constexpr auto check_table = make_methods(std::make_index_sequence<relations.size()>());
 
 }  // namespace
 
@@ -174,6 +174,6 @@ Value make_test_case(Evaluator&, const CallArguments& arguments) {
   return Value(std::shared_ptr<Object>(std::make_shared<TestCaseObject>()));
 }
 
-std::span<const MethodRow> test_case_methods() { return methods; }
+std::span<const MethodRow> test_case_methods() { return check_table; }
 
 }  // namespace comma::interpreter

@@ -13,7 +13,7 @@ using namespace comma::commands;
 using comma::interpreter::CommandNode;
 using comma::interpreter::NodeState;
 
-namespace {
+namespace pruning_test {
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
@@ -71,8 +71,6 @@ std::vector<fs::path> scenes() {
   return found;
 }
 
-}  // namespace
-
 TEST_CASE("Pruning never changes a verdict") {
   for (const fs::path& scene : scenes()) {
     CAPTURE(scene.string());
@@ -98,3 +96,5 @@ TEST_CASE("Pruning never changes a verdict") {
     }
   }
 }
+
+}  // namespace pruning_test

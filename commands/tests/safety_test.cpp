@@ -14,7 +14,7 @@ using namespace comma::commands;
 using comma::interpreter::Limits;
 using comma::interpreter::Severity;
 
-namespace {
+namespace safety_test {
 
 class Folder {
  public:
@@ -45,8 +45,6 @@ std::vector<std::string> codes_of(const fs::path& file, Limits limits = {}) {
 }
 
 using Codes = std::vector<std::string>;
-
-}  // namespace
 
 TEST_CASE("A command file reaches no file, process, network or clock by itself") {
   const Folder folder;
@@ -157,3 +155,5 @@ TEST_CASE("Each assertion of a TestCase is a verdict, held or not") {
   CHECK(pass.context().verdicts[1].label == "assertEqual: pairs");
   CHECK(pass.context().verdicts[1].line == 4);
 }
+
+}  // namespace safety_test

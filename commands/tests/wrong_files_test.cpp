@@ -14,7 +14,7 @@
 namespace fs = std::filesystem;
 using namespace comma::commands;
 
-namespace {
+namespace wrong_files_test {
 
 const fs::path folder = fs::path(COMMA_SOURCE_DIR) / "commands/tests/wrong";
 
@@ -47,8 +47,6 @@ std::vector<fs::path> files() {
   return {sorted.begin(), sorted.end()};
 }
 
-}  // namespace
-
 TEST_CASE("Each wrong file gets its message, to the letter") {
   const bool update = std::getenv("COMMA_UPDATE_EXPECTED") != nullptr;
   REQUIRE(files().size() > 20);
@@ -62,3 +60,5 @@ TEST_CASE("Each wrong file gets its message, to the letter") {
 }
 
 TEST_CASE("The sound file is sound") { CHECK(outcome(folder / "sound.comm") == "exit 0\n"); }
+
+}  // namespace wrong_files_test

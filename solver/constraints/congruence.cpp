@@ -9,7 +9,7 @@ namespace {
 
 using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-struct Contribution {
+struct WeightedRow {
   int row;
   int source;
   double weight;
@@ -49,7 +49,7 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
       inner_(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros()) {
   const RowMajor by_rows = transformation;
   const std::vector<int> starts = count_by_column(pattern, by_rows);
-  std::vector<Contribution> contributions(starts.back());
+  std::vector<WeightedRow> contributions(starts.back());
   std::vector<int> next(starts.begin(), starts.end() - 1);
   bool all_ones = true;
   for_each_contribution(pattern, by_rows, [&](int row, int column, int source, double weight) {
@@ -77,7 +77,7 @@ Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix
     }
     outer.push_back(static_cast<int>(inner.size()));
   }
-  std::vector<Contribution>().swap(contributions);
+  std::vector<WeightedRow>().swap(contributions);
   const std::vector<double> zeros(inner.size(), 0.0);
   product_ = Eigen::Map<const SymmetricMatrix>(columns, columns, static_cast<Eigen::Index>(inner.size()), outer.data(),
                                                inner.data(), zeros.data());

@@ -29,7 +29,7 @@ CellPoint point_at(const Mesh& mesh, int cell, int local_node) {
   return locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
 }
 
-Eigen::Vector3d normal_at(const Mesh& mesh, int cell, int local_node) {
+Eigen::Vector3d normal_at_node(const Mesh& mesh, int cell, int local_node) {
   return point_at(mesh, cell, local_node).normal(dimension(mesh.cell_types[cell]));
 }
 
@@ -94,7 +94,7 @@ std::map<int, Eigen::Vector3d> mean_normals(const Mesh& mesh, std::span<const in
     }
     const auto nodes = mesh.cell(cell);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const Eigen::Vector3d normal = normal_at(mesh, cell, static_cast<int>(a));
+      const Eigen::Vector3d normal = normal_at_node(mesh, cell, static_cast<int>(a));
       if (!(normal.norm() > 0.0))
         throw Error("degenerate-facet", fmt::format("cell {} is flat at a node", mesh.cell_name(cell)));
       normals.try_emplace(nodes[a], Eigen::Vector3d::Zero()).first->second += normal.normalized();

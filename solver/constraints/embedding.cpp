@@ -9,6 +9,7 @@
 #include "solver/contact/projection.hpp"
 #include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
@@ -17,15 +18,11 @@ namespace {
 /// A shape function's value this small at a host's node is rounding: the point lies on the opposite facet.
 constexpr double negligible_weight = 1e-12;
 /// Reference coordinates are of order one; Newton's last step doubles the digits.
-constexpr double step_tolerance = 1e-8;
-constexpr double far_outside = 1e3;
-constexpr int max_newton_iterations = 30;
+constexpr double embedding_tolerance = 1e-8;
+constexpr double far_outside_cell = 1e3;
+constexpr int most_embedding_iterations = 30;
 /// How far outside the reference cell, in its coordinates, a point still counts as inside.
 constexpr double inside_tolerance = 1e-10;
-
-Eigen::Vector3d place(const Mesh& mesh, int node) {
-  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
-}
 
 bool is_inside(CellType type, const ReferencePoint& at) {
   const auto [x, y, z] = at;
@@ -50,12 +47,12 @@ std::optional<std::vector<double>> weights_inside(const Mesh& mesh, int cell, co
   for (const ReferencePoint& node : nodes) {
     for (int c = 0; c < 3; ++c) at[c] += node[c] / static_cast<double>(nodes.size());
   }
-  for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_embedding_iterations; ++iteration) {
     const CellPoint here = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
     const Eigen::Vector3d step = here.tangents.partialPivLu().solve(point - here.at);
-    if (!step.allFinite() || step.norm() > far_outside) return std::nullopt;
+    if (!step.allFinite() || step.norm() > far_outside_cell) return std::nullopt;
     for (int c = 0; c < 3; ++c) at[c] += step[c];
-    if (step.norm() > step_tolerance) continue;
+    if (step.norm() > embedding_tolerance) continue;
     if (!is_inside(type, at)) return std::nullopt;
     const Eigen::VectorXd weights = shape_functions(type, at);
     return std::vector<double>(weights.begin(), weights.end());

@@ -6,14 +6,11 @@
 
 #include "solver/contact/box_tree.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-Eigen::Vector3d place(const Mesh& mesh, int node) {
-  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
-}
 
 std::vector<int> each_once(std::span<const int> nodes) {
   std::vector<int> result;

@@ -14,12 +14,12 @@ namespace comma::solver {
 
 namespace {
 
-using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using MotionRows = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 constexpr ComponentMask rotation_mask = mask_of(Component::drx) | mask_of(Component::dry) | mask_of(Component::drz);
 constexpr ComponentMask space_mask = mask_of(Component::dz) | mask_of(Component::drx) | mask_of(Component::dry);
 /// Coefficients are of order one after scaling; what rounding leaves of a zero is far below this.
-constexpr double negligible_coefficient = 1e-13;
+constexpr double negligible_in_link = 1e-13;
 
 /// The nodes as a body, lengths scaled by its radius.
 struct RigidBody {
@@ -72,7 +72,7 @@ std::vector<Eigen::Vector3d> settle(RigidBody& body, double coincidence) {
     width = std::max(width, (lever - along * along.dot(lever)).norm());
   }
   // Twice the largest distance from the mean bounds the distance between two nodes; rounding is no width.
-  const auto within = [&](double extent) { return 2.0 * extent <= limit || extent < negligible_coefficient; };
+  const auto within = [&](double extent) { return 2.0 * extent <= limit || extent < negligible_in_link; };
   if (within(size)) {
     for (Eigen::Vector3d& lever : body.levers) lever.setZero();
     return {};
@@ -84,7 +84,7 @@ std::vector<Eigen::Vector3d> settle(RigidBody& body, double coincidence) {
 }
 
 /// The motions of the body, one a column, as coefficients of rigid_body_row().
-Motions motions_of(RigidBody& body, double coincidence) {
+MotionRows motions_of(RigidBody& body, double coincidence) {
   std::vector<Eigen::Vector3d> turns;
   if (!body.turns())
     turns = settle(body, coincidence);
@@ -93,7 +93,7 @@ Motions motions_of(RigidBody& body, double coincidence) {
   else
     turns = {Eigen::Vector3d::UnitZ()};
   const int translations = body.in_space() ? 3 : 2;
-  Motions motions = Motions::Zero(6, translations + static_cast<int>(turns.size()));
+  MotionRows motions = MotionRows::Zero(6, translations + static_cast<int>(turns.size()));
   motions.topLeftCorner(translations, translations).setIdentity();
   for (std::size_t k = 0; k < turns.size(); ++k) motions.col(translations + static_cast<int>(k)).tail<3>() = turns[k];
   return motions;
@@ -106,7 +106,7 @@ struct BodyRows {
   Eigen::MatrixXd values;
 };
 
-BodyRows rows_of(const DofMap& dofs, const RigidBody& body, const Motions& motions) {
+BodyRows rows_of(const DofMap& dofs, const RigidBody& body, const MotionRows& motions) {
   BodyRows rows;
   std::vector<Eigen::RowVectorXd> values;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
@@ -166,7 +166,7 @@ std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std
     relation.terms[0].coefficient = 1.0;
     for (std::size_t k = 0; k < leading.size(); ++k) {
       const double factor = factors(i, static_cast<Eigen::Index>(k));
-      if (std::abs(factor) < negligible_coefficient) continue;
+      if (std::abs(factor) < negligible_in_link) continue;
       const auto& leader = rows.terms[leading[k]];
       relation.terms.push_back(
           {leader.node, leader.component, -factor * leader.coefficient / rows.terms[i].coefficient});

@@ -1,5 +1,6 @@
 #include "solver/constraints/rigid_modes.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
+#include "solver/mesh/place.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,6 @@ constexpr double membership_tolerance = 1e-4;
 /// Components below this beside the largest are rounding when a motion is put into words.
 constexpr double negligible = 1e-6;
 
-Eigen::Vector3d position(const Point& point) {
-  return {point[0], point[1], point[2]};
-}
-
 /// The rigid modes of a part; lengths are measured in units of its size.
 struct PartModes {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -44,15 +41,15 @@ ModeVector mode_values(const Mesh& mesh, const DofMap& dofs, int dof, const Part
     return values;
   }
   values[component] = 1.0;
-  const Eigen::Vector3d arm = (position(mesh.nodes[dofs.node_of(dof)]) - part.centre) / part.size;
+  const Eigen::Vector3d arm = (place(mesh, dofs.node_of(dof)) - part.centre) / part.size;
   for (int axis = 0; axis < 3; ++axis) values[3 + axis] = Eigen::Vector3d::Unit(axis).cross(arm)[component];
   return values;
 }
 
 void place_centre(const Mesh& mesh, std::span<const int> nodes, PartModes& part) {
-  for (const int node : nodes) part.centre += position(mesh.nodes[node]) / static_cast<double>(nodes.size());
+  for (const int node : nodes) part.centre += place(mesh, node) / static_cast<double>(nodes.size());
   double size = 0.0;
-  for (const int node : nodes) size = std::max(size, (position(mesh.nodes[node]) - part.centre).norm());
+  for (const int node : nodes) size = std::max(size, (place(mesh, node) - part.centre).norm());
   if (size > 0.0) part.size = size;
 }
 

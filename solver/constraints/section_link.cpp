@@ -12,7 +12,7 @@ namespace comma::solver {
 namespace {
 
 /// Coefficients this small, of about one, are rounding.
-constexpr double negligible_coefficient = 1e-14;
+constexpr double negligible_in_section = 1e-14;
 
 /// For each node: the integrals over the section of its shape function N and of N GM, where the section has unit
 /// measure.
@@ -68,7 +68,7 @@ SectionIntegrals integrate(const Mesh& mesh, std::span<const int> section) {
 }
 
 void add_term(LinearRelation& relation, int node, int component, double coefficient) {
-  if (std::abs(coefficient) < negligible_coefficient) return;
+  if (std::abs(coefficient) < negligible_in_section) return;
   relation.terms.push_back({node, static_cast<Component>(component), coefficient});
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// do not see.
 constexpr double unseen_motion = 1e-10;
 /// Coefficients this small, of about one in all, are rounding.
-constexpr double negligible_coefficient = 1e-14;
+constexpr double negligible_in_average = 1e-14;
 
 /// One component of a leader: rotation columns and rows scaled by the mean distance.
 struct Sight {
@@ -109,7 +109,7 @@ std::vector<LinearRelation> weighted_average(const Mesh& mesh, const DofMap& dof
     LinearRelation relation{{{follower, component, 1.0}}, 0.0, {}, origin};
     for (const Sight& sight : leaders.sights) {
       const double share = sight.weight * sight.row(kept).dot(normal.inverse.row(row));
-      if (std::abs(share) < negligible_coefficient) continue;
+      if (std::abs(share) < negligible_in_average) continue;
       relation.terms.push_back({sight.term.node, sight.term.component, -share * sight.term.coefficient / scale});
     }
     relations.push_back(std::move(relation));

@@ -27,7 +27,7 @@ constexpr double residual_tolerance = 1e-12;
 /// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned compliance.
 constexpr double stagnation_tolerance = 1e-9;
 /// Or this share of what the forces could do to the jumps.
-constexpr double rounding_share = 1e-13;
+constexpr double jump_rounding_share = 1e-13;
 /// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
 /// rounding of displacements.
 constexpr double rounding_scale = 1e-6;
@@ -424,7 +424,7 @@ class CondensedSolver {
     const bool stagnates = same_statuses_ > 0 && residual_ > 0.5 * last_residual_;
     last_residual_ = residual_;
     ++same_statuses_;
-    return stagnates && residual_ <= std::max(stagnation_tolerance * scale_, rounding_share * largest_response());
+    return stagnates && residual_ <= std::max(stagnation_tolerance * scale_, jump_rounding_share * largest_response());
   }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.

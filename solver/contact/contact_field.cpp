@@ -11,7 +11,7 @@ enum Column : std::uint8_t {
   pt_x, pt_y, pt_z, proj_x, proj_y, proj_z, column_count
 };
 
-constexpr std::array<const char*, column_count> names = {
+constexpr std::array<const char*, column_count> contact_names = {
     "CONT", "JEU",  "RN",   "RNX",  "RNY", "RNZ", "GLIX", "GLIY", "GLI", "RTAX", "RTAY", "RTAZ", "RTGX",   "RTGY",   "RTGZ",
     "RX",   "RY",   "RZ",   "R",    "HN",  "I",   "IX",   "IY",   "IZ",  "PT_X", "PT_Y", "PT_Z", "PROJ_X", "PROJ_Y", "PROJ_Z"};
 
@@ -36,7 +36,7 @@ double status_of(const NodeContact& contact, const Eigen::Vector3d& place) {
 NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions) {
   NodalField field;
   field.quantity = "INFC_R";
-  field.components.assign(names.begin(), names.end());
+  field.components.assign(contact_names.begin(), contact_names.end());
   field.values.assign(static_cast<std::size_t>(node_count) * column_count, absent);
   for (const NodeContact& contact : contacts) {
     const ContactPair& pair = contact.pair;

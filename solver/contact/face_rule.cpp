@@ -24,7 +24,7 @@ constexpr int default_simpson_order = 1;
 constexpr int default_newton_cotes_order = 3;
 
 /// Points of [-1, 1] and their weights.
-using Line = std::vector<std::pair<double, double>>;
+using LineRule = std::vector<std::pair<double, double>>;
 
 struct Legendre {
   double value;
@@ -39,9 +39,9 @@ Legendre legendre(int degree, double x) {
 }
 
 /// Roots of the Legendre polynomial by Newton's method from their cosine estimates.
-Line gauss_line(int count) {
+LineRule gauss_line(int count) {
   if (count == 1) return {{0.0, 2.0}};
-  Line line;
+  LineRule line;
   for (int k = count; k >= 1; --k) {
     double x = std::cos(std::numbers::pi * (k - 0.25) / (count + 0.5));
     for (int iteration = 0; iteration < 20; ++iteration) {
@@ -54,8 +54,8 @@ Line gauss_line(int count) {
   return line;
 }
 
-Line simpson_line(int pieces) {
-  Line line;
+LineRule simpson_line(int pieces) {
+  LineRule line;
   const int count = 2 * pieces + 1;
   const double third = 1.0 / (3.0 * pieces);
   for (int k = 0; k < count; ++k) {
@@ -66,7 +66,7 @@ Line simpson_line(int pieces) {
 }
 
 /// Closed, on equidistant points: the weights that integrate the monomials exactly.
-Line newton_cotes_line(int order) {
+LineRule newton_cotes_line(int order) {
   const int count = order + 1;
   Eigen::MatrixXd powers(count, count);
   Eigen::VectorXd integrals(count);
@@ -75,20 +75,20 @@ Line newton_cotes_line(int order) {
     integrals[degree] = degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0;
   }
   const Eigen::VectorXd weights = powers.fullPivLu().solve(integrals);
-  Line line;
+  LineRule line;
   for (int k = 0; k < count; ++k) line.emplace_back(-1.0 + 2.0 * k / order, weights[k]);
   return line;
 }
 
-Line trapezium_line() { return {{-1.0, 1.0}, {1.0, 1.0}}; }
+LineRule trapezium_line() { return {{-1.0, 1.0}, {1.0, 1.0}}; }
 
-std::vector<FacePoint> on_line(const Line& line) {
+std::vector<FacePoint> on_line(const LineRule& line) {
   std::vector<FacePoint> points;
   for (const auto& [x, weight] : line) points.push_back({Vector2d(x, 0.0), weight});
   return points;
 }
 
-std::vector<FacePoint> on_square(const Line& line) {
+std::vector<FacePoint> on_square(const LineRule& line) {
   std::vector<FacePoint> points;
   for (const auto& [y, b] : line)
     for (const auto& [x, a] : line) points.push_back({Vector2d(x, y), a * b});
@@ -191,7 +191,7 @@ std::vector<FacePoint> newton_cotes_triangle(int order) {
 
 bool is_triangle(CellType type) { return corner_count(type) == 3; }
 
-Line line_of(ContactRule rule, int order) {
+LineRule line_of(ContactRule rule, int order) {
   switch (rule) {
     case ContactRule::gauss: return gauss_line(order);
     case ContactRule::simpson: return simpson_line(order);

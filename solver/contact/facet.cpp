@@ -13,19 +13,19 @@ namespace {
 using Eigen::Vector2d;
 
 /// Corners, mid-edges and centre of the square, in the order of QUAD9.
-constexpr std::array<std::array<double, 2>, 9> square_nodes = {
+constexpr std::array<std::array<double, 2>, 9> square_places = {
     {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
-constexpr std::array<std::array<double, 2>, 7> triangle_nodes = {
+constexpr std::array<std::array<double, 2>, 7> triangle_places = {
     {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}, {1.0 / 3, 1.0 / 3}}};
 
-struct Line {
+struct LinePolynomial {
   double value;
   double slope;
 };
 
 /// The polynomial on [-1, 1] that is one at `node` and zero at the other nodes of the line.
-Line linear(double node, double x) { return {0.5 * (1 + node * x), 0.5 * node}; }
-Line quadratic(double node, double x) {
+LinePolynomial linear(double node, double x) { return {0.5 * (1 + node * x), 0.5 * node}; }
+LinePolynomial quadratic(double node, double x) {
   if (node == 0) return {1 - x * x, -2 * x};
   return {0.5 * x * (x + node), x + 0.5 * node};
 }
@@ -34,8 +34,8 @@ template <class Polynomial>
 FacetShape tensor(int nodes, const Vector2d& xi, Polynomial polynomial) {
   FacetShape shape;
   for (int i = 0; i < nodes; ++i) {
-    const Line a = polynomial(square_nodes[i][0], xi[0]);
-    const Line b = polynomial(square_nodes[i][1], xi[1]);
+    const LinePolynomial a = polynomial(square_places[i][0], xi[0]);
+    const LinePolynomial b = polynomial(square_places[i][1], xi[1]);
     shape.values[i] = a.value * b.value;
     shape.gradients[i] = {a.slope * b.value, a.value * b.slope};
   }
@@ -47,7 +47,7 @@ FacetShape line(int nodes, double x, Polynomial polynomial) {
   constexpr std::array<double, 3> at = {-1, 1, 0};
   FacetShape shape;
   for (int i = 0; i < nodes; ++i) {
-    const Line a = polynomial(at[i], x);
+    const LinePolynomial a = polynomial(at[i], x);
     shape.values[i] = a.value;
     shape.gradients[i] = {a.slope, 0.0};
   }
@@ -59,14 +59,14 @@ FacetShape serendipity(const Vector2d& xi) {
   const double x = xi[0];
   const double y = xi[1];
   for (int i = 0; i < 4; ++i) {
-    const double a = square_nodes[i][0];
-    const double b = square_nodes[i][1];
+    const double a = square_places[i][0];
+    const double b = square_places[i][1];
     shape.values[i] = 0.25 * (1 + a * x) * (1 + b * y) * (a * x + b * y - 1);
     shape.gradients[i] = {0.25 * a * (1 + b * y) * (2 * a * x + b * y), 0.25 * b * (1 + a * x) * (a * x + 2 * b * y)};
   }
   for (int i = 4; i < 8; ++i) {
-    const double a = square_nodes[i][0];
-    const double b = square_nodes[i][1];
+    const double a = square_places[i][0];
+    const double b = square_places[i][1];
     if (a == 0) {
       shape.values[i] = 0.5 * (1 - x * x) * (1 + b * y);
       shape.gradients[i] = {-x * (1 + b * y), 0.5 * b * (1 - x * x)};
@@ -151,8 +151,8 @@ FacetShape facet_shape(CellType type, const Vector2d& xi) {
 Vector2d facet_node(CellType type, int node) {
   switch (family_of(type)) {
     case Family::line: return {node == 2 ? 0.0 : 2.0 * node - 1.0, 0.0};
-    case Family::triangle: return {triangle_nodes[node][0], triangle_nodes[node][1]};
-    case Family::quadrangle: return {square_nodes[node][0], square_nodes[node][1]};
+    case Family::triangle: return {triangle_places[node][0], triangle_places[node][1]};
+    case Family::quadrangle: return {square_places[node][0], square_places[node][1]};
   }
   return {};
 }

@@ -60,19 +60,19 @@ std::optional<double> solve_scalar(double slope, Function value) {
   return std::nullopt;
 }
 
-double cross(const Vector3d& a, const Vector3d& b) { return a[0] * b[1] - a[1] * b[0]; }
+double cross_in_plane(const Vector3d& a, const Vector3d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 Vector3d tangent_at(const FacetGeometry& line, double xi) { return facet_tangents(line.type, line.points, {xi, 0.0}).col(0); }
 
 /// Where the normal of a line passes through a place.
 std::optional<double> foot_on_slave(const FacetGeometry& slave, const Vector3d& place) {
-  const double slope = cross(tangent_at(slave, 0.0), normal_at(slave, {0.0, 0.0}));
-  return solve_scalar(slope, [&](double xi) { return cross(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0})); });
+  const double slope = cross_in_plane(tangent_at(slave, 0.0), normal_at(slave, {0.0, 0.0}));
+  return solve_scalar(slope, [&](double xi) { return cross_in_plane(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0})); });
 }
 
 /// Where a straight line from a place meets a master line.
 std::optional<double> hit_on_master(const FacetGeometry& master, const Vector3d& place, const Vector3d& direction) {
-  return solve_scalar(cross(tangent_at(master, 0.0), direction), [&](double xi) { return cross(point_at(master, {xi, 0.0}) - place, direction); });
+  return solve_scalar(cross_in_plane(tangent_at(master, 0.0), direction), [&](double xi) { return cross_in_plane(point_at(master, {xi, 0.0}) - place, direction); });
 }
 
 std::vector<OverlapPoint> segment_overlap(const FacetGeometry& slave, const FacetGeometry& master) {

@@ -17,7 +17,7 @@ constexpr double bulge = 0.25;
 constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
 /// Boxes this share farther than the nearest facet are looked into still: what is left out must not be as near.
 constexpr double search_margin = 1e-10;
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinitely_far = std::numeric_limits<double>::infinity();
 
 bool share_a_node(std::span<const int> a, std::span<const int> b) {
   return std::ranges::any_of(a, [&](int node) { return std::ranges::find(b, node) != b.end(); });
@@ -57,7 +57,7 @@ std::vector<Box> FacetSearch::node_boxes() const {
 
 bool FacetSearch::too_far(const Vector3d& point) const {
   if (zone_.pairing_distance < 0.0) return false;
-  double nearest = infinite;
+  double nearest = infinitely_far;
   nodes_.search(point, [&](int item) {
     nearest = std::min(nearest, (positions_[master_nodes_[item]] - point).norm());
     return nearest;
@@ -67,11 +67,11 @@ bool FacetSearch::too_far(const Vector3d& point) const {
 
 std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own) const {
   Hit best;
-  best.projection.distance = infinite;
+  best.projection.distance = infinitely_far;
   facets_.search(point, [&](int item) {
     consider(point, own, zone_.master_cells[item], best);
     // Along a direction a facet that is far may be met where a near one is passed by.
-    if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinite;
+    if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinitely_far;
     return best.projection.distance * (1.0 + search_margin) + search_margin;
   });
   if (best.facet < 0 || is_outside(best.projection)) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
 
 std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
   int nearest = -1;
-  double distance = infinite;
+  double distance = infinitely_far;
   nodes_.search(point, [&](int item) {
     const int node = master_nodes_[item];
     const double away = (positions_[node] - point).norm();

@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
-
 Vector3d initial(const Mesh& mesh, int node) { return {mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]}; }
 
 class RowBuilder {
@@ -20,10 +18,10 @@ class RowBuilder {
   void add(int row, int node, const Vector3d& coefficients) {
     for (int axis = 0; axis < 3; ++axis) {
       if (coefficients[axis] == 0.0) continue;
-      const int dof = dofs_.dof(node, translations[axis]);
+      const int dof = dofs_.dof(node, translation_components[axis]);
       if (dof < 0)
         throw Error("unknown-dof",
-                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translations[axis])),
+                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translation_components[axis])),
                     "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
       entries_.emplace_back(row, dof, coefficients[axis]);
     }

@@ -9,10 +9,6 @@
 namespace comma::solver {
 namespace {
 
-bool is_beam(Formulation formulation) {
-  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-}
-
 template <class Sections>
 const auto& section_of(const Sections& sections, const Mesh& mesh, int cell) {
   const auto found = sections.find(cell);

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 /// would push a body that only weak springs hold sideways.
 constexpr double clean_normal_tolerance = 1e-14;
 
-Vector3d cleaned(Vector3d normal) {
+Vector3d cleaned_normal(Vector3d normal) {
   for (double& component : normal)
     if (std::abs(component) < clean_normal_tolerance) component = 0.0;
   return normal.normalized();
@@ -59,7 +59,7 @@ Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, P
   }
   if (!(normal.norm() > clean_normal_tolerance))
     throw Error("degenerate-facet", fmt::format("the second direction that is given leaves contact facet {} no normal", mesh.cell_name(facet)));
-  return cleaned(normal.normalized());
+  return cleaned_normal(normal.normalized());
 }
 
 }  // namespace
@@ -78,14 +78,14 @@ std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<cons
     if (!(normal.norm() > clean_normal_tolerance))
       throw Error("degenerate-facet", fmt::format("the contact facets around node {} face opposite ways", mesh.node_name(node)),
                   "turn the skin cells outwards with MODI_MAILLAGE/ORIE_PEAU");
-    normal = cleaned(normal.normalized());
+    normal = cleaned_normal(normal.normalized());
   }
   return normals;
 }
 
 Vector3d outward_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
   require_plane_or_surface(mesh, facet);
-  return cleaned(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
+  return cleaned_normal(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
 }
 
 Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
@@ -97,7 +97,7 @@ Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d&
   if (!(normal.norm() > clean_normal_tolerance))
     throw Error("degenerate-facet", fmt::format("the normals at the nodes of contact facet {} cancel", mesh.cell_name(facet)),
                 "refine the facet, or leave normals as they are (LISSAGE='NON')");
-  return cleaned(normal.normalized());
+  return cleaned_normal(normal.normalized());
 }
 
 Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
@@ -105,7 +105,7 @@ Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet,
   switch (choice.rule) {
     case NormalRule::fixed:
       if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of a contact surface is null");
-      return cleaned(given.normalized());
+      return cleaned_normal(given.normalized());
     case NormalRule::along_y: return normal_across(mesh, facet, xi, positions, given);
     case NormalRule::automatic: break;
   }
@@ -119,7 +119,7 @@ Vector3d contact_normal(NormalSide side, const Vector3d& master, const Vector3d&
   if (!(mean.norm() > clean_normal_tolerance))
     throw Error("degenerate-facet", "the mean of a master and a slave normal vanishes: the surfaces face the same way",
                 "turn the skin cells outwards with MODI_MAILLAGE/ORIE_PEAU");
-  return cleaned(mean.normalized());
+  return cleaned_normal(mean.normalized());
 }
 
 }  // namespace comma::solver

@@ -5,7 +5,7 @@
 namespace comma::solver {
 namespace {
 
-constexpr std::array<const char*, 5> names = {"CONT", "JEU", "PRES", "COEFSURF", "PRESCOOR"};
+constexpr std::array<const char*, 5> patch_names = {"CONT", "JEU", "PRES", "COEFSURF", "PRESCOOR"};
 
 }  // namespace
 
@@ -16,7 +16,7 @@ ElementField patch_field(std::span<const std::pair<std::vector<int>, PatchContac
   ElementField field;
   field.quantity = "CONT_R";
   field.support = Support::cell;
-  field.components.assign(names.begin(), names.end());
+  field.components.assign(patch_names.begin(), patch_names.end());
   field.starts = {0};
   for (const PatchContact* contact : of_cell) {
     field.starts.push_back(field.starts.back() + (contact != nullptr ? 1 : 0));

@@ -17,7 +17,7 @@ constexpr double most_entries = 5e10;
 /// Sweeps end when forces change by less than this share of the largest: statuses then are those of the solution.
 constexpr double force_tolerance = 1e-7;
 /// At one point.
-constexpr int most_turns = 100;
+constexpr int most_relaxation_turns = 100;
 constexpr double turn_tolerance = 1e-10;
 /// A point that gives way less than this share of what the softest one does is held by conditions on displacements.
 constexpr double held_compliance = 1e-9;
@@ -129,7 +129,7 @@ class Relaxation {
       for (int c = 1; c < point.rows; ++c) own(c, c) += 1.0 / (point.weight * point.law.friction_augmentation);
     const double friction = point.law.friction;
     const double stiffness = 1.0 / own.trace();
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < most_relaxation_turns; ++turn) {
       Vector3d jump = others + own * force;
       jump[0] += friction * jump.tail<2>().norm();
       const Vector3d next = on_cone(force - stiffness * jump, friction);

@@ -12,7 +12,7 @@ using Interpolation = Eigen::Matrix<double, 6, 12>;
 
 /// Bending in one plane: deflection row `v` and rotation row `r`, whose end values stand in columns v, r, v + 6 and r +
 /// 6, with rotation = sign * slope in the absence of shear.
-void add_bending(Interpolation& h, double s, double length, double softening, int v, int r, double sign) {
+void interpolate_bending(Interpolation& h, double s, double length, double softening, int v, int r, double sign) {
   const double c = 1.0 / (1.0 + softening);
   const double l = sign * length;
   h(v, v) = c * (1.0 + softening - softening * s - 3.0 * s * s + 2.0 * s * s * s);
@@ -40,8 +40,8 @@ Interpolation interpolate(const BeamInterpolation& beam, double position) {
     h(axial, axial) = 1.0 - position;
     h(axial, axial + 6) = position;
   }
-  add_bending(h, position, beam.length, beam.softening_y, 1, 5, 1.0);
-  add_bending(h, position, beam.length, beam.softening_z, 2, 4, -1.0);
+  interpolate_bending(h, position, beam.length, beam.softening_y, 1, 5, 1.0);
+  interpolate_bending(h, position, beam.length, beam.softening_z, 2, 4, -1.0);
   return h;
 }
 

@@ -15,10 +15,6 @@ bool needs_stabilisation(CellType type, Formulation formulation) {
   return reduced && type == CellType::quad4;
 }
 
-bool is_plane_stress(Formulation formulation) {
-  return formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced;
-}
-
 }  // namespace
 
 bool keeps_memory(const BlockInput& input, std::span<const int> cells) {

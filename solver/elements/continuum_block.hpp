@@ -17,11 +17,9 @@
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
-
-inline constexpr std::array<std::string_view, 4> plane_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY"};
-inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 template <int Dim, int Nodes, bool Axisymmetric>
 class ContinuumBlock : public ElementBlock {

@@ -8,6 +8,7 @@
 #include "solver/elements/plate_axes.hpp"
 #include "solver/elements/slender_forces.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
@@ -58,10 +59,6 @@ Eigen::Matrix<double, static_cast<int>(N), 1> values_at(const std::array<double,
   Eigen::Matrix<double, static_cast<int>(N), 1> result;
   for (std::size_t c = 0; c < N; ++c) result[static_cast<int>(c)] = functions[c] ? functions[c](at, time) : values[c];
   return result;
-}
-
-Point to_point(const Eigen::Vector3d& at) {
-  return {at[0], at[1], at[2]};
 }
 
 void check_distributed_force(const Model& model, const DistributedForce& load) {

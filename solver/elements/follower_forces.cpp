@@ -3,6 +3,7 @@
 #include "solver/elements/external_forces.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
@@ -10,8 +11,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Point to_point(const Vector3d& at) { return {at[0], at[1], at[2]}; }
 
 double value_of(double number, const FieldFunction& function, const CellPoint& initial, const CellPoint& now, double time) {
   if (!function) return number;

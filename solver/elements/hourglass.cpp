@@ -42,7 +42,7 @@ void add_shears(const Eigen::Matrix<double, 4, 3>& g, StrainRows& rows) {
   add(rows, xz, z, g, x, 13, 1.0);
 }
 
-void add_bending(const Eigen::Matrix<double, 4, 3>& g, double poisson, StrainRows& rows) {
+void add_bending_patterns(const Eigen::Matrix<double, 4, 3>& g, double poisson, StrainRows& rows) {
   enum { x, y, z };
   const double in_plane = poisson / (1.0 - poisson);
   for (const int axis : {x, y, z}) add(rows, axis, axis, g, axis, 1234, 1.0);
@@ -84,7 +84,7 @@ Hourglass::Stiffness Hourglass::stiffness(const Matrix6d& law, Projection projec
   for (const Point& point : points_) {
     StrainRows rows = StrainRows::Zero();
     add_shears(point.gradients, rows);
-    if (projection == Projection::bending) add_bending(point.gradients, poisson_of(law), rows);
+    if (projection == Projection::bending) add_bending_patterns(point.gradients, poisson_of(law), rows);
     else add_deviatoric(point.gradients, rows);
     sum += point.weight * rows.transpose() * law * rows;
   }

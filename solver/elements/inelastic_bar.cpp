@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::array<std::string_view, 1> axial_force = {"N"};
 /// Of the stresses, what rounding leaves of an equation between them.
-constexpr double rounding_share = 1e-14;
-constexpr int tensor_size = 6;
+constexpr double bar_rounding_share = 1e-14;
+constexpr int back_stress_size = 6;
 
 double young_of(const PlasticModuli& moduli) { return 9.0 * moduli.bulk * moduli.shear / (3.0 * moduli.bulk + moduli.shear); }
 
-double ratio(double now, double before) { return before != 0.0 ? now / before : 1.0; }
+double ratio_or_one(double now, double before) { return before != 0.0 ? now / before : 1.0; }
 
 /// What the material is at an instant.
 struct BarMaterial {
@@ -57,14 +57,14 @@ BarResponse integrate(const BarState& past, const BarMaterial& now, double strai
   state.moduli = now.plastic;
   state.flow = 0.0;
   state.flowing = false;
-  state.stress = ratio(young, past_young) * past.stress + young * increment;
-  state.back_stress = ratio(now.plastic.kinematic, past.moduli.kinematic) * past.back_stress;
+  state.stress = ratio_or_one(young, past_young) * past.stress + young * increment;
+  state.back_stress = ratio_or_one(now.plastic.kinematic, past.moduli.kinematic) * past.back_stress;
   if (std::holds_alternative<NoYield>(now.plastic.curve)) return response;
   const double hardness = young + 1.5 * now.plastic.kinematic;
   const double relative = state.stress - 1.5 * state.back_stress;
   const double size = std::abs(relative);
   const auto flow_tangent = [&] { return young - young * young / (hardness + hardening(now.plastic.curve, state.p).second); };
-  if (!(size > hardening(now.plastic.curve, past.p).first * (1.0 + rounding_share))) {
+  if (!(size > hardening(now.plastic.curve, past.p).first * (1.0 + bar_rounding_share))) {
     // Nothing moves yet: what flowed in the last step is taken to flow on.
     state.flowing = past.flowing && increment == 0.0;
     if (state.flowing) response.tangent = flow_tangent();
@@ -88,7 +88,7 @@ BarResponse extrapolate_flow(const BarState& past, const BarMaterial& now, doubl
   response.state.strain = strain;
   response.state.expansion = now.expansion;
   const double past_young = past.moduli.shear != 0.0 ? young_of(past.moduli) : 0.0;
-  response.state.stress = ratio(young, past_young) * past.stress + response.tangent * (strain - past.strain - (now.expansion - past.expansion));
+  response.state.stress = ratio_or_one(young, past_young) * past.stress + response.tangent * (strain - past.strain - (now.expansion - past.expansion));
   return response;
 }
 
@@ -152,8 +152,8 @@ class InelasticBar final : public ElementBlock {
   }
 
   int variable_count() const override {
-    if (behaviour_.relation == Relation::kinematic_linear) return tensor_size + 1;
-    return is_mixed() ? 2 + tensor_size : 2;
+    if (behaviour_.relation == Relation::kinematic_linear) return back_stress_size + 1;
+    return is_mixed() ? 2 + back_stress_size : 2;
   }
   void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::ranges::fill(out, 0.0);
@@ -211,7 +211,7 @@ class InelasticBar final : public ElementBlock {
   };
 
   bool is_mixed() const { return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction; }
-  std::size_t place_of_flow() const { return behaviour_.relation == Relation::kinematic_linear ? tensor_size : 1; }
+  std::size_t place_of_flow() const { return behaviour_.relation == Relation::kinematic_linear ? back_stress_size : 1; }
   std::size_t place_of_back_stress() const { return is_mixed() ? 2 : 0; }
 
   Member member(const BlockInput& input, int cell) const {

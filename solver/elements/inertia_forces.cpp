@@ -8,16 +8,13 @@
 #include "solver/elements/slender_forces.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-Eigen::Vector3d place(const Mesh& mesh, int node) {
-  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[node].data());
-}
 
 bool any_axisymmetric(const Model& model, std::span<const int> cells) {
   return std::any_of(cells.begin(), cells.end(), [&](int cell) { return is_axisymmetric(model.formulations[cell]); });

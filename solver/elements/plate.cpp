@@ -17,7 +17,7 @@ namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
+constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 
 /// A corner off the plane of the others by more than this share of the cell's size makes a cell that a flat plate cannot stand for.
 constexpr double largest_warp = 1e-3;
@@ -138,7 +138,7 @@ class PlateBlock final : public ElementBlock {
 
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return Nodes; }
-  std::span<const std::string_view> stress_names() const override { return force_names; }
+  std::span<const std::string_view> stress_names() const override { return plate_force_names; }
 
   /// Forces and moments per length at the corners, about the surface of the mesh, in the plate's own axes.
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -210,7 +210,7 @@ class PlateBlock final : public ElementBlock {
   }
 
   void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
-    const std::size_t names = force_names.size();
+    const std::size_t names = plate_force_names.size();
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
       double* target = out.data() + static_cast<std::size_t>(element * Nodes) * names;

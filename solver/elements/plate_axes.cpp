@@ -9,10 +9,10 @@ namespace comma::solver {
 namespace {
 
 /// The reference direction must have at least this sine with the normal, or rounding would turn the axes.
-constexpr double smallest_sine = 1e-6;
+constexpr double smallest_axis_sine = 1e-6;
 
 /// Of any length; of a quadrangle across its diagonals.
-Eigen::Vector3d normal_of(const Mesh& mesh, int cell) {
+Eigen::Vector3d plate_normal(const Mesh& mesh, int cell) {
   const auto nodes = mesh.cell(cell);
   const auto place = [&](std::size_t corner) -> Eigen::Vector3d { return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[corner]].data()); };
   if (nodes.size() == 3) return (place(1) - place(0)).cross(place(2) - place(0));
@@ -22,11 +22,11 @@ Eigen::Vector3d normal_of(const Mesh& mesh, int cell) {
 }  // namespace
 
 Eigen::Matrix3d plate_axes(const Mesh& mesh, int cell, const PlateSection& section) {
-  const Eigen::Vector3d across = normal_of(mesh, cell);
+  const Eigen::Vector3d across = plate_normal(mesh, cell);
   if (!(across.norm() > 0.0)) throw Error("distorted-cell", fmt::format("plate {} has no area", mesh.cell_name(cell)));
   const Eigen::Vector3d z = across.normalized();
   const Eigen::Vector3d in_plane = section.direction - section.direction.dot(z) * z;
-  if (!(in_plane.norm() > smallest_sine * section.direction.norm())) {
+  if (!(in_plane.norm() > smallest_axis_sine * section.direction.norm())) {
     throw Error("zero-vector", fmt::format("the direction that gives plate {} its axes lies along its normal", mesh.cell_name(cell)),
                 "give a direction in the plane of the plate");
   }

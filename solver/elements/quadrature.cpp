@@ -296,11 +296,6 @@ const Rule& rule_named(CellType type, std::string_view name) {
   return *found;
 }
 
-bool is_reduced(Formulation formulation) {
-  return formulation == Formulation::solid_reduced || formulation == Formulation::plane_strain_reduced ||
-         formulation == Formulation::plane_stress_reduced || formulation == Formulation::axisymmetric_reduced;
-}
-
 std::string_view full_family(CellType type) {
   switch (type) {
     case CellType::poi1:

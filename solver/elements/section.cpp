@@ -11,7 +11,7 @@ namespace comma::solver {
 namespace {
 
 /// Directions (in radians) closer than this are the same but for rounding.
-constexpr double smallest_angle = 1e-12;
+constexpr double smallest_roll = 1e-12;
 
 void check_count(std::size_t given, std::size_t expected, const Mesh& mesh, int cell) {
   if (given == expected) return;
@@ -117,7 +117,7 @@ Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& ori
 
 double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {
   const Eigen::Vector3d wanted = own_axes(mesh, cell) * y;  // in the axes without roll
-  if (!(std::hypot(wanted[1], wanted[2]) > smallest_angle * wanted.norm())) {
+  if (!(std::hypot(wanted[1], wanted[2]) > smallest_roll * wanted.norm())) {
     throw Error("zero-vector", fmt::format("the direction of the second axis of {} lies along the cell, or is zero", mesh.cell_name(cell)),
                 "give a direction across the cell");
   }
@@ -126,7 +126,7 @@ double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {
 
 Eigen::Matrix3d axes_along(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   const Eigen::Vector3d z = x.cross(y);
-  if (!(z.norm() > smallest_angle * x.norm() * y.norm())) {
+  if (!(z.norm() > smallest_roll * x.norm() * y.norm())) {
     throw Error("zero-vector", "the two directions of a frame lie along each other, or one is zero", "give two different directions");
   }
   Eigen::Matrix3d axes;

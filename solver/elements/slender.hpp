@@ -5,10 +5,9 @@
 #include <string_view>
 
 #include "solver/elements/element_block.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
-
-inline constexpr std::array<std::string_view, 6> beam_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
 
 /// The section of a bar or beam, with the values that the element needs positive. Throws Error `missing-properties`, `invalid-properties`.
 const BeamSection& slender_section(const BlockInput& input, int cell);

@@ -50,14 +50,6 @@ Vector12 beam_end_forces(const ForceInput& input, int cell, const LineLoad& load
 
 }  // namespace
 
-bool is_bar(Formulation formulation) {
-  return formulation == Formulation::bar || formulation == Formulation::bar_2d;
-}
-
-bool is_beam(Formulation formulation) {
-  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-}
-
 const BeamSection& section_of(const ForceInput& input, int cell) {
   const auto found = input.properties.sections.find(cell);
   if (found != input.properties.sections.end()) return found->second;

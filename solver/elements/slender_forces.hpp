@@ -11,9 +11,6 @@
 
 namespace comma::solver {
 
-bool is_bar(Formulation formulation);
-bool is_beam(Formulation formulation);
-
 /// Own axes (rows) of a bar or beam, its roll included.
 Eigen::Matrix3d slender_axes(const ForceInput& input, int cell);
 /// Throws Error `missing-properties` naming a cell without cross-section.

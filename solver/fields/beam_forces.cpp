@@ -8,12 +8,11 @@
 
 #include "solver/elements/slender_forces.hpp"
 #include "solver/fields/extrapolation.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
 
 /// The loads between the ends of each beam.
 class SpanLoads {
@@ -59,7 +58,7 @@ ElementField end_section_forces(const ForceInput& input, const ElementField& str
                                 std::span<const AppliedLoad> loads, double time) {
   ElementField field = section_forces(to_element_nodes(input.model, stresses));
   std::array<int, 6> columns;
-  for (int c = 0; c < 6; ++c) columns[c] = field.component(force_names[c]);
+  for (int c = 0; c < 6; ++c) columns[c] = field.component(beam_force_names[c]);
   const SpanLoads spans(input.model, loads);
   std::vector<long double> forces(static_cast<std::size_t>(input.dofs.size()), 0.0L);
   for (const auto& [cell, own_loads] : spans.by_cell()) {

@@ -6,22 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/geometric_stiffness.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
-
-struct SectionForces {
-  double n, vy, vz, mt, mfy, mfz;
-};
-
-bool is_beam(Formulation formulation) {
-  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-}
 
 bool is_slender(Formulation formulation) {
   return is_beam(formulation) || formulation == Formulation::bar || formulation == Formulation::bar_2d;
@@ -40,7 +32,7 @@ template <class Write>
 ElementField on_members(const FieldInput& input, const ElementField& forces, std::string quantity,
                         std::vector<std::string> names, Write&& write) {
   std::array<int, 6> columns;
-  for (int i = 0; i < 6; ++i) columns[i] = forces.component(force_names[i]);
+  for (int i = 0; i < 6; ++i) columns[i] = forces.component(beam_force_names[i]);
   if (columns[0] < 0) throw Error("incompatible-field", "the field of section forces has no component N");
   ElementField result{std::move(quantity), forces.support, std::move(names), {0}, {}};
   const std::size_t width = result.components.size();

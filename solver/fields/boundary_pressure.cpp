@@ -7,12 +7,11 @@
 #include "solver/contact/normals.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 Eigen::Matrix3d stress_at(const NodalField& field, const std::array<int, 6>& columns, int node) {
   const auto value = [&](int i) {
@@ -29,7 +28,7 @@ Eigen::Matrix3d stress_at(const NodalField& field, const std::array<int, 6>& col
 NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::span<const int> cells,
                              std::span<const Eigen::Vector3d> positions) {
   std::array<int, 6> columns;
-  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(stress_names[i]);
+  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(solid_stress_names[i]);
   if (columns[0] < 0 || columns[1] < 0) throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
   NodalField pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY", "VZ"});
   if (mesh.dimension == 2) pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"});

@@ -9,15 +9,6 @@
 
 namespace comma::solver {
 
-namespace {
-
-bool is_reduced(Formulation formulation) {
-  return formulation == Formulation::solid_reduced || formulation == Formulation::plane_strain_reduced ||
-         formulation == Formulation::plane_stress_reduced || formulation == Formulation::axisymmetric_reduced;
-}
-
-}  // namespace
-
 CellMaterial material_of(const FieldInput& input, int cell) {
   const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
   if (material == nullptr || !material->elasticity) {

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 constexpr std::array<std::string_view, 6> strain_names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
 const std::array<std::string, 9> direction_names = {"VECT_1_X", "VECT_1_Y", "VECT_1_Z", "VECT_2_X", "VECT_2_Y",
                                                     "VECT_2_Z", "VECT_3_X", "VECT_3_Y", "VECT_3_Z"};
@@ -111,10 +111,10 @@ double tresca(const Eigen::Matrix3d& stress) {
 }
 
 ElementField equivalent_stresses(const ElementField& stresses) {
-  return map_tensors(stresses, stress_names, stress_results(), write_stress);
+  return map_tensors(stresses, solid_stress_names, stress_results(), write_stress);
 }
 NodalField equivalent_stresses(const NodalField& stresses) {
-  return map_tensors(stresses, stress_names, stress_results(), write_stress);
+  return map_tensors(stresses, solid_stress_names, stress_results(), write_stress);
 }
 ElementField equivalent_strains(const ElementField& strains) {
   return map_tensors(strains, strain_names, strain_results(), write_strain);
@@ -126,7 +126,7 @@ NodalField equivalent_strains(const NodalField& strains) {
 namespace {
 
 const std::array<std::string_view, 6>& tensor_names(const NodalField& field) {
-  return field.component(strain_names.front()) < 0 ? stress_names : strain_names;
+  return field.component(strain_names.front()) < 0 ? solid_stress_names : strain_names;
 }
 
 void write_invariants(const Eigen::Matrix3d& tensor, double* target) {

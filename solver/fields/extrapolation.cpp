@@ -9,13 +9,13 @@
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
-constexpr std::array<std::string_view, 14> force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ", "NXX",
+constexpr std::array<std::string_view, 14> structural_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ", "NXX",
                                                           "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 
 CellType linear_type(CellType type) {
@@ -193,11 +193,11 @@ ElementField select_components(const ElementField& field, std::span<const std::s
 }
 
 ElementField continuum_stresses(const ElementField& field) {
-  return select_components(field, stress_names);
+  return select_components(field, solid_stress_names);
 }
 
 ElementField section_forces(const ElementField& field) {
-  return select_components(field, force_names);
+  return select_components(field, structural_force_names);
 }
 
 }  // namespace comma::solver

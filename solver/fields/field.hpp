@@ -46,6 +46,13 @@ struct ElementField {
 
 using Field = std::variant<NodalField, ElementField>;
 
+inline const std::vector<double>& values_of(const Field& field) {
+  return std::visit([](const auto& any) -> const std::vector<double>& { return any.values; }, field);
+}
+inline std::vector<double>& values_of(Field& field) {
+  return std::visit([](auto& any) -> std::vector<double>& { return any.values; }, field);
+}
+
 /// One archived step.
 struct ResultStep {
   int order = 0;

@@ -16,12 +16,6 @@ namespace {
 std::vector<std::string>& components_of(Field& field) {
   return std::visit([](auto& values) -> std::vector<std::string>& { return values.components; }, field);
 }
-const std::vector<double>& values_of(const Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<double>& { return values.values; }, field);
-}
-std::vector<double>& values_of(Field& field) {
-  return std::visit([](auto& values) -> std::vector<double>& { return values.values; }, field);
-}
 std::string& quantity_of(Field& field) {
   return std::visit([](auto& values) -> std::string& { return values.quantity; }, field);
 }
@@ -30,9 +24,9 @@ int component_of(const Field& field, std::string_view name) {
 }
 
 /// The rows of a field: place p has those from starts()[p] to starts()[p + 1].
-class Rows {
+class FieldRows {
  public:
-  explicit Rows(const Field& field) {
+  explicit FieldRows(const Field& field) {
     if (const auto* element = std::get_if<ElementField>(&field)) {
       starts_ = element->starts;
       return;
@@ -58,7 +52,7 @@ bool same_kind(const Field& a, const Field& b) {
 }
 
 void check_places(const Field& a, const Field& b) {
-  if (same_kind(a, b) && Rows(a).place_count() == Rows(b).place_count()) return;
+  if (same_kind(a, b) && FieldRows(a).place_count() == FieldRows(b).place_count()) return;
   throw Error("incompatible-field", "the fields do not lie at the same places",
               "give fields of one mesh, all at its nodes, or at nodes of cells, Gauss points, cells alike");
 }
@@ -126,13 +120,13 @@ NodalField node_coordinates(const Mesh& mesh) {
 
 Field uniform_like(const Field& other, std::string component, double value) {
   Field field = other;
-  values_of(field).assign(static_cast<std::size_t>(Rows(other).total()), value);
+  values_of(field).assign(static_cast<std::size_t>(FieldRows(other).total()), value);
   components_of(field) = {std::move(component)};
   return field;
 }
 
 void assign(Field& field, int component, double value, const std::vector<int>* places) {
-  const Rows rows(field);
+  const FieldRows rows(field);
   const std::size_t width = components_of(field).size();
   auto& values = values_of(field);
   each_place(rows.place_count(), places, [&](int place) {
@@ -191,7 +185,7 @@ NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
 
 Field with_components(const Field& field, std::span<const int> components) {
   const std::size_t width = components_of(field).size();
-  const auto rows = static_cast<std::size_t>(Rows(field).total());
+  const auto rows = static_cast<std::size_t>(FieldRows(field).total());
   Field part = field;
   components_of(part).clear();
   for (const int component : components) components_of(part).push_back(components_of(field)[static_cast<std::size_t>(component)]);
@@ -205,7 +199,7 @@ Field with_components(const Field& field, std::span<const int> components) {
 
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places) {
   check_places(target, *piece.field);
-  const Rows to_rows(target), from_rows(*piece.field);
+  const FieldRows to_rows(target), from_rows(*piece.field);
   const auto& from = piece.from.empty() ? components_of(*piece.field) : piece.from;
   const auto& to = piece.to.empty() ? from : piece.to;
   const std::size_t from_width = components_of(*piece.field).size(), to_width = components_of(target).size();
@@ -238,12 +232,12 @@ namespace {
 
 /// Room wherever one of the terms has it.
 std::vector<int> united_starts(std::span<const FieldTerm> terms) {
-  std::vector<Rows> rows;
+  std::vector<FieldRows> rows;
   for (const FieldTerm& term : terms) rows.emplace_back(*term.field);
   std::vector<int> starts = {0};
   for (int place = 0; place < rows.front().place_count(); ++place) {
     int points = 0;
-    for (const Rows& own : rows) points = std::max(points, own.count(place));
+    for (const FieldRows& own : rows) points = std::max(points, own.count(place));
     starts.push_back(starts.back() + points);
   }
   return starts;
@@ -294,8 +288,8 @@ std::vector<ArgumentPlace> argument_places(const ValueFunction& function, std::s
 
 Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
                std::string quantity) {
-  const Rows rows(which);
-  std::vector<Rows> argument_rows;
+  const FieldRows rows(which);
+  std::vector<FieldRows> argument_rows;
   for (const Field* argument : arguments) {
     check_places(which, *argument);
     argument_rows.emplace_back(*argument);
@@ -309,7 +303,7 @@ Field evaluate(const Field& which, std::span<const ValueFunction> functions, std
   const auto value_at = [&](int place, int point, std::size_t index) {
     at.clear();
     for (const ArgumentPlace& source : places[index]) {
-      const Rows& source_rows = argument_rows[source.argument];
+      const FieldRows& source_rows = argument_rows[source.argument];
       const bool carried = point < source_rows.count(place);
       const std::size_t source_width = components_of(*arguments[source.argument]).size();
       const double value = carried ? values_of(*arguments[source.argument])[static_cast<std::size_t>(source_rows.begin(place) + point) * source_width +

@@ -10,13 +10,6 @@ namespace comma::solver {
 
 namespace {
 
-const std::vector<double>& values_of(const Field& field) {
-  return std::visit([](const auto& any) -> const std::vector<double>& { return any.values; }, field);
-}
-std::vector<double>& values_of(Field& field) {
-  return std::visit([](auto& any) -> std::vector<double>& { return any.values; }, field);
-}
-
 void check_alike(const Field& first, const Field& other) {
   const auto* a = std::get_if<ElementField>(&first);
   const auto* b = std::get_if<ElementField>(&other);

@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 bool is_green(StrainKind kind) { return kind == StrainKind::green || kind == StrainKind::mechanical_green; }
 bool is_mechanical(StrainKind kind) { return kind == StrainKind::mechanical || kind == StrainKind::mechanical_green; }
@@ -69,10 +68,6 @@ class DisplacementGradients {
   std::array<int, 3> columns_;
 };
 
-bool is_plane_stress(Formulation formulation) {
-  return formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced;
-}
-
 Vector6d engineering(const Eigen::Matrix3d& strain) {
   Vector6d result;
   result << strain(0, 0), strain(1, 1), strain(2, 2), 2 * strain(0, 1), 2 * strain(0, 2), 2 * strain(1, 2);
@@ -102,10 +97,6 @@ Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, 
 }  // namespace
 
 namespace {
-
-bool is_bar(Formulation formulation) {
-  return formulation == Formulation::bar || formulation == Formulation::bar_2d;
-}
 
 double bar_strain(const FieldInput& input, int cell, const DisplacementGradients& gradients, StrainKind kind) {
   const double strain = gradients.elongation(cell, kind);
@@ -157,7 +148,7 @@ ElementField plastic_strains(const FieldInput& input, const NodalField& displace
   ElementField field = strains(input, displacement, StrainKind::mechanical);
   ContinuumPoints points(input.model);
   std::array<int, 6> columns;
-  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(stress_names[i]);
+  for (int i = 0; i < 6; ++i) columns[i] = stresses.component(solid_stress_names[i]);
   const std::size_t width = field.components.size();
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
     if (!points.covers(cell)) {

@@ -8,12 +8,11 @@
 #include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/equivalent.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 6> stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 
 using Corners = std::array<int, 4>;
 
@@ -158,7 +157,7 @@ Values resolve_on_face(const Eigen::Matrix3d& stress, const Eigen::Vector3d& nor
 
 ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, std::span<const int> faces) {
   std::array<int, 6> columns;
-  for (int c = 0; c < 6; ++c) columns[c] = stresses.component(stress_names[c]);
+  for (int c = 0; c < 6; ++c) columns[c] = stresses.component(solid_stress_names[c]);
   if (*std::min_element(columns.begin(), columns.begin() + 4) < 0) {
     throw Error("incompatible-field", "stresses on a skin need SIXX SIYY SIZZ SIXY of the body behind it");
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t line_width = 80;
 
 /// Words in free format, broken into lines; every entry starts a line of its own.
-class Writer {
+class AsterMeshWriter {
  public:
   void line(std::string_view text) { fmt::format_to(std::back_inserter(text_), "{}\n", text); }
 
@@ -57,7 +57,7 @@ const std::string& checked(const std::string& name) {
   return name;
 }
 
-void write_nodes(Writer& writer, const Mesh& mesh) {
+void write_nodes(AsterMeshWriter& writer, const Mesh& mesh) {
   writer.line(mesh.dimension == 2 ? "COOR_2D" : "COOR_3D");
   for (int i = 0; i < mesh.node_count(); ++i) {
     writer.entry(checked(mesh.node_name(i)));
@@ -67,7 +67,7 @@ void write_nodes(Writer& writer, const Mesh& mesh) {
 }
 
 /// One sub-file for each run of cells of one type, so that their order comes back.
-void write_cells(Writer& writer, const Mesh& mesh) {
+void write_cells(AsterMeshWriter& writer, const Mesh& mesh) {
   for (int i = 0; i < mesh.cell_count(); ++i) {
     const CellType type = mesh.cell_types[i];
     if (i == 0 || mesh.cell_types[i - 1] != type) writer.line(name_of(type));
@@ -79,7 +79,7 @@ void write_cells(Writer& writer, const Mesh& mesh) {
 }
 
 template <typename NameOf>
-void write_groups(Writer& writer, std::string_view keyword, const auto& groups, NameOf name_of_member) {
+void write_groups(AsterMeshWriter& writer, std::string_view keyword, const auto& groups, NameOf name_of_member) {
   for (const auto& [name, members] : groups) {
     writer.line(keyword);
     writer.entry(checked(name));
@@ -92,7 +92,7 @@ void write_groups(Writer& writer, std::string_view keyword, const auto& groups, 
 }  // namespace
 
 std::string format_aster_mesh(const Mesh& mesh) {
-  Writer writer;
+  AsterMeshWriter writer;
   write_nodes(writer, mesh);
   write_cells(writer, mesh);
   write_groups(writer, "GROUP_NO", mesh.node_groups, [&](int node) { return mesh.node_name(node); });

@@ -19,7 +19,7 @@ namespace {
 
 using enum CellType;
 
-constexpr int largest = std::numeric_limits<int>::max();
+constexpr int largest_gibi_number = std::numeric_limits<int>::max();
 
 /// Cast3M's number of a cell type, and where the nodes stand in its list that Code_Aster lists one after the other: Cast3M goes
 /// round each level, mid-edge nodes between the corners. Empty where the two agree.
@@ -112,7 +112,7 @@ class GibiReader {
   std::vector<NamedObject> read_names(int count) {
     std::vector<NamedObject> names;
     for (int i = 0; i < count; ++i) names.push_back({std::string(scan_.word("the name of an object")), 0});
-    for (NamedObject& named : names) named.object = scan_.integer("the number of a named object", 1, largest);
+    for (NamedObject& named : names) named.object = scan_.integer("the number of a named object", 1, largest_gibi_number);
     return names;
   }
 
@@ -122,11 +122,11 @@ class GibiReader {
   }
 
   GibiObject read_mesh(int objects) {
-    const int number = scan_.integer("the type of cells", 0, largest);
-    const int parts = scan_.integer("a number of parts", 0, largest);
-    const int references = scan_.integer("a number of references", 0, largest);
-    const int nodes = scan_.integer("a number of nodes", 0, largest);
-    const int cells = scan_.integer("a number of cells", 0, largest);
+    const int number = scan_.integer("the type of cells", 0, largest_gibi_number);
+    const int parts = scan_.integer("a number of parts", 0, largest_gibi_number);
+    const int references = scan_.integer("a number of references", 0, largest_gibi_number);
+    const int nodes = scan_.integer("a number of nodes", 0, largest_gibi_number);
+    const int cells = scan_.integer("a number of cells", 0, largest_gibi_number);
     GibiObject object;
     for (int i = 0; i < parts; ++i) object.parts.push_back(scan_.integer("a part of a mesh", 1, objects));
     for (int i = 0; i < references; ++i) scan_.integer("a reference");
@@ -150,7 +150,7 @@ class GibiReader {
 
   std::vector<int> read_cell(const GibiType& type) {
     std::vector<int> nodes;
-    for (int i = 0; i < node_count(type.type); ++i) nodes.push_back(scan_.integer("a point of a cell", 1, largest));
+    for (int i = 0; i < node_count(type.type); ++i) nodes.push_back(scan_.integer("a point of a cell", 1, largest_gibi_number));
     std::vector<int> ordered = nodes;
     for (std::size_t i = 0; i < type.order.size(); ++i) ordered[i] = nodes[static_cast<std::size_t>(type.order[i])];
     return ordered;
@@ -158,13 +158,13 @@ class GibiReader {
 
   void read_points(int named) {
     point_names_ = read_names(named);
-    const int count = scan_.integer("the number of points", 0, largest);
-    for (int i = 0; i < count; ++i) places_.push_back(scan_.integer("the place of a point", 1, largest));
+    const int count = scan_.integer("the number of points", 0, largest_gibi_number);
+    for (int i = 0; i < count; ++i) places_.push_back(scan_.integer("the place of a point", 1, largest_gibi_number));
   }
 
   void read_coordinates(int named) {
     read_names(named);
-    const int count = scan_.integer("the number of coordinates", 0, largest);
+    const int count = scan_.integer("the number of coordinates", 0, largest_gibi_number);
     for (int i = 0; i < count; ++i) coordinates_.push_back(scan_.real("a coordinate"));
   }
 

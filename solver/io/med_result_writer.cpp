@@ -8,6 +8,7 @@
 #include <set>
 
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/io/med_file.hpp"
 #include "solver/io/med_localization.hpp"
 #include "solver/io/med_mesh_writer.hpp"
@@ -25,9 +26,9 @@ struct Place {
   med_int entities = 0;  ///< of that type in the whole mesh
 };
 
-class Writer {
+class MedResultWriter {
  public:
-  Writer(const MedFile& file, const Mesh& mesh, const std::string& mesh_name)
+  MedResultWriter(const MedFile& file, const Mesh& mesh, const std::string& mesh_name)
       : file_(file), mesh_(mesh), mesh_name_(mesh_name), blocks_(med_blocks(mesh)) {}
 
   void write(const std::string& name, const ResultStep& step, const Field& field);
@@ -50,10 +51,6 @@ class Writer {
   std::set<std::string> localizations_;
 };
 
-const std::vector<std::string>& components_of(const Field& field) {
-  return std::visit([](const auto& any) -> const std::vector<std::string>& { return any.components; }, field);
-}
-
 /// MED has no word for a component that some of the nodes lack: it is written as 0, as Code_Aster does.
 double written_value(double value) {
   return std::isnan(value) ? 0.0 : value;
@@ -63,7 +60,7 @@ bool carries_any(std::span<const double> values) {
   return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
 }
 
-void Writer::create(const std::string& name, const std::vector<std::string>& components) {
+void MedResultWriter::create(const std::string& name, const std::vector<std::string>& components) {
   const auto [entry, is_new] = components_.try_emplace(name, components);
   if (!is_new) {
     if (entry->second == components) return;
@@ -78,7 +75,7 @@ void Writer::create(const std::string& name, const std::vector<std::string>& com
                 file_, fmt::format("field {}", name));
 }
 
-void Writer::write_values(const std::string& name, const ResultStep& step, const Place& place,
+void MedResultWriter::write_values(const std::string& name, const ResultStep& step, const Place& place,
                           const std::vector<double>& values) const {
   check_written(MEDfieldValueWithProfileWr(file_.id(), name.c_str(), step.order, MED_NO_IT, step.instant, place.entity,
                                            place.geometry, MED_COMPACT_STMODE, place.profile.c_str(),
@@ -88,7 +85,7 @@ void Writer::write_values(const std::string& name, const ResultStep& step, const
 }
 
 /// The name of the profile of the chosen entities (numbered from 1); MED_NO_PROFILE when they are all there are.
-std::string Writer::profile(const std::vector<med_int>& chosen, std::size_t all) {
+std::string MedResultWriter::profile(const std::vector<med_int>& chosen, std::size_t all) {
   if (chosen.size() == all) return MED_NO_PROFILE;
   const auto [entry, is_new] = profiles_.try_emplace(chosen, fmt::format("PROFILE_{}", profiles_.size() + 1));
   if (is_new) {
@@ -98,7 +95,7 @@ std::string Writer::profile(const std::vector<med_int>& chosen, std::size_t all)
   return entry->second;
 }
 
-std::string Writer::localization(CellType type, int points) {
+std::string MedResultWriter::localization(CellType type, int points) {
   const std::string name = fmt::format("{}_{}_POINTS", name_of(type), points);
   if (!localizations_.insert(name).second) return name;
   const auto scheme = gauss_scheme(type, points);
@@ -124,7 +121,7 @@ std::string Writer::localization(CellType type, int points) {
   return name;
 }
 
-void Writer::write_nodal(const std::string& name, const ResultStep& step, const NodalField& field) {
+void MedResultWriter::write_nodal(const std::string& name, const ResultStep& step, const NodalField& field) {
   const std::size_t width = field.components.size();
   std::vector<med_int> carriers;
   std::vector<double> values;
@@ -141,7 +138,7 @@ void Writer::write_nodal(const std::string& name, const ResultStep& step, const 
   write_values(name, step, place, values);
 }
 
-void Writer::write_block(const std::string& name, const ResultStep& step, const ElementField& field,
+void MedResultWriter::write_block(const std::string& name, const ResultStep& step, const ElementField& field,
                          const MedBlock& block) {
   const std::size_t width = field.components.size();
   const auto order =
@@ -181,7 +178,7 @@ void Writer::write_block(const std::string& name, const ResultStep& step, const 
   }
 }
 
-void Writer::write(const std::string& name, const ResultStep& step, const Field& field) {
+void MedResultWriter::write(const std::string& name, const ResultStep& step, const Field& field) {
   create(name, components_of(field));
   if (const auto* nodal = std::get_if<NodalField>(&field)) return write_nodal(name, step, *nodal);
   for (const MedBlock& block : blocks_) write_block(name, step, std::get<ElementField>(field), block);
@@ -202,7 +199,7 @@ void write_med_results(const std::string& path, const Mesh& mesh, const std::str
   check_writable(mesh, mesh_name);
   const MedFile file = MedFile::create(path);
   write_mesh(file, mesh, mesh_name);
-  Writer writer(file, mesh, mesh_name);
+  MedResultWriter writer(file, mesh, mesh_name);
   for (const NamedResult& each : results) {
     for (const ResultStep& step : each.result.steps) {
       for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);

@@ -11,16 +11,13 @@
 #include "solver/linear/blas_threads.hpp"
 #include "solver/linear/dense_solve.hpp"
 #include "solver/linear/equilibration.hpp"
+#include "solver/linear/mumps_controls.hpp"
 #include "solver/linear/shared_library.hpp"
 
 namespace comma::solver {
 namespace {
 
-constexpr int job_initialise = -1;
-constexpr int job_destroy = -2;
 constexpr int job_analyse_and_factorise = 4;
-constexpr int whole_communicator = -987654;
-constexpr int general_symmetric = 2;
 constexpr int nested_dissection = 5;
 constexpr int centralised_schur = 1;
 constexpr int extra_workspace = 60;  // per cent: delayed pivots do not occur, but the estimate does not know the border

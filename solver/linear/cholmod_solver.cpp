@@ -15,11 +15,6 @@ namespace comma::solver {
 
 namespace {
 
-/// What stands in for a pivot that is exactly zero, so that the factorisation goes on and finds the others.
-constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
-/// The digits by which such a pivot is recognised.
-constexpr int zero_pivot_digits = 14;
-
 /// Operations from which a factorisation gains by more than one thread. Below, waiting takes a third more of the processors for a few per
 /// cent of time, and twice the time where others use them.
 constexpr double many_operations = 3e10;

@@ -9,11 +9,6 @@ namespace comma::solver {
 
 namespace {
 
-/// What stands in for a pivot that is exactly zero, so that the factorisation goes on and finds the others.
-constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
-/// The digits by which such a pivot is recognised.
-constexpr int zero_pivot_digits = 14;
-
 class EigenLdltSolver final : public RefinedSolver {
  public:
   using RefinedSolver::RefinedSolver;

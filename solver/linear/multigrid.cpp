@@ -8,12 +8,11 @@
 
 #include "solver/linear/aggregation.hpp"
 #include "solver/linear/block_matrix.hpp"
+#include "solver/model/component.hpp"
 
 namespace comma::solver {
 namespace {
 
-/// Rigid motions of a body in space.
-constexpr int motion_count = 6;
 /// A node is a neighbour when its block is at least this large against the diagonal blocks: Vanek et al. take 0.08 and halve it
 /// on each coarser grid; elastic blocks of a regular mesh lie between 0.02 and 0.3.
 constexpr double strong_connection = 0.02;
@@ -23,7 +22,7 @@ constexpr int coarsest_size = 150;
 constexpr double dependent_motion = 1e-8;
 /// Damping of the prolongator's Jacobi step, over the largest eigenvalue of D^-1 A.
 constexpr double prolongator_damping = 4.0 / 3.0;
-constexpr int power_steps = 10;
+constexpr int smoother_power_steps = 10;
 
 /// The rigid motions' values on each node.
 template <int N>
@@ -111,7 +110,7 @@ double largest_eigenvalue(const BlockMatrix<N, N>& matrix, const std::vector<Eig
   for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = std::sin(1.0 + 7.0 * static_cast<double>(k));
   Eigen::VectorXd y(x.size());
   double value = 1.0;
-  for (int step = 0; step < power_steps; ++step) {
+  for (int step = 0; step < smoother_power_steps; ++step) {
     x.normalize();
     run_parts(matrix.part_count(), [&](int part) {
       for (int i = matrix.part_start(part); i < matrix.part_start(part + 1); ++i)

@@ -11,6 +11,7 @@
 
 #include "solver/error.hpp"
 #include "solver/linear/bordered_compliance.hpp"
+#include "solver/linear/mumps_controls.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/shared_library.hpp"
 
@@ -18,13 +19,9 @@ namespace comma::solver {
 
 namespace {
 
-constexpr int job_initialise = -1;
-constexpr int job_destroy = -2;
 constexpr int job_analyse = 1;
 constexpr int job_factorise = 2;
 constexpr int job_solve = 3;
-constexpr int whole_communicator = -987654;
-constexpr int general_symmetric = 2;  // sym=1 takes every pivot on trust
 
 constexpr int error_workspace = -9;
 constexpr int error_memory = -13;

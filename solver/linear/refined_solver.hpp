@@ -1,9 +1,16 @@
 // What the direct solvers share: scaling before, iterative refinement after.
 #pragma once
 
+#include <limits>
+
 #include "solver/linear/linear_solver.hpp"
 
 namespace comma::solver {
+
+/// What stands in for a pivot that is exactly zero, so that the factorisation goes on and finds the others.
+inline constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
+/// The digits by which such a pivot is recognised.
+inline constexpr int zero_pivot_digits = 14;
 
 /// Factorises S A S (equilibration.hpp) and refines its solutions (refinement.hpp).
 class RefinedSolver : public LinearSolver {

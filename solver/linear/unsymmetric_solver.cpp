@@ -19,15 +19,10 @@ namespace comma::solver {
 namespace {
 
 /// Each pass halves the exponents' spread; eight bring 1e300 to within a factor of about 10.
-constexpr int most_passes = 8;
-/// What a zero diagonal entry of the scaled matrix is given when a pivot is exactly zero, so that elimination goes on and finds
-/// the others ...
-constexpr double zero_pivot_shift = std::numeric_limits<double>::epsilon();
-/// ... and the digits by which such a pivot is recognised.
-constexpr int zero_pivot_digits = 14;
+constexpr int most_scaling_passes = 8;
 
 /// b - A x in doubled precision, rounded at the end; x = high + low.
-void residual(const GeneralMatrix& matrix, const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums,
+void general_residual(const GeneralMatrix& matrix, const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums,
               double* result) {
   const int n = static_cast<int>(matrix.rows());
   for (int row = 0; row < n; ++row) sums[row] = {b[row], 0.0};
@@ -128,7 +123,7 @@ FactorReport UnsymmetricSolver::factorise(const SymmetricMatrix& symmetric, cons
     for (GeneralMatrix::InnerIterator entry(matrix_, column); entry; ++entry) sums[entry.row()] += std::abs(entry.value());
   }
   norm_ = sums.maxCoeff();
-  for (int pass = 0; options_.equilibrate && pass < most_passes; ++pass) {
+  for (int pass = 0; options_.equilibrate && pass < most_scaling_passes; ++pass) {
     const Maxima maxima = maxima_of(matrix_, row_factors_, column_factors_);
     rescale(row_factors_, maxima.rows);
     rescale(column_factors_, maxima.columns);
@@ -160,7 +155,7 @@ double UnsymmetricSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
   }
   const RefinedSystem system{
       [this](const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums, double* result) {
-        residual(matrix_, b, high, low, sums, result);
+        general_residual(matrix_, b, high, low, sums, result);
       },
       [this](Eigen::Ref<Eigen::MatrixXd> columns) { columns = factors_->solve(columns).eval(); }, row_factors_, column_factors_, norm_};
   const double worst = refine(system, options_.refinement_steps, rhs);

@@ -11,12 +11,6 @@ namespace comma::solver {
 
 namespace {
 
-const std::vector<double>& values_of(const Field& field) {
-  return std::visit([](const auto& f) -> const std::vector<double>& { return f.values; }, field);
-}
-std::vector<double>& values_of(Field& field) {
-  return std::visit([](auto& f) -> std::vector<double>& { return f.values; }, field);
-}
 std::size_t width_of(const Field& field) {
   return std::visit([](const auto& f) { return f.components.size(); }, field);
 }

@@ -11,9 +11,6 @@ namespace comma::solver {
 namespace {
 
 /// The two directions behind each component of a strain.
-constexpr int first[] = {0, 1, 2, 0, 0, 1};
-constexpr int second[] = {0, 1, 2, 1, 2, 2};
-
 template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
@@ -44,8 +41,8 @@ Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoi
     compliance(3 + i, 3 + i) = 1.0 / shear;
   }
   for (int pair = 0; pair < 3; ++pair) {
-    const int i = first[3 + pair];
-    const int j = second[3 + pair];
+    const int i = tensor_row[3 + pair];
+    const int j = tensor_column[3 + pair];
     compliance(i, j) = compliance(j, i) = -material.poisson[pair](at) * compliance(i, i);
   }
   return compliance;
@@ -222,11 +219,11 @@ Matrix6d solid_compliance(const CellMaterial& material, const MaterialPoint& at)
 Matrix6d strain_rotation(const Eigen::Matrix3d& axes) {
   Matrix6d rotation;
   for (int row = 0; row < 6; ++row) {
-    const int i = first[row];
-    const int j = second[row];
+    const int i = tensor_row[row];
+    const int j = tensor_column[row];
     for (int column = 0; column < 6; ++column) {
-      const int a = first[column];
-      const int b = second[column];
+      const int a = tensor_row[column];
+      const int b = tensor_column[column];
       const double share = a == b ? axes(i, a) * axes(j, a) : 0.5 * (axes(i, a) * axes(j, b) + axes(i, b) * axes(j, a));
       rotation(row, column) = i == j ? share : 2 * share;
     }

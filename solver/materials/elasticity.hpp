@@ -13,6 +13,10 @@ namespace comma::solver {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+/// The entry of the tensor behind each component.
+inline constexpr int tensor_row[] = {0, 1, 2, 0, 0, 1};
+inline constexpr int tensor_column[] = {0, 1, 2, 1, 2, 2};
+
 /// Isotropic constants at a point.
 struct IsotropicModuli {
   double young = 0.0;

@@ -11,6 +11,7 @@
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
 #include "solver/mesh/orientation.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 namespace {
@@ -20,8 +21,6 @@ enum class Measure { normal, tangent };
 
 /// A direction this near to lying in a cell (the sine of the angle) gives it no sense.
 constexpr double smallest_sine = 1e-6;
-
-Vector place(const Mesh& mesh, int node) { return Vector(mesh.nodes[node].data()); }
 
 Vector measured(const Mesh& mesh, int cell, Measure measure) {
   const auto nodes = mesh.cell(cell);

@@ -83,9 +83,9 @@ class MiddleNodes {
 };
 
 /// Adds the nodes that the larger type of a cell has and the smaller one lacks.
-class Extension {
+class QuadraticExtension {
  public:
-  Extension(const Mesh& mesh, MiddleNodes& middles, int cell, CellType to)
+  QuadraticExtension(const Mesh& mesh, MiddleNodes& middles, int cell, CellType to)
       : mesh_(mesh), middles_(middles), from_(mesh.cell_types[cell]), to_(to), nodes_(mesh.cell(cell).begin(), mesh.cell(cell).end()) {}
 
   std::vector<int> extend() {
@@ -214,7 +214,7 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
     ++changed;
     types[cell] = to;
     if (node_count(to) > node_count(mesh.cell_types[cell])) {
-      nodes[cell] = Extension(mesh, middles, cell, to).extend();
+      nodes[cell] = QuadraticExtension(mesh, middles, cell, to).extend();
     } else {
       for (const int node : nodes[cell]) left[static_cast<std::size_t>(node)] = true;
       nodes[cell].resize(static_cast<std::size_t>(node_count(to)));

@@ -8,18 +8,15 @@
 #include <unordered_set>
 
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 namespace {
 
 using Vector = Eigen::Vector3d;
 
-Vector vector(const Point& point) {
-  return Vector(point.data());
-}
-
 Vector unit(const Point& direction) {
-  const Vector result = vector(direction);
+  const Vector result = to_vector(direction);
   const double length = result.norm();
   if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
   return result / length;
@@ -29,7 +26,7 @@ template <typename Predicate>
 std::vector<int> nodes_where(const Mesh& mesh, Predicate predicate) {
   std::vector<int> result;
   for (int node = 0; node < mesh.node_count(); ++node) {
-    if (predicate(vector(mesh.nodes[node]))) result.push_back(node);
+    if (predicate(place(mesh, node))) result.push_back(node);
   }
   return result;
 }
@@ -49,7 +46,7 @@ double distance_from_axis(const Vector& position, const Vector& point, const Vec
 /// Along the normal of a face or, in the plane, of a line; its length is no matter.
 Vector normal_of(const Mesh& mesh, int cell) {
   const auto nodes = mesh.cell(cell);
-  const auto at = [&](int i) { return vector(mesh.nodes[nodes[static_cast<std::size_t>(i)]]); };
+  const auto at = [&](int i) { return to_vector(mesh.nodes[nodes[static_cast<std::size_t>(i)]]); };
   if (mesh.dimension == 2) return (at(1) - at(0)).cross(Vector::UnitZ());
   const int corners = corner_count(mesh.cell_types[cell]);
   Vector sum = Vector::Zero();
@@ -157,52 +154,52 @@ std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, dou
 }
 
 std::vector<int> nodes_in_box(const Mesh& mesh, const Point& lower, const Point& upper, double tolerance) {
-  const Eigen::Array3d low = vector(lower).array() - tolerance;
-  const Eigen::Array3d high = vector(upper).array() + tolerance;
+  const Eigen::Array3d low = to_vector(lower).array() - tolerance;
+  const Eigen::Array3d high = to_vector(upper).array() + tolerance;
   return nodes_where(mesh, [&](const Vector& position) {
     return (position.array() >= low).all() && (position.array() <= high).all();
   });
 }
 
 std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double radius) {
-  return nodes_where(mesh, [&](const Vector& position) { return (position - vector(centre)).norm() <= radius; });
+  return nodes_where(mesh, [&](const Vector& position) { return (position - to_vector(centre)).norm() <= radius; });
 }
 
 std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double radius, double tolerance) {
   return nodes_where(
-      mesh, [&](const Vector& position) { return std::abs((position - vector(centre)).norm() - radius) <= tolerance; });
+      mesh, [&](const Vector& position) { return std::abs((position - to_vector(centre)).norm() - radius) <= tolerance; });
 }
 
 std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius) {
   const Vector direction = unit(axis);
   return nodes_where(
-      mesh, [&](const Vector& position) { return distance_from_axis(position, vector(point), direction) <= radius; });
+      mesh, [&](const Vector& position) { return distance_from_axis(position, to_vector(point), direction) <= radius; });
 }
 
 std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius,
                                    double tolerance) {
   const Vector direction = unit(axis);
   return nodes_where(mesh, [&](const Vector& position) {
-    return std::abs(distance_from_axis(position, vector(point), direction) - radius) <= tolerance;
+    return std::abs(distance_from_axis(position, to_vector(point), direction) - radius) <= tolerance;
   });
 }
 
 std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Point& normal, double tolerance) {
   const Vector direction = unit(normal);
   return nodes_where(
-      mesh, [&](const Vector& position) { return std::abs(direction.dot(position - vector(point))) <= tolerance; });
+      mesh, [&](const Vector& position) { return std::abs(direction.dot(position - to_vector(point))) <= tolerance; });
 }
 
-double distance(const Point& a, const Point& b) { return (vector(a) - vector(b)).norm(); }
+double distance(const Point& a, const Point& b) { return (to_vector(a) - to_vector(b)).norm(); }
 
 std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> nodes, int start, int end,
                                      double tolerance) {
-  const Vector origin = vector(mesh.nodes[start]);
-  const Vector chord = vector(mesh.nodes[end]) - origin;
+  const Vector origin = place(mesh, start);
+  const Vector chord = place(mesh, end) - origin;
   const Vector direction = unit({chord.x(), chord.y(), chord.z()});
   std::vector<std::pair<double, int>> places;
   for (const int node : nodes) {
-    const Vector position = vector(mesh.nodes[node]);
+    const Vector position = place(mesh, node);
     const double off = distance_from_axis(position, origin, direction);
     if (off > tolerance) {
       throw Error("not-a-line",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 namespace {
@@ -13,8 +14,6 @@ using Vector = Eigen::Vector3d;
 
 /// Directions (in radians) closer than this are the same but for rounding.
 constexpr double smallest_angle = 1e-12;
-
-Vector vector(const Point& point) { return Vector(point.data()); }
 
 Vector unit(const Vector& direction) {
   const double length = direction.norm();
@@ -25,7 +24,7 @@ Vector unit(const Vector& direction) {
 template <class Move>
 void move_nodes(Mesh& mesh, Move move) {
   for (Point& node : mesh.nodes) {
-    const Vector moved = move(vector(node));
+    const Vector moved = move(to_vector(node));
     node = {moved[0], moved[1], moved[2]};
   }
 }
@@ -37,22 +36,22 @@ void scale(Mesh& mesh, double factor) {
 }
 
 void translate(Mesh& mesh, const Point& shift) {
-  move_nodes(mesh, [&](const Vector& at) -> Vector { return at + vector(shift); });
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return at + to_vector(shift); });
 }
 
 void rotate(Mesh& mesh, const Point& point, const Point& axis, double angle) {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, unit(vector(axis))).toRotationMatrix();
-  move_nodes(mesh, [&](const Vector& at) -> Vector { return vector(point) + turn * (at - vector(point)); });
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, unit(to_vector(axis))).toRotationMatrix();
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return to_vector(point) + turn * (at - to_vector(point)); });
 }
 
 void mirror(Mesh& mesh, const Point& point, const Point& normal) {
-  const Vector across = unit(vector(normal));
-  move_nodes(mesh, [&](const Vector& at) -> Vector { return at - 2.0 * across.dot(at - vector(point)) * across; });
+  const Vector across = unit(to_vector(normal));
+  move_nodes(mesh, [&](const Vector& at) -> Vector { return at - 2.0 * across.dot(at - to_vector(point)) * across; });
 }
 
 void change_axes(Mesh& mesh, const Point& x, const Point& y) {
-  const Vector first = unit(vector(x));
-  const Vector third = first.cross(unit(vector(y)));
+  const Vector first = unit(to_vector(x));
+  const Vector third = first.cross(unit(to_vector(y)));
   if (!(third.norm() > smallest_angle)) {
     throw Error("zero-vector", "the two directions of the new axes lie along each other", "give two different directions");
   }

@@ -7,16 +7,16 @@ namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, component_count> names = {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "PRES", "GONF"};
+constexpr std::array<std::string_view, component_count> component_names = {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "PRES", "GONF"};
 
 }  // namespace
 
-std::string_view name_of(Component component) { return names[static_cast<std::size_t>(component)]; }
+std::string_view name_of(Component component) { return component_names[static_cast<std::size_t>(component)]; }
 
 std::optional<Component> component_named(std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<Component>(found - names.begin());
+  const auto found = std::find(component_names.begin(), component_names.end(), name);
+  if (found == component_names.end()) return std::nullopt;
+  return static_cast<Component>(found - component_names.begin());
 }
 
 }  // namespace comma::solver

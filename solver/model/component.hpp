@@ -1,6 +1,7 @@
 // The degrees of freedom a node can carry, by their usual names.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@ enum class Component : std::uint8_t { dx, dy, dz, drx, dry, drz, pressure, swell
 inline constexpr int component_count = 8;
 /// Translations and rotations come first.
 inline constexpr int motion_count = 6;
+
+inline constexpr std::array translation_components = {Component::dx, Component::dy, Component::dz};
 
 std::string_view name_of(Component component);               ///< "DX" ...
 std::optional<Component> component_named(std::string_view name);

@@ -108,6 +108,23 @@ bool is_plate(Formulation formulation) {
   return formulation == Formulation::thin_plate || formulation == Formulation::shear_plate;
 }
 
+bool is_bar(Formulation formulation) {
+  return formulation == Formulation::bar || formulation == Formulation::bar_2d;
+}
+
+bool is_beam(Formulation formulation) {
+  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
+}
+
+bool is_plane_stress(Formulation formulation) {
+  return formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced;
+}
+
+bool is_reduced(Formulation formulation) {
+  return formulation == Formulation::solid_reduced || formulation == Formulation::plane_strain_reduced ||
+         formulation == Formulation::plane_stress_reduced || formulation == Formulation::axisymmetric_reduced;
+}
+
 bool Model::is_skin(int cell) const {
   const int type_dimension = dimension(mesh->cell_types[cell]);
   const int body = is_plate(formulations[cell]) ? 2 : continuum_dimension(formulations[cell]);

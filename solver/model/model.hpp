@@ -29,6 +29,10 @@ bool is_axisymmetric(Formulation formulation);
 int mixed_field_count(Formulation formulation);
 /// Whether elements are flat plates in space, with three translations and three rotations a node.
 bool is_plate(Formulation formulation);
+bool is_bar(Formulation formulation);
+bool is_beam(Formulation formulation);
+bool is_plane_stress(Formulation formulation);  ///< with full or reduced integration
+bool is_reduced(Formulation formulation);       ///< integrated at fewer points
 
 /// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces and
 /// edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact. The edges of plates are skin

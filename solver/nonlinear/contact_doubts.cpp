@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 /// Slips below this share of the largest displacement are no slips.
 constexpr double negligible_slip = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
-constexpr double overlap_tolerance = 1e-9;
+constexpr double overlap_share = 1e-9;
 
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
@@ -106,7 +106,7 @@ void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts&
   for (const std::size_t p : blocked_) {
     const double depth = -now[problem_.points[p].first_row];
     const double size = extent(mesh_, points_[p].cell);
-    if (depth <= overlap_tolerance * size) continue;
+    if (depth <= overlap_share * size) continue;
     doubts.note({.kind = DoubtKind::held_overlap, .zone = points_[p].zone, .share = depth / size, .length = depth, .cell = points_[p].cell});
   }
 }

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 /// The plastic strain that a unit of the measure stands for under VMIS_ISOT_NL.
 constexpr double strain_for_unit = 0.05;
 
-bool is_isotropic(Relation relation) {
+bool hardens_isotropically(Relation relation) {
   return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction || relation == Relation::isotropic_power ||
          relation == Relation::isotropic_nonlinear;
 }
@@ -50,7 +50,7 @@ ElasticPrediction::ElasticPrediction(const StaticProblem& problem, const DofMap&
 void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const ElementField& stresses, const ElementField& variables) {
   const Mesh& mesh = *problem.model->mesh;
   const CellBehaviour behaviour = problem.behaviours ? (*problem.behaviours)[static_cast<std::size_t>(cell)] : CellBehaviour();
-  if (!is_isotropic(behaviour.relation) || behaviour.kinematics != Kinematics::small) {
+  if (!hardens_isotropically(behaviour.relation) || behaviour.kinematics != Kinematics::small) {
     throw Error("unsupported", fmt::format("cell {}: an elastic prediction controls von Mises plasticity with isotropic hardening in small strains alone", mesh.cell_name(cell)),
                 "name cells with such a law, or control a displacement (DDL_IMPO, LONG_ARC)");
   }

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 /// Pairings that return within this many updates are in a cycle.
 constexpr std::size_t cycle_length_limit = 4;
 /// Displacements of a step below this share of the whole ones are rounding.
-constexpr double rounding_share = 1e-11;
+constexpr double negligible_displacement = 1e-11;
 
 bool same_facets(const std::vector<ContactPair>& a, const std::vector<ContactPair>& b) {
   return std::ranges::equal(a, b, [](const ContactPair& one, const ContactPair& other) { return one.facet == other.facet && one.status == other.status; });
@@ -36,7 +36,7 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
     largest = std::max(largest, (at - displacement_of(node, start_, dofs_)).norm());
   }
   // Nothing is asked of a step that only rounding moves.
-  history_.changes.push_back(moved > rounding_share * whole ? moved / largest : 0.0);
+  history_.changes.push_back(moved > negligible_displacement * whole ? moved / largest : 0.0);
   if (contact_.geometry_update == GeometryUpdate::controlled)
     return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);
   return history_.changes.back() <= contact_.geometry_tolerance;

@@ -11,13 +11,13 @@ namespace comma::solver {
 
 namespace {
 
-struct Trial {
+struct LineTrial {
   double rho;
   double work;
 };
 
 /// Where the secant through two trials vanishes; nothing if they are level.
-std::optional<double> secant(const Trial& a, const Trial& b) {
+std::optional<double> secant(const LineTrial& a, const LineTrial& b) {
   if (a.work == b.work) return std::nullopt;
   return b.rho - b.work * (b.rho - a.rho) / (b.work - a.work);
 }
@@ -30,13 +30,13 @@ double admissible(const LineSearch& options, double rho) {
 }  // namespace
 
 double search_line(const LineSearch& options, double start, const std::function<double(double)>& work) {
-  Trial before{0.0, start};
-  Trial best{1.0, std::numeric_limits<double>::infinity()};
+  LineTrial before{0.0, start};
+  LineTrial best{1.0, std::numeric_limits<double>::infinity()};
   std::optional<Error> failure;
   double rho = 1.0;
   for (int iteration = 0; iteration <= std::max(1, options.max_iterations); ++iteration) {
     try {
-      const Trial trial{rho, work(rho)};
+      const LineTrial trial{rho, work(rho)};
       failure.reset();
       if (std::abs(trial.work) < std::abs(best.work)) best = trial;
       if (std::abs(trial.work) <= options.tolerance * std::abs(start)) return trial.rho;

@@ -16,7 +16,7 @@ namespace {
 /// Corrections after the first solution, at most: each gains the digits that the factorisation has to give.
 constexpr int max_corrections = 3;
 /// A correction below this share of the solution is rounding.
-constexpr double negligible_step = 4e-16;
+constexpr double negligible_correction = 4e-16;
 /// A factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at 400,000.
 constexpr std::size_t few_solutions = 5;
 
@@ -56,7 +56,7 @@ class LinearStaticAnalysis {
       reduced += step;
       u = elimination_.transformation() * reduced + offset;
       const double share = largest_component(step) / std::max(largest_component(reduced), std::numeric_limits<double>::min());
-      if (share <= negligible_step || (k > 0 && share > 0.5 * last)) break;
+      if (share <= negligible_correction || (k > 0 && share > 0.5 * last)) break;
       last = share;
     }
     return u;

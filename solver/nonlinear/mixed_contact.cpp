@@ -18,6 +18,7 @@
 #include "solver/mesh/slave_cut.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/unilateral/conditions.hpp"
 #include "solver/unilateral/rounds.hpp"
 
 namespace comma::solver {
@@ -26,11 +27,8 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 /// A gap below this share of the face's size counts as closed at the start (CONTACT_INIT='INTERPENETRE').
 constexpr double touching = 1e-6;
-/// A reduced coefficient below this share of the row's largest is what rounding leaves of an eliminated one.
-constexpr double empty_row_tolerance = 1e-12;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
@@ -42,12 +40,6 @@ constexpr double least_raise = 2.0;
 /// other: between the two, updates of the geometry do not go to and fro.
 constexpr double far_slide = 0.2;
 constexpr double short_slide = 0.1;
-
-double largest_entry(const RowMatrix& rows, int row) {
-  double largest = 0.0;
-  for (RowMatrix::InnerIterator it(rows, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
-  return largest;
-}
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -161,10 +153,10 @@ void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& d
   const auto add = [&](int node, const Vector3d& share) {
     for (int axis = 0; axis < 3; ++axis) {
       if (share[axis] == 0.0) continue;
-      const int dof = dofs_.dof(node, translations[axis]);
+      const int dof = dofs_.dof(node, translation_components[axis]);
       if (dof < 0)
         throw Error("unknown-dof",
-                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translations[axis])),
+                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translation_components[axis])),
                     "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
       entries.emplace_back(row, dof, share[axis]);
     }

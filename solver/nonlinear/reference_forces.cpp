@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::array<Component, 3> translations = {Component::dx, Component::dy, Component::dz};
 constexpr std::array<Component, 3> rotations = {Component::drx, Component::dry, Component::drz};
 
 /// Internal forces below this share of the largest are rounding.
@@ -68,7 +67,7 @@ class Summation {
     }
     if (model_.corner_components_of(cell) != 0) return add_mixed(cell, forces);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (const Component component : translations) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
+      for (const Component component : translation_components) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
   }
 
   /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements have the sum, and of the cells at a node the least
@@ -77,7 +76,7 @@ class Summation {
   void add_mixed(int cell, const VectorXd& forces) {
     const double components = continuum_dimension(model_.formulations[static_cast<std::size_t>(cell)]) == 3 ? 7.0 : 5.0;
     for (Eigen::Index i = 0; i < forces.size(); ++i)
-      for (const Component component : translations) add_least(mesh_.cell(cell)[static_cast<std::size_t>(i)], component, forces[i] / components);
+      for (const Component component : translation_components) add_least(mesh_.cell(cell)[static_cast<std::size_t>(i)], component, forces[i] / components);
     require(efforts_.strain, cell, "EPSI_REFE");
     const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
     const Quadrature rule = quadrature(type, stiffness_family(type, model_.formulations[static_cast<std::size_t>(cell)]));
@@ -100,7 +99,7 @@ class Summation {
     if (turns) require(efforts_.moment, cell, "MOMENT_REFE");
     const double length = is_plate(model_.formulations[static_cast<std::size_t>(cell)]) ? extent(mesh_, cell) : 1.0;
     for (const int node : nodes) {
-      for (const Component component : translations) add(node, component, efforts_.force * length);
+      for (const Component component : translation_components) add(node, component, efforts_.force * length);
       for (const Component component : rotations) add(node, component, efforts_.moment * length);
     }
   }

@@ -12,7 +12,7 @@ namespace comma::solver {
 namespace {
 
 /// A step that ends this close before an instant of the list goes to that instant.
-constexpr double same_instant = 1e-9;
+constexpr double coincident_instants = 1e-9;
 
 bool is_easy(const AdaptationRule& rule, int usual_iterations, int iterations) {
   // GE counts from one less on, as LT counts up to one less.
@@ -44,7 +44,7 @@ StepSequence::StepSequence(StepPlan plan) : plan_(std::move(plan)), now_(plan_.i
 double StepSequence::adapted_target() const {
   const double wall = pending_.back().instant;
   const double wanted = now_ + length_;
-  return wanted >= wall - same_instant * (wall - now_) ? wall : wanted;
+  return wanted >= wall - coincident_instants * (wall - now_) ? wall : wanted;
 }
 
 double StepSequence::planned_target() const {
@@ -54,11 +54,11 @@ double StepSequence::planned_target() const {
 double StepSequence::target() const {
   const double planned = planned_target();
   const double fine = now_ + around_.length;
-  return now_ < fine_until_ && fine < planned - same_instant * around_.length ? fine : planned;
+  return now_ < fine_until_ && fine < planned - coincident_instants * around_.length ? fine : planned;
 }
 
 bool StepSequence::refine(const CollisionSteps& around) {
-  if (target() - now_ <= around.length * (1.0 + same_instant)) return false;
+  if (target() - now_ <= around.length * (1.0 + coincident_instants)) return false;
   around_ = around;
   fine_until_ = now_ + around.duration;
   return true;

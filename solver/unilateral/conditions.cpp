@@ -10,8 +10,6 @@
 namespace comma::solver {
 namespace {
 
-/// A reduced coefficient below this share of the row's largest is what rounding leaves of an eliminated one.
-constexpr double empty_row_tolerance = 1e-12;
 /// Imposed values may miss a bound by this share of the terms before they contradict it: above any rounding in T and g.
 constexpr double feasibility_tolerance = 1e-9;
 
@@ -25,12 +23,6 @@ int require_dof(const DofMap& dofs, const Mesh& mesh, int node, Component compon
               "check the condition's components, or that the model gives an element to the node's cells");
 }
 
-double largest_entry(const RowMatrix& rows, int row) {
-  double largest = 0.0;
-  for (RowMatrix::InnerIterator it(rows, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
-  return largest;
-}
-
 /// The size of what is summed in A g - b: what roundings are measured against.
 double term_size(const Inequalities& full, int row, const Eigen::VectorXd& offset) {
   double size = std::abs(full.bounds[row]);
@@ -39,6 +31,12 @@ double term_size(const Inequalities& full, int row, const Eigen::VectorXd& offse
 }
 
 }  // namespace
+
+double largest_entry(const RowMatrix& rows, int row) {
+  double largest = 0.0;
+  for (RowMatrix::InnerIterator it(rows, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
 
 Inequalities unilateral_rows(std::span<const UnilateralCondition> conditions, const Mesh& mesh, const DofMap& dofs,
                              double time) {

@@ -29,6 +29,11 @@ struct ReducedInequalities {
 ReducedInequalities reduce(const Inequalities& full, const Elimination& elimination, const Eigen::VectorXd& offset,
                            const std::function<std::string(int row)>& describe);
 
+/// A reduced coefficient below this share of the row's largest is what rounding leaves of an eliminated one.
+inline constexpr double empty_row_tolerance = 1e-12;
+
+double largest_entry(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, int row);
+
 /// "-1*DY(A) <= 0" for messages.
 std::string describe_row(const Inequalities& inequalities, int row, const Mesh& mesh, const DofMap& dofs);
 

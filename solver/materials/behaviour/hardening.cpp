@@ -148,7 +148,7 @@ const char* keyword_of(Relation relation) {
   throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword), "give it in DEFI_MATERIAU");
 }
 
-bool moves(Relation relation) { return relation == Relation::mixed_linear || relation == Relation::mixed_traction; }
+bool is_mixed(Relation relation) { return relation == Relation::mixed_linear || relation == Relation::mixed_traction; }
 
 }  // namespace
 
@@ -161,7 +161,7 @@ std::pair<double, double> hardening(const HardeningCurve& curve, double p) {
 
 bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation) {
   if (!elasticity.young.is_constant() || !elasticity.poisson.is_constant()) return false;
-  if (moves(relation) && plasticity.prager && !plasticity.prager->is_constant()) return false;
+  if (is_mixed(relation) && plasticity.prager && !plasticity.prager->is_constant()) return false;
   switch (relation) {
     case Relation::isotropic_linear:
     case Relation::kinematic_linear:
@@ -176,7 +176,7 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
   const IsotropicModuli elastic = moduli(elasticity, at);
   PlasticPoint point;
   set_elasticity(elastic.young, elastic.poisson, point);
-  if (moves(relation)) {
+  if (is_mixed(relation)) {
     if (!plasticity.prager) throw_missing("PRAGER or PRAGER_FO");
     point.kinematic = (*plasticity.prager)(at);
   }

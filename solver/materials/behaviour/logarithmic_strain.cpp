@@ -12,9 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The two directions behind each component.
-constexpr int first[] = {0, 1, 2, 0, 0, 1};
-constexpr int second[] = {0, 1, 2, 1, 2, 2};
-
 /// Values nearer to each other than this are one in second divided differences: a series about their mean errs by the fourth power,
 /// the difference itself by rounding over the distance.
 constexpr double near = 1e-3;
@@ -41,8 +38,8 @@ double second_difference(double a, double b, double c) {
 Matrix3d basis(int component) {
   Matrix3d t = Matrix3d::Zero();
   const double value = component < 3 ? 1.0 : 0.5;
-  t(first[component], second[component]) = value;
-  t(second[component], first[component]) = value;
+  t(tensor_row[component], tensor_column[component]) = value;
+  t(tensor_column[component], tensor_row[component]) = value;
   return t;
 }
 

@@ -12,10 +12,10 @@ namespace comma::solver {
 namespace {
 
 /// Of the stresses, what rounding leaves of an equation between them.
-constexpr double rounding_share = 1e-14;
+constexpr double stress_rounding_share = 1e-14;
 constexpr int most_iterations = 200;
 /// The component of tensors out of the plane.
-constexpr int across = 2;
+constexpr int out_of_plane = 2;
 
 double trace(const Vector6d& t) { return t[0] + t[1] + t[2]; }
 
@@ -26,12 +26,12 @@ Vector6d as_tensor(const Vector6d& strain) {
   return tensor;
 }
 
-Vector6d deviator(Vector6d t) {
+Vector6d deviator_of(Vector6d t) {
   t.head<3>().array() -= trace(t) / 3.0;
   return t;
 }
 
-double inner(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
+double double_product(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
 
 /// K 1 x 1 + 2 share mu (I - 1 x 1 / 3), for strains with shear angles.
 Matrix6d elastic_matrix(const PlasticModuli& now, double share) {
@@ -52,17 +52,17 @@ void subtract_flow(Matrix6d& d, const PlasticModuli& now, const Vector6d& normal
 
 /// What flows goes on flowing: along `relative`, s - X.
 void flow_on(Matrix6d& d, const PlasticPoint& now, const Vector6d& relative, double p) {
-  const double size = std::sqrt(1.5 * inner(relative, relative));
+  const double size = std::sqrt(1.5 * double_product(relative, relative));
   if (!(size > 0.0)) return;
   subtract_flow(d, now, 1.5 / size * relative, 1.0 / (3.0 * now.shear + 1.5 * now.kinematic + hardening(now.curve, p).second));
 }
 
 /// The matrix where no stress crosses the plane.
 void release_across(Matrix6d& d) {
-  const Vector6d column = d.col(across);
-  d -= column * column.transpose() / column[across];
-  d.row(across).setZero();
-  d.col(across).setZero();
+  const Vector6d column = d.col(out_of_plane);
+  d -= column * column.transpose() / column[out_of_plane];
+  d.row(out_of_plane).setZero();
+  d.col(out_of_plane).setZero();
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ double plastic_increment(const HardeningCurve& curve, double trial, double hardn
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto [radius, slope] = hardening(curve, p + dp);
     const double excess = trial - hardness * dp - radius;
-    if (std::abs(excess) <= rounding_share * trial) return dp;
+    if (std::abs(excess) <= stress_rounding_share * trial) return dp;
     (excess > 0.0 ? low : high) = dp;
     const double full = hardness + slope;
     double next = full > 0.0 && std::isfinite(full) ? dp + excess / full : high;
@@ -88,11 +88,11 @@ double plastic_increment(const HardeningCurve& curve, double trial, double hardn
 
 PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment) {
   const Vector6d strain = as_tensor(increment);
-  const Vector6d deviatoric = stiffness_ratio(now.shear, before.shear) * deviator(state.stress) + 2.0 * now.shear * deviator(strain);
+  const Vector6d deviatoric = stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) + 2.0 * now.shear * deviator_of(strain);
   const double pressure = stiffness_ratio(now.bulk, before.bulk) * trace(state.stress) / 3.0 + now.bulk * trace(strain);
   const Vector6d back = stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
   const Vector6d relative = deviatoric - back;
-  const double size = std::sqrt(1.5 * inner(relative, relative));
+  const double size = std::sqrt(1.5 * double_product(relative, relative));
   const double hardness = 3.0 * now.shear + 1.5 * now.kinematic;
 
   PlasticResponse response;
@@ -100,7 +100,7 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
   response.state.back_stress = back;
   response.state.stress = deviatoric;
   const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
-  if (!may_flow || !(size > hardening(now.curve, state.p).first * (1.0 + rounding_share))) {
+  if (!may_flow || !(size > hardening(now.curve, state.p).first * (1.0 + stress_rounding_share))) {
     response.tangent = elastic_matrix(now, 1.0);
     if (may_flow && state.flowing && size > 0.0 && increment.isZero(0.0)) {
       // Nothing moves yet: what flowed in the last step is taken to flow on.
@@ -117,7 +117,7 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
     const double slope = hardening(now.curve, state.p + dp).second;
     response.tangent = elastic_matrix(now, 1.0 - 3.0 * now.shear * dp / size);
     // What flows because moduli or the radius have changed, while the strain goes back, is not taken to flow by the strain (R5.03.02; hsnv125a tells).
-    if (inner(relative, strain) >= 0.0) subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
+    if (double_product(relative, strain) >= 0.0) subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
   }
   response.state.stress.head<3>().array() += pressure;
   return response;
@@ -128,25 +128,25 @@ PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const 
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Vector6d strain = increment;
-  strain[across] = 0.0;
+  strain[out_of_plane] = 0.0;
   PlasticResponse response = integrate_von_mises(before, now, state, strain);
   for (int iteration = 0;; ++iteration) {
-    const double stress = response.state.stress[across];
-    const double scale = response.state.stress.cwiseAbs().maxCoeff() + std::abs(response.tangent(across, across) * strain[across]);
-    if (std::abs(stress) <= rounding_share * scale) break;
+    const double stress = response.state.stress[out_of_plane];
+    const double scale = response.state.stress.cwiseAbs().maxCoeff() + std::abs(response.tangent(out_of_plane, out_of_plane) * strain[out_of_plane]);
+    if (std::abs(stress) <= stress_rounding_share * scale) break;
     if (iteration == most_iterations) {
       throw Error("integration-failure", "the strain across the plane of a point in plane stress cannot be found", "take smaller steps");
     }
     // The stress rises with the strain: Newton's method between bounds.
-    (stress > 0.0 ? high : low) = strain[across];
-    const double last = strain[across];
-    strain[across] -= stress / response.tangent(across, across);
-    if (!(strain[across] > low && strain[across] < high)) strain[across] = 0.5 * (low + high);
-    if (strain[across] == last) break;
+    (stress > 0.0 ? high : low) = strain[out_of_plane];
+    const double last = strain[out_of_plane];
+    strain[out_of_plane] -= stress / response.tangent(out_of_plane, out_of_plane);
+    if (!(strain[out_of_plane] > low && strain[out_of_plane] < high)) strain[out_of_plane] = 0.5 * (low + high);
+    if (strain[out_of_plane] == last) break;
     response = integrate_von_mises(before, now, state, strain);
   }
   release_across(response.tangent);
-  response.state.stress[across] = 0.0;
+  response.state.stress[out_of_plane] = 0.0;
   return response;
 }
 
@@ -156,7 +156,7 @@ PlasticResponse begin_von_mises(const PlasticModuli& before, const PlasticPoint&
   response.state.stress += elastic_stress(before, strain_before) - elastic_stress(now, strain_now);
   const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
   const Vector6d relative =
-      stiffness_ratio(now.shear, before.shear) * deviator(state.stress) - stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
+      stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) - stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
   if (may_flow && state.flowing) flow_on(response.tangent, now, relative, state.p);
   return response;
 }
@@ -173,7 +173,7 @@ Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain) { r
 
 Vector6d elastic_stress_in_plane(const PlasticModuli& moduli, const Vector6d& strain) {
   Matrix6d d = elastic_matrix(moduli, 1.0);
-  if (d(across, across) == 0.0) return Vector6d::Zero();
+  if (d(out_of_plane, out_of_plane) == 0.0) return Vector6d::Zero();
   release_across(d);
   return d * strain;
 }

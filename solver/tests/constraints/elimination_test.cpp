@@ -11,7 +11,7 @@
 using namespace comma::solver;
 using namespace comma::solver::test;
 
-namespace {
+namespace elimination_test {
 
 constexpr auto dx = Component::dx;
 constexpr auto dy = Component::dy;
@@ -73,8 +73,6 @@ double reduction_error(const Elimination& elimination, unsigned seed) {
   const Eigen::MatrixXd computed = Eigen::MatrixXd(reduced).selfadjointView<Eigen::Lower>();
   return (computed - expected).lpNorm<Eigen::Infinity>() / expected.lpNorm<Eigen::Infinity>();
 }
-
-}  // namespace
 
 TEST_CASE("imposed degrees of freedom leave the unknowns, the others stay in order") {
   const Scene scene(3, {relation({{0, dx, 2.0}}, 3.0), relation({{1, dy}}, -1.0)});
@@ -252,3 +250,5 @@ TEST_CASE("the skew part of a stiffness is reduced like the symmetric one") {
   const Eigen::MatrixXd reduced = scene.elimination.reduce_skew(given);
   CHECK((reduced - reduced.transpose() - transformation.transpose() * skew * transformation).norm() < 1e-13);
 }
+
+}  // namespace elimination_test

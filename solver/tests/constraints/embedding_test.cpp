@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace embedding_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 
@@ -18,8 +18,6 @@ double quadratic(const Point& x) {
 double linear(const Point& x) {
   return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2];
 }
-
-}  // namespace
 
 TEST_CASE(
     "a node in a cell takes the cell's linear field, on curved cells too; quadratic cells give quadratic fields when "
@@ -111,3 +109,5 @@ TEST_CASE("a node beside a shell moves and turns with it as a rigid body does") 
     CHECK(std::abs(sum) < 1e-14);
   }
 }
+
+}  // namespace embedding_test

@@ -9,7 +9,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace facing_nodes_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 
@@ -19,8 +19,6 @@ Mesh two_lines(double gap) {
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {2.1, gap, 0}, {0.1, gap, 0}, {3.1, gap, 0}, {1.1, gap, 0}};
   return mesh;
 }
-
-}  // namespace
 
 TEST_CASE("each node faces the nearest one of the other set") {
   const Mesh mesh = two_lines(5.0);
@@ -73,3 +71,5 @@ TEST_CASE("relations of pairs: components with their factors, or normals") {
   CHECK_THROWS_WITH(facing_relations(mesh, pairs, normal, normal, normals, normals, 0.0, {}, origin),
                     Catch::Contains("N2"));
 }
+
+}  // namespace facing_nodes_test

@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using namespace comma::solver::test;
 
-namespace {
+namespace rigid_link_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 constexpr double coincidence = 1e-6;
@@ -54,8 +54,6 @@ const std::vector<Point> scattered = {{0, 0, 0}, {1, 0.2, -0.3}, {0.4, 2, 1}, {-
 const std::vector<Point> aligned = {{1, 1, 1}, {2, 3, 0}, {4, 7, -2}, {1.5, 2, 0.5}};
 const std::vector<Point> coincident = {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}};
 const std::vector<Point> coplanar = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 2, 0}};
-
-}  // namespace
 
 TEST_CASE("a rigid link leaves six motions in space, five to aligned nodes, three to coincident ones") {
   CHECK(motions_left(nodes_with_springs(scattered, Formulation::spring_3d)) == 6);
@@ -146,3 +144,5 @@ TEST_CASE("uniform: one value for all nodes") {
   CHECK(relations[0].terms[1].node == 2);
   CHECK(relations[0].terms[1].coefficient == -1.0);
 }
+
+}  // namespace rigid_link_test

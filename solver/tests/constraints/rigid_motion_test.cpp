@@ -8,7 +8,7 @@ using namespace comma::solver;
 using namespace comma::solver::test;
 using Strings = std::vector<std::string>;
 
-namespace {
+namespace rigid_motion_test {
 
 constexpr auto dx = Component::dx;
 constexpr auto dy = Component::dy;
@@ -60,8 +60,6 @@ const std::vector<std::pair<int, int>> braced = {{0, 1}, {1, 2}, {2, 3}, {3, 0},
 
 const std::vector<Point> corner = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
 const std::vector<std::pair<int, int>> tetrahedron = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-}  // namespace
 
 TEST_CASE("a plane body that nothing holds has three rigid motions") {
   const auto parts = Truss(square, braced, {}).free_parts();
@@ -210,3 +208,5 @@ TEST_CASE("a scene that is held has no free part") {
   CHECK(truss.report().verdict == FactorVerdict::ok);
   CHECK(truss.free_parts().empty());
 }
+
+}  // namespace rigid_motion_test

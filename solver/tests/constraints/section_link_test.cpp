@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using namespace comma::solver::test;
 
-namespace {
+namespace section_link_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 
@@ -51,8 +51,6 @@ double residual(const Mesh& mesh, const LinearRelation& relation, U&& displaceme
   }
   return sum;
 }
-
-}  // namespace
 
 TEST_CASE("a section that moves rigidly takes the beam's node along") {
   const Section section;
@@ -99,3 +97,5 @@ TEST_CASE("an edge in the plane joins a beam's node by three relations") {
   mesh.add_cell(CellType::poi1, std::vector{0});
   CHECK_THROWS_WITH(section_link(mesh, std::vector{2}, 5, origin), Catch::Contains("M3"));
 }
+
+}  // namespace section_link_test

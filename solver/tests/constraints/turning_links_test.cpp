@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using namespace comma::solver::test;
 
-namespace {
+namespace turning_links_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 
@@ -34,8 +34,6 @@ double largest_residual(const DofMap& dofs, const std::vector<LinearRelation>& r
 }
 
 const std::vector<Point> corners = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}, {0.3, 0.4, 1.5}};
-
-}  // namespace
 
 TEST_CASE("relations of a rigid body that has turned hold there, and to first order beside it") {
   const Model model = nodes_with_springs(corners, Formulation::spring_3d);
@@ -80,3 +78,5 @@ TEST_CASE("nodes with rotations of their own cannot turn far") {
   const std::vector<RigidLink> links = {{{0, 1}, 1e-6, origin}};
   CHECK_THROWS_AS(TurningLinks(*model.mesh, dofs, links), Error);
 }
+
+}  // namespace turning_links_test

@@ -11,7 +11,7 @@
 using namespace comma::solver;
 using namespace comma::solver::test;
 
-namespace {
+namespace weighted_average_test {
 
 const Origin origin = std::make_shared<const std::string>("test");
 constexpr ComponentMask translations = 0b000111, all = 0b111111;
@@ -49,8 +49,6 @@ double follow(const LinearRelation& relation, const DofMap& dofs, const Eigen::V
   }
   return value;
 }
-
-}  // namespace
 
 TEST_CASE("the follower moves as weighted least squares fits the leaders (RBE3)") {
   const Model model = nodes_with_springs(points, Formulation::spring_rotation_3d);
@@ -120,3 +118,5 @@ TEST_CASE("what the leaders do not determine is an error that names it") {
   leaders[0].weight = 0.0;
   CHECK_THROWS_WITH(weighted_average(*model.mesh, dofs, 0, all, leaders, origin), Catch::Contains("weight"));
 }
+
+}  // namespace weighted_average_test

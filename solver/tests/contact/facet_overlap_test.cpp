@@ -8,7 +8,7 @@ using namespace comma::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-namespace {
+namespace facet_overlap_test {
 
 using Points = std::vector<Vector3d>;
 
@@ -39,8 +39,6 @@ double integral(const FacetGeometry& slave, const FacetGeometry& master, Functio
 }
 
 double one(const OverlapPoint&) { return 1.0; }
-
-}  // namespace
 
 TEST_CASE("Segments have in common what their shadows on each other have") {
   for (const CellType type : {CellType::seg2, CellType::seg3}) {
@@ -156,3 +154,5 @@ TEST_CASE("On plane facets polynomials of the shape functions' degree are integr
   }
   CHECK(pieces == Approx(ours).epsilon(1e-13));
 }
+
+}  // namespace facet_overlap_test

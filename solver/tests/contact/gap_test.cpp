@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using Eigen::Vector3d;
 
-namespace {
+namespace gap_test {
 
 /// A master edge from (2, 0) to (0, 0), normal up, and a slave node above it that a spring carries.
 struct Scene {
@@ -34,8 +34,6 @@ struct Scene {
     return result;
   }
 };
-
-}  // namespace
 
 TEST_CASE("At the geometry of the pairing, bound minus row is the distance") {
   const Scene scene;
@@ -78,3 +76,5 @@ TEST_CASE("A slave node without displacements is named") {
   std::vector<int> row_pairs;
   CHECK_THROWS_WITH(gap_rows(pairs, *scene.mesh, dofs, row_pairs), Catch::Contains("N3") && Catch::Contains("DY"));
 }
+
+}  // namespace gap_test

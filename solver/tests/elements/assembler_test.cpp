@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace assembler_test {
 
 /// A square of n x n distorted quadrangles, or of twice as many triangles; interior nodes are moved off the grid.
 std::shared_ptr<Mesh> square(int n, CellType type) {
@@ -105,8 +105,6 @@ Body body_on_springs(double spring) {
   }
   return Body(mesh, formulations, elastic(2e9, 0.3), properties);
 }
-
-}  // namespace
 
 TEST_CASE("patch test: a linear field on the boundary of distorted cells goes through to the inside", "[elements]") {
   for (const CellType type : {CellType::tria3, CellType::quad4}) {
@@ -243,3 +241,5 @@ TEST_CASE("a pressed square that weak springs centre spreads evenly to both side
   CHECK(std::abs(u[4] + u[6]) < 1e-8);
   CHECK(u[0] == Approx(u[6]).epsilon(1e-8));
 }
+
+}  // namespace assembler_test

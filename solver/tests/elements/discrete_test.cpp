@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace discrete_test {
 
 std::shared_ptr<Mesh> segment(const Point& from, const Point& to) {
   auto mesh = std::make_shared<Mesh>();
@@ -23,8 +23,6 @@ Body spring(const std::shared_ptr<Mesh>& mesh, Formulation formulation, std::spa
   properties.discrete[0] = diagonal_stiffness(*mesh, 0, formulation, values, frame);
   return Body(mesh, {formulation}, nullptr, properties);
 }
-
-}  // namespace
 
 TEST_CASE("a spring along a slanted segment resists along it with its first value, across it with the second", "[elements]") {
   const auto mesh = segment({1, 1, 0}, {4, 5, 0});  // direction (0.6, 0.8)
@@ -153,3 +151,5 @@ TEST_CASE("a model of symmetric elements has no skew part", "[elements]") {
   CHECK(body.assembler->is_symmetric());
   CHECK(body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)).nonZeros() == 0);
 }
+
+}  // namespace discrete_test

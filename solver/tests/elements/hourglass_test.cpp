@@ -4,7 +4,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace hourglass_test {
 
 /// The reference cell stretched along the axes, and then each node moved by up to `bend` of a half edge.
 Hourglass::Places box(const Eigen::Vector3d& half_edges, double bend = 0.0) {
@@ -17,8 +17,6 @@ Hourglass::Places box(const Eigen::Vector3d& half_edges, double bend = 0.0) {
 
 constexpr double young = 1000.0, poisson = 0.3;
 const Matrix6d law = solid_stiffness(IsotropicModuli{young, poisson});
-
-}  // namespace
 
 TEST_CASE("Linear displacements have no hourglass pattern, on distorted cells too") {
   const Hourglass::Places places = box({1.0, 2.0, 0.5}, 0.1);
@@ -54,3 +52,5 @@ TEST_CASE("Forces on patterns do work on them alone") {
   const Hourglass::Places moved = box({0.3, -0.2, 0.7}, 0.4);
   CHECK(hourglass.nodal_forces(forces).cwiseProduct(moved).sum() == Approx(forces.cwiseProduct(hourglass.amplitudes(moved)).sum()));
 }
+
+}  // namespace hourglass_test

@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace inelastic_bar_test {
 
 constexpr double young = 2e5, yield = 200.0, slope = 4e3, prager = 1.5e3, area = 2.0;
 
@@ -37,8 +37,6 @@ Eigen::VectorXd moved(double strain) {
 }
 
 const BehaviourOfCells mixed = {{Kinematics::small, Relation::mixed_linear}};
-
-}  // namespace
 
 TEST_CASE("the tangent of a bar that flows is the derivative of its forces", "[elements]") {
   const Body body = bar(Formulation::bar);
@@ -100,3 +98,5 @@ TEST_CASE("beams do not flow, and bars in small strains only", "[elements]") {
   const BehaviourOfCells large = {{Kinematics::logarithmic, Relation::isotropic_linear}};
   CHECK_THROWS_WITH(Assembler(straight.model, straight.materials, straight.properties, *straight.dofs, &large), Catch::Contains("small strains"));
 }
+
+}  // namespace inelastic_bar_test

@@ -6,7 +6,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace inelastic_test {
 
 constexpr double young = 1000.0;
 
@@ -39,8 +39,6 @@ struct Flowed {
     return u;
   }
 };
-
-}  // namespace
 
 TEST_CASE("the tangent of an inelastic body is the derivative of its internal forces") {
   const auto [type, formulation] = GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::tetra10, Formulation::solid},
@@ -153,3 +151,5 @@ TEST_CASE("springs, bars, beams and plates that should flow say so") {
   const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear}};
   CHECK_THROWS_WITH(Assembler(model, materials, ElementProperties{}, dofs, &behaviours), Catch::Contains("RELATION") || Catch::Contains("elastic"));
 }
+
+}  // namespace inelastic_test

@@ -5,7 +5,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace large_strain_test {
 
 constexpr double young = 1000.0;
 constexpr double poisson = 0.3;
@@ -43,8 +43,6 @@ Eigen::VectorXd rough(int size, double amplitude) {
   for (int k = 0; k < size; ++k) u[k] = amplitude * std::sin(1.0 + 3.0 * k);
   return u;
 }
-
-}  // namespace
 
 TEST_CASE("the tangent of large strains is the derivative of the internal forces") {
   const auto [formulation, solid] = GENERATE(std::pair{Formulation::solid, true}, std::pair{Formulation::plane_strain, false},
@@ -95,3 +93,5 @@ TEST_CASE("a finite rotation strains nothing, and stretching a turned block give
   CHECK(field.at(0, 0, field.component("SIXX")) == Approx(cauchy(0, 0)));
   CHECK(field.at(0, 0, field.component("SIYZ")) == Approx(cauchy(1, 2)));
 }
+
+}  // namespace large_strain_test

@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using Eigen::Matrix3d;
 
-namespace {
+namespace mixed_point_test {
 
 constexpr double young = 2000.0;
 constexpr double poisson = 0.3;
@@ -58,8 +58,6 @@ Vector6d strain_of(const Matrix3d& h, bool large) {
   strain.tail<3>() *= 2.0;
   return strain;
 }
-
-}  // namespace
 
 TEST_CASE("a gradient keeps its shape and takes the volume strain that it is given") {
   const Matrix3d h = rough(0.2);
@@ -123,3 +121,5 @@ TEST_CASE("where swelling and pressure are those of the law itself, the stress i
   CHECK(std::abs(response.swelling) < 1e-12 * own.stress.norm());
   CHECK(std::abs(response.pressure) < 1e-15);
 }
+
+}  // namespace mixed_point_test

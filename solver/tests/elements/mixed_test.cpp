@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using comma::solver::testing::single_cell;
 
-namespace {
+namespace mixed_test {
 
 constexpr double young = 2000.0;
 constexpr double poisson = 0.3;
@@ -52,8 +52,6 @@ struct Cell {
   }
   double size_of(int dof) const { return dofs->component_of(dof) == Component::pressure ? young : 1.0; }
 };
-
-}  // namespace
 
 TEST_CASE("corners alone have a pressure, and a swelling where there are two fields") {
   const Cell cell({CellType::hexa20, Formulation::solid_swelling}, {});
@@ -136,3 +134,5 @@ TEST_CASE("mixed elements say which cells and strains they do not know") {
                     Catch::Contains("multiplicative"));
   CHECK_THROWS_WITH(make(CellType::hexa20, Formulation::solid_swelling, {Kinematics::updated, Relation::isotropic_linear}), Catch::Contains("strains"));
 }
+
+}  // namespace mixed_test

@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace plate_test {
 
 constexpr double young = 2e11;
 constexpr double poisson = 0.3;
@@ -105,8 +105,6 @@ Eigen::VectorXd solve(const Body& body, const Eigen::VectorXd& force, Held&& hel
   u(free) = moved;
   return u;
 }
-
-}  // namespace
 
 TEST_CASE("plates have constant strains and curvatures exactly, on distorted meshes, in the axes asked for", "[elements]") {
   const Place place = tilted();
@@ -218,8 +216,6 @@ TEST_CASE("a strip bends like a beam, and shears like one where the plate knows 
   }
 }
 
-namespace {
-
 /// The deflection at the middle of a simply supported square of side 1 under a pressure of 1 (Navier's series; Timoshenko and
 /// Woinowsky-Krieger, Theory of Plates and Shells, section 30; with shear as for any simply supported polygon).
 double navier(double bending, double shear) {
@@ -258,8 +254,6 @@ double quarter(CellType type, Formulation formulation, double h, int n) {
   });
   return u[body.dofs->dof(0, Component::dz)];
 }
-
-}  // namespace
 
 TEST_CASE("a simply supported square plate bends as Navier's series says", "[elements]") {
   for (const double h : {0.01, 0.2}) {
@@ -316,3 +310,5 @@ TEST_CASE("a normal rotation that is tied does not follow the parasitic spin of 
   });
   CHECK(std::abs(tie_energy(bent)) < 1e-12 * 1e-3 * young * 0.1);
 }
+
+}  // namespace plate_test

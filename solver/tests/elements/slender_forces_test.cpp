@@ -7,7 +7,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace slender_forces_test {
 
 constexpr double young = 200.0, poisson = 0.25, length = 2.0;
 const BeamSection section{0.5, 0.02, 0.03, 0.01, 1.2, 1.3, 0.0};
@@ -47,8 +47,6 @@ BeamForce force(int component, double value, BeamAxes axes = BeamAxes::global) {
 }
 
 const double shear_modulus = young / (2 * (1 + poisson));
-
-}  // namespace
 
 TEST_CASE("a cantilever under a uniform load bends by q L^4 / 8 E I, and shears by q L^2 / 2 G A' (Timoshenko)",
           "[loads]") {
@@ -121,3 +119,5 @@ TEST_CASE("a bar shares its load between its ends, and refuses moments", "[loads
   misplaced.beam_forces.push_back(force(0, 1.0));
   CHECK_THROWS_WITH(solid.assembler->external_forces(applied(misplaced), 0.0), Catch::Contains("no bar or beam"));
 }
+
+}  // namespace slender_forces_test

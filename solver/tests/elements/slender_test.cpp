@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace slender_test {
 
 const double young = 2e11;
 const double poisson = 0.25;
@@ -39,8 +39,6 @@ Eigen::VectorXd clamped(const Body& body, const Eigen::VectorXd& tip) {
 }
 
 const BeamSection section{.area = 2e-3, .inertia_y = 3e-6, .inertia_z = 5e-6, .torsion = 4e-6, .shear_y = 1.2, .shear_z = 1.5};
-
-}  // namespace
 
 TEST_CASE("a bar resists along its axis alone, with E A / L", "[elements]") {
   const Body body = chain({3, 4, 0}, 5.0, 1, Formulation::bar_2d, {.area = 1e-3});
@@ -132,3 +130,5 @@ TEST_CASE("a force through the centre of torsion bends a beam without twisting i
   CHECK(std::abs(u[3]) < 1e-12 * std::abs(u[5]));
   CHECK((u - expected).norm() < 1e-10 * expected.norm());
 }
+
+}  // namespace slender_test

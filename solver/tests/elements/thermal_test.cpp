@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace thermal_test {
 
 const double young = 2e11;
 const double poisson = 0.3;
@@ -68,8 +68,6 @@ std::vector<Case> continua() {
   for (const CellType type : solid_types) cases.push_back({type, Formulation::solid});
   return cases;
 }
-
-}  // namespace
 
 TEST_CASE("a body that expands freely is free of stress and energy", "[elements][thermal]") {
   for (const Case& c : continua()) {
@@ -157,3 +155,5 @@ TEST_CASE("the elastic energy without temperature is half of u K u", "[elements]
     CHECK(body.assembler->elastic_energies(u).values[0] == Approx(0.5 * u.dot(body.dense_stiffness() * u)));
   }
 }
+
+}  // namespace thermal_test

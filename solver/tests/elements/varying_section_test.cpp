@@ -13,7 +13,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace varying_section_test {
 
 constexpr double young = 2e11;
 constexpr double poisson = 0.25;
@@ -50,8 +50,6 @@ Eigen::VectorXd tip_displacement(const Body& body, const Eigen::Matrix<double, 6
   own << axes * u.segment<3>(free - 6), axes * u.tail<3>();
   return own;
 }
-
-}  // namespace
 
 TEST_CASE("a cone is one beam: pulled, twisted and bent at its end it moves as theory says", "[elements]") {
   const double r = 0.1;
@@ -141,3 +139,5 @@ TEST_CASE("a cone weighs a third of base times height, and all of it reaches the
   const double volume = std::numbers::pi * r * r * length * (1 + tip + tip * tip) / 3.0;
   CHECK(weight == Approx(-78000.0 * volume));
 }
+
+}  // namespace varying_section_test

@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace beam_stresses_test {
 
 /// A section of 0.2 along y and 0.1 along z.
 BeamSection rectangle() {
@@ -42,8 +42,6 @@ ElementField forces(std::vector<double> values) {
 FieldInput input_of(const Body& body) {
   return {body.model, body.materials, body.properties, body.assembler->state()};
 }
-
-}  // namespace
 
 TEST_CASE("each section force gives the stress of beam theory at the outermost fibre", "[fields]") {
   const Body body = beam(rectangle());
@@ -80,3 +78,5 @@ TEST_CASE("generalised strains of a stretched, twisted and bent beam", "[fields]
   CHECK(strain.at(0, 0, 1) == Approx(6 * 1.2 / (shear * 0.02)));
   CHECK(strain.at(0, 0, 3) == Approx(0.02));
 }
+
+}  // namespace beam_stresses_test

@@ -9,7 +9,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace boundary_pressure_test {
 
 /// The right and the upper edge of a unit square, running round it.
 Mesh two_edges() {
@@ -32,8 +32,6 @@ std::vector<Eigen::Vector3d> places(const Mesh& mesh) {
   for (const Point& node : mesh.nodes) result.emplace_back(node[0], node[1], node[2]);
   return result;
 }
-
-}  // namespace
 
 TEST_CASE("the pressure on a boundary is the stress along its normal", "[fields]") {
   const Mesh mesh = two_edges();
@@ -69,3 +67,5 @@ TEST_CASE("the traction along a boundary is what the stress has beside the press
   CHECK(pressure.at(3, 2) == Approx(2.0));
   CHECK(pressure.at(3, 3) == Approx(0.0).margin(1e-15));
 }
+
+}  // namespace boundary_pressure_test

@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace extrapolation_test {
 
 double linear(const ReferencePoint& at) {
   return 3.0 + 2.0 * at[0] - 1.5 * at[1] + 0.7 * at[2];
@@ -30,8 +30,6 @@ std::vector<CellType> all_types() {
   types.insert(types.end(), std::begin(solid_types), std::end(solid_types));
   return types;
 }
-
-}  // namespace
 
 TEST_CASE("smoothing reproduces linear fields at all nodes of every cell with several points", "[fields]") {
   for (const CellType type : all_types()) {
@@ -103,3 +101,5 @@ TEST_CASE("a field with other points than the element's is refused by the name o
   const ElementField field{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 3}, {1, 2, 3}};
   CHECK_THROWS_WITH(to_element_nodes(body.model, field), Catch::Contains("M1"));
 }
+
+}  // namespace extrapolation_test

@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace loading_indicators_test {
 
 constexpr double young = 2e5, poisson = 0.3, yield = 200.0, slope = 2e3;
 constexpr double shear = young / (2 * (1 + poisson));
@@ -50,8 +50,6 @@ std::array<double, 3> from_to(const std::array<double, 6>& before, const std::ar
   return {field.at(0, 5, 0), field.at(0, 5, 1), field.at(0, 5, 2)};
 }
 
-}  // namespace
-
 TEST_CASE("local indicators tell loading, unloading and turning", "[fields]") {
   const auto loads = from_to({100, 0, 0, 0, 0, 0}, {125, 0, 0, 0, 0, 0});
   CHECK(loads[0] == Approx(0.2));
@@ -85,3 +83,5 @@ TEST_CASE("global indicators are zero on a proportional way and see what unloads
   CHECK(elastic.by_yield == 0.0);
   CHECK(elastic.by_energy == Approx(0.0).margin(1e-14));
 }
+
+}  // namespace loading_indicators_test

@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using namespace comma::solver::testing;
 
-namespace {
+namespace strains_test {
 
 const Eigen::Matrix3d gradient =
     (Eigen::Matrix3d() << 1.0, 0.4, -0.3, 0.2, -0.7, 0.5, 0.6, -0.1, 0.9).finished() * 1e-2;
@@ -26,8 +26,6 @@ FieldInput input_of(const Body& body) {
 ElementField strain_of(const Body& body, const Eigen::VectorXd& u, StrainKind kind) {
   return strains(input_of(body), to_field(u, *body.dofs, "DEPL_R"), kind);
 }
-
-}  // namespace
 
 TEST_CASE("a linear displacement has its exact strain in every cell, curved ones included", "[fields]") {
   for (const CellType type : solid_types) {
@@ -120,3 +118,5 @@ TEST_CASE("a displacement that lacks a node is refused by its name", "[fields]")
   const NodalField field{"DEPL_R", {"DX", "DY"}, {0, 0, 1, absent, 0, 0, 0, 0}};
   CHECK_THROWS_WITH(strains(input_of(body), field, StrainKind::total), Catch::Contains("N2"));
 }
+
+}  // namespace strains_test

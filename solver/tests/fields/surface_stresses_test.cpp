@@ -5,7 +5,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace surface_stresses_test {
 
 double value(const ElementField& field, int cell, std::string_view name) {
   return field.at(cell, 0, field.component(name));
@@ -19,8 +19,6 @@ Mesh cube() {
   mesh.add_cell(CellType::quad4, std::array{4, 5, 6, 7});
   return mesh;
 }
-
-}  // namespace
 
 TEST_CASE("a uniform stress on a face: normal and tangential traction, principal stresses within it", "[fields]") {
   const Mesh mesh = cube();
@@ -106,3 +104,5 @@ TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
   CHECK(value(skin, 1, "SIG_N") == Approx(n.dot(tensor * n)));
   CHECK(value(skin, 1, "SIG_NX") == Approx(n.dot(tensor * n) * n[0]));
 }
+
+}  // namespace surface_stresses_test

@@ -11,7 +11,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace gmsh_writer_test {
 
 /// One cell of each type that Gmsh knows and that is read as it is, each on nodes of its own.
 Mesh every_cell() {
@@ -39,8 +39,6 @@ Mesh segment_and_triangle() {
   mesh.add_cell(CellType::tria3, std::array{0, 1, 2});
   return mesh;
 }
-
-}  // namespace
 
 TEST_CASE("a mesh written for Gmsh is read back as it was, whatever its cells", "[io]") {
   const Mesh mesh = every_cell();
@@ -71,3 +69,5 @@ TEST_CASE("views of Gmsh hold the places that carry a value", "[io]") {
   const std::vector<GmshView> refused = {{"S", 0.0, 0, &gauss, {0}}};
   CHECK_THROWS_AS(format_gmsh(mesh, all_cells(mesh), refused), Error);
 }
+
+}  // namespace gmsh_writer_test

@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using Group = std::vector<int>;
 
-namespace {
+namespace ideas_mesh_file_test {
 
 // A square of two triangles with its lower edge. Numbers begin at 5 and skip 7.
 const std::string square = R"(    -1
@@ -71,8 +71,6 @@ void add_ring(std::vector<Point>& places, const std::vector<Point>& corners, boo
   }
 }
 
-}  // namespace
-
 TEST_CASE("a universal file gives nodes, cells and groups", "[io]") {
   const Mesh mesh = parse_ideas_mesh(square, "square.unv");
   CHECK(mesh.dimension == 2);
@@ -130,3 +128,5 @@ TEST_CASE("a universal file with a mistake is refused with its line", "[io]") {
   CHECK_THAT(refused(single(999, {{0, 0, 0}})), Catch::Contains("kind 999"));
   CHECK_THAT(refused(""), Catch::Contains("no nodes"));
 }
+
+}  // namespace ideas_mesh_file_test

@@ -14,7 +14,7 @@
 using namespace comma::solver;
 using comma::solver::tests::TemporaryFile;
 
-namespace {
+namespace med_file_test {
 
 std::string code_of(const std::function<void()>& action) {
   try {
@@ -58,8 +58,6 @@ Mesh rewritten(const Mesh& mesh) {
   write_med_mesh(file.path(), mesh, "MESH");
   return read_med_mesh(file.path());
 }
-
-}  // namespace
 
 TEST_CASE("MED node orders are permutations that turn solids inside out") {
   for (int i = 0; i < cell_type_count; ++i) {
@@ -288,3 +286,5 @@ TEST_CASE("integration schemes sum up to the reference cell and lie inside it") 
   }
   CHECK(found >= cell_type_count);
 }
+
+}  // namespace med_file_test

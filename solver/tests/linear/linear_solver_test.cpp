@@ -9,7 +9,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace linear_solver_test {
 
 const std::vector<LinearMethod> every_method = {LinearMethod::mumps, LinearMethod::cholmod, LinearMethod::eigen_ldlt};
 
@@ -49,8 +49,6 @@ double solve_error(LinearSolver& solver, const Eigen::MatrixXd& dense, const Eig
   solver.solve(x);
   return (x - expected).lpNorm<Eigen::Infinity>() / expected.lpNorm<Eigen::Infinity>();
 }
-
-}  // namespace
 
 TEST_CASE("every solver recovers the integer solutions of positive definite systems, many right-hand sides at once") {
   const auto method = GENERATE(from_range(every_method));
@@ -244,3 +242,5 @@ TEST_CASE("conjugate gradients reach the residual asked for, and say so when the
     CHECK_THROWS_AS(solver->solve(x), Error);
   }
 }
+
+}  // namespace linear_solver_test

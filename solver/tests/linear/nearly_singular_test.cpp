@@ -13,7 +13,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace nearly_singular_test {
 
 constexpr double side = 50.0;         // m
 constexpr double soft_modulus = 2e9;  // Pa
@@ -193,8 +193,6 @@ Outcome solve(const Scene& scene, int cells, LinearMethod method, const LinearOp
   return outcome;
 }
 
-}  // namespace
-
 TEST_CASE("a body of 2e9 Pa held by springs of 10 N/m stays where symmetry puts it, with every solver") {
   const auto method = GENERATE(LinearMethod::mumps, LinearMethod::cholmod, LinearMethod::eigen_ldlt);
   const int cells = GENERATE(1, 8);
@@ -254,3 +252,5 @@ TEST_CASE("the times of docs/linear_solvers.md", "[.figures]") {
     }
   }
 }
+
+}  // namespace nearly_singular_test

@@ -8,7 +8,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace command_variables_test {
 
 Mesh two_bars() {
   Mesh mesh;
@@ -34,8 +34,6 @@ double temperature(const Mesh& mesh, const VariableState& state, int cell, doubl
   state.sample(cell, mesh.cell(cell), std::array{first_share, 1 - first_share}, 0, at);
   return at[Parameter::temperature];
 }
-
-}  // namespace
 
 TEST_CASE("command variables are linear in time and place", "[materials]") {
   const Mesh mesh = two_bars();
@@ -74,3 +72,5 @@ TEST_CASE("fields of another mesh are refused", "[materials]") {
   variables[0].snapshots[1].field = nodal({1, 2});
   CHECK_THROWS_WITH(VariableState(mesh, variables, 0.0), Catch::Contains("another mesh"));
 }
+
+}  // namespace command_variables_test

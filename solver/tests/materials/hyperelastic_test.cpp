@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using Eigen::Matrix3d;
 
-namespace {
+namespace hyperelastic_test {
 
 constexpr Hyperelasticity rubber{0.7, 0.25, 0.05, 40.0};
 
@@ -26,8 +26,6 @@ Vector6d strain_of(const Matrix3d& h) {
   e.tail<3>() *= 2.0;
   return e;
 }
-
-}  // namespace
 
 TEST_CASE("the stress of rubber is the derivative of its energy, and its tangent that of the stress") {
   const Matrix3d h = rough(0.3);
@@ -69,3 +67,5 @@ TEST_CASE("rubber at rest has the moduli of small strains") {
   const Matrix6d tangent = hyperelastic_response(rubber, Matrix3d::Zero()).tangent;
   CHECK((tangent - solid_stiffness(moduli)).cwiseAbs().maxCoeff() < 1e-13 * rubber.bulk);
 }
+
+}  // namespace hyperelastic_test

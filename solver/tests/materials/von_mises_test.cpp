@@ -7,7 +7,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace von_mises_test {
 
 constexpr double young = 200e3;
 constexpr double poisson = 0.3;
@@ -60,8 +60,6 @@ Vector6d size_of_flow() {
   increment << 0.004, -0.001, -0.0005, 0.003, -0.002, 0.001;
   return increment;
 }
-
-}  // namespace
 
 TEST_CASE("plastic tangents are the derivatives of the stress, in space and in plane stress") {
   for (const Relation relation : relations) {
@@ -210,3 +208,5 @@ TEST_CASE("a material that lacks what the law needs, or whose curve is off the e
   far[3] = 0.5;
   CHECK_THROWS_WITH(integrate_von_mises(ended, ended, {}, far), Catch::Contains("beyond the last point"));
 }
+
+}  // namespace von_mises_test

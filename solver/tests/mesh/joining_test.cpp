@@ -8,7 +8,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace joining_test {
 
 /// A unit square from x on, its left and right sides as groups LEFT and RIGHT, itself as BODY.
 Mesh square(double x) {
@@ -23,8 +23,6 @@ Mesh square(double x) {
   mesh.node_names = {"A", "B", "C", "D"};
   return mesh;
 }
-
-}  // namespace
 
 TEST_CASE("superposed meshes share nothing, and groups of the same name stay apart", "[mesh]") {
   const JoinedMesh joined = superposed(square(0.0), square(1.0));
@@ -55,3 +53,5 @@ TEST_CASE("what does not coincide cannot be glued", "[mesh]") {
   const Mesh second = square(1.1);
   CHECK_THROWS_WITH(glued(first, second, first.cell_group("RIGHT"), second.cell_group("LEFT")), Catch::Contains("node A of the second mesh"));
 }
+
+}  // namespace joining_test

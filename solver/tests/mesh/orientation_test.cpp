@@ -15,7 +15,7 @@
 using namespace comma::solver;
 using comma::solver::tests::Vector;
 
-namespace {
+namespace orientation_test {
 
 /// A block of nx * ny * nz unit cubes.
 Mesh block(int nx, int ny, int nz) {
@@ -86,8 +86,6 @@ std::string code_of(const std::function<void()>& action) {
   }
   return "no error";
 }
-
-}  // namespace
 
 TEST_CASE("the turned skin of a block encloses its volume") {
   std::mt19937 random(1);
@@ -258,3 +256,5 @@ TEST_CASE("the segments of a line follow each other from the end that is asked f
   const int face = mesh.add_cell(CellType::tria3, std::vector{0, 1, 2});
   CHECK(code_of([&] { orient_lines(mesh, std::vector{face}, std::nullopt); }) == "wrong-cell");
 }
+
+}  // namespace orientation_test

@@ -53,7 +53,7 @@ Mesh mesh_of_reference_cells(double spacing) {
   for (int i = 0; i < cell_type_count; ++i) {
     const auto type = static_cast<CellType>(i);
     std::vector<int> nodes;
-    for (const Vector& point : reference_nodes(type)) {
+    for (const Vector& point : tests::reference_nodes(type)) {
       nodes.push_back(mesh.node_count());
       mesh.nodes.push_back({point.x() + i * spacing, point.y(), point.z()});
     }

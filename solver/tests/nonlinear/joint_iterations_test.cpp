@@ -7,7 +7,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-namespace {
+namespace joint_iterations_test {
 
 constexpr double young = 1000.0;
 constexpr double yield = 5.0;
@@ -65,8 +65,6 @@ void check_same(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == Approx(b[i]).epsilon(1e-8).margin(1e-12));
 }
 
-}  // namespace
-
 TEST_CASE("Statuses and geometry within the iterations on the bodies lead where settling them in each does") {
   const std::vector<double> instants = {0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
   Press settled(false), joint(true);
@@ -87,3 +85,5 @@ TEST_CASE("A step on whose way statuses swing to and fro is cut, and solved with
   check_same(whole.solve(instants, 20, 0), reference);
   CHECK(whole.scene.result.steps.size() == instants.size());
 }
+
+}  // namespace joint_iterations_test

@@ -4,7 +4,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace known_solutions_test {
 
 /// A chain of springs, held at its beginning.
 Eigen::MatrixXd chain(int size) {
@@ -15,8 +15,6 @@ Eigen::MatrixXd chain(int size) {
   }
   return matrix;
 }
-
-}  // namespace
 
 TEST_CASE("A multiple of an earlier load takes the multiple of its solution, another load none") {
   const int size = 6;
@@ -60,3 +58,5 @@ TEST_CASE("The solution that was used longest ago is the first to be forgotten")
   CHECK(knows(0));
   CHECK_FALSE(knows(1));
 }
+
+}  // namespace known_solutions_test

@@ -11,7 +11,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-namespace {
+namespace linear_static_analysis_test {
 
 constexpr double young = 2e11;
 constexpr double poisson = 0.3;
@@ -75,8 +75,6 @@ struct Plate {
 
   int corner() const { return block.nodes.back().back(); }
 };
-
-}  // namespace
 
 TEST_CASE("linear statics: several instants, one factorisation, orders from 1 on", "[linear-statics]") {
   Plate plate;
@@ -148,3 +146,5 @@ TEST_CASE("a stiffness that is not positive definite is counted", "[linear-stati
   CHECK(counters.indefinite_factorisations == 1);
   CHECK(value(result, 0, "DEPL", free, "DX") == Approx(1.0 / (1e3 - 3e3)));
 }
+
+}  // namespace linear_static_analysis_test

@@ -13,7 +13,7 @@
 
 using namespace comma::solver;
 
-namespace {
+namespace local_average_test {
 
 constexpr double young = 2000.0;
 constexpr double poisson = 0.3;
@@ -173,8 +173,6 @@ void check_uniform(const Result& result, const char* vertical_stress) {
     CHECK(state.values[i] == Approx(1.0).epsilon(1e-10));
 }
 
-}  // namespace
-
 TEST_CASE("Local average contact passes the patch test in the plane") {
   for (const bool is_simplex : {false, true})
     for (const bool is_quadratic : {false, true})
@@ -206,3 +204,5 @@ TEST_CASE("Local average contact passes the patch test in space on quadratic cel
   hexahedra.convert(Conversion::hexa20_to_27);
   check_uniform(hexahedra.solve(true), "SIZZ");
 }
+
+}  // namespace local_average_test

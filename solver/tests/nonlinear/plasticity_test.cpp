@@ -8,7 +8,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-namespace {
+namespace plasticity_test {
 
 constexpr double young = 1000.0;
 constexpr double yield = 5.0;
@@ -40,8 +40,6 @@ struct Square {
     return values.at(0, 0, values.component(component));
   }
 };
-
-}  // namespace
 
 TEST_CASE("the variables of one step are where the next begins") {
   Square square(0.01);
@@ -224,3 +222,5 @@ TEST_CASE("steps that extrapolate the flow are linear, and their error is of the
   Square moving(0.01, {Kinematics::small, Relation::kinematic_linear});
   CHECK_THROWS_WITH(moving.scene.solve(1, options), Catch::Contains("IMPLEX"));
 }
+
+}  // namespace plasticity_test

@@ -11,7 +11,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-namespace {
+namespace static_analysis_test {
 
 std::string code_of(Scene& scene, int steps, std::string* message = nullptr, const NewtonOptions& options = {}) {
   try {
@@ -33,8 +33,6 @@ double sum(const Scene& scene, const std::vector<int>& nodes, const std::string&
     if (const double value = scene.contact(node, component); !std::isnan(value)) total += value;
   return total;
 }
-
-}  // namespace
 
 TEST_CASE("A block on a unilateral support: the reactions carry the load") {
   Scene scene;
@@ -345,3 +343,5 @@ TEST_CASE("Geometry updates follow a sliding block to the next facet") {
   CHECK(scene.counters.factorisations == 1);
   CHECK(scene.counters.pairings >= 6);
 }
+
+}  // namespace static_analysis_test

@@ -9,7 +9,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-namespace {
+namespace zzzz237_test {
 
 constexpr double young = 2e9;
 constexpr double poisson = 0.3;
@@ -51,8 +51,6 @@ struct Founding : Scene {
     CHECK(internal_force(b, Component::dy) == Approx(exact_force).epsilon(1e-6));
   }
 };
-
-}  // namespace
 
 TEST_CASE("zzzz237 B: a unilateral support carries the square", "[zzzz237]") {
   for (const auto method : {LinearMethod::eigen_ldlt, LinearMethod::cholmod, LinearMethod::mumps}) {
@@ -117,3 +115,5 @@ TEST_CASE("zzzz237 A: a pairing distance that reaches the support's nodes change
   scene.solve(20);
   scene.check_position(1e-6);
 }
+
+}  // namespace zzzz237_test

@@ -1,0 +1,13 @@
+// The components of stresses and of the forces in beams, by their usual names.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace comma::solver {
+
+inline constexpr std::array<std::string_view, 4> plane_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY"};
+inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
+inline constexpr std::array<std::string_view, 6> beam_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
+
+}  // namespace comma::solver
