@@ -72,7 +72,7 @@ long peak_memory_bytes() {
 }
 
 template <class Items>
-ordered_json list_of(const Items& items) {
+ordered_json json_list(const Items& items) {
   ordered_json list = ordered_json::array();
   for (const auto& item : items) list.push_back(json_of(item));
   return list;
@@ -85,9 +85,9 @@ std::string to_json(const Report& report) {
   const ordered_json json = {{"version", report_version},
                              {"file", report.file},
                              {"status", report.status},
-                             {"tests", list_of(report.tests)},
-                             {"commands", list_of(report.commands)},
-                             {"diagnostics", list_of(report.diagnostics)},
+                             {"tests", json_list(report.tests)},
+                             {"commands", json_list(report.commands)},
+                             {"diagnostics", json_list(report.diagnostics)},
                              {"counters",
                               {{"factorisations", counters.factorisations},
                                {"indefinite_factorisations", counters.indefinite_factorisations},
