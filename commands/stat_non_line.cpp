@@ -101,10 +101,6 @@ solver::TangentPolicy tangent_policy(const Keywords& newton) {
 
 solver::LineSearch line_search(const Call& call) {
   const Keywords& search = call.factor("RECH_LINEAIRE");
-  if (call.has("CONTACT")) {
-    throw DiagnosticError("exclusive-keywords", "STAT_NON_LINE: RECH_LINEAIRE does not go with CONTACT", search.span,
-                          "the line search knows nothing of gaps: leave it out");
-  }
   const bool along_path = search.text("METHODE") == "PILOTAGE";
   if (along_path != call.has("PILOTAGE")) {
     throw DiagnosticError("contradictory-keywords", along_path ? "STAT_NON_LINE: RECH_LINEAIRE/METHODE='PILOTAGE' needs the keyword PILOTAGE" : "STAT_NON_LINE: with PILOTAGE the line search has a method of its own",

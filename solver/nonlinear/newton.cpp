@@ -85,14 +85,15 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     if (relations_.update) offset = relations_.update(time, state);
     const bool is_joint = mixed_ && mixed_->is_joint();
     if (is_joint) correction.changes = mixed_->linearise(state.u, time);
+    bool is_whole = true;
     if (searches(iteration))
-      search(before, external, offset, state);
+      is_whole = search(before, external, offset, state) || !has_conditions();
     else
       evaluate(state, external);
-    const auto measure = criterion_.measure(largest_component(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
+    const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged && (!is_joint || correction.changes == 0) && is_satisfied(state.u)) {
+    if (measure.converged && is_whole && (!is_joint || correction.changes == 0) && is_satisfied(state.u)) {
       if (!is_joint && !relations_.update) polish(state, external, offset);
       return iteration;
     }
@@ -176,6 +177,10 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
   applied_ = largest_component(loads);
 }
 
+ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
+  return criterion_.measure(largest_component(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
+}
+
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that the loads are lost in them: a body
 /// that nothing holds has flown away.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
@@ -207,18 +212,23 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
 bool NewtonSolver::is_satisfied(const Eigen::VectorXd& u) const { return !relations_.violation || relations_.violation(u) <= largest_violation; }
 
 bool NewtonSolver::searches(int iteration) const {
-  return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() && !mixed_ && row_multipliers_.size() == 0;
+  return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() && !(mixed_ && mixed_->is_joint());
 }
 
 /// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there. While the line is
-/// searched, loads that follow stay as they were (R5.03.01; ssnv122b tells).
-void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+/// searched, loads that follow stay as they were (R5.03.01; ssnv122b tells), and contact forces as the correction has found them. Returns whether the
+/// correction was taken whole, so that conditions hold as it left them.
+bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
   const Eigen::VectorXd step = state.reduced - before;
   const auto go = [&](double rho) {
     state.reduced = before + rho * step;
     state.u = elimination_.transformation() * state.reduced + offset;
   };
-  const double start = step.dot(residual_);
+  if (has_conditions()) {
+    evaluate(state, external);
+    if (distance(state).converged) return true;
+  }
+  double start = step.dot(residual_);
   go(0.0);
   const Eigen::VectorXd held = loads_at(state.u, external);
   const auto work = [&](double rho) {
@@ -226,9 +236,11 @@ void NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
     measure(held, assembler_.internal_forces(state.u));
     return step.dot(residual_);
   };
+  if (has_conditions()) start = work(0.0);
   const double reached = search_line(*options_.line_search, start, work);
   go(reached);
   evaluate(state, external);
+  return reached == 1.0;
 }
 
 /// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of earlier rows or

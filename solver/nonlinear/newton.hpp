@@ -99,7 +99,8 @@ class NewtonSolver {
   int further_iterations(double time, const std::vector<IterationReport>& history, double excess) const;
   bool is_satisfied(const Eigen::VectorXd& u) const;
   bool searches(int iteration) const;
-  void search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
+  bool has_conditions() const { return mixed_ || row_multipliers_.size() > 0; }
+  bool search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
@@ -112,6 +113,7 @@ class NewtonSolver {
   void evaluate(const NewtonState& state, const Eigen::VectorXd& external);
   Eigen::VectorXd loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const;
   void measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal);
+  ConvergenceCriterion::Measure distance(const NewtonState& state) const;
   bool is_rounding(const NewtonState& state) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   std::optional<double> penetration(const NewtonState& state) const;

@@ -164,7 +164,7 @@ class StaticAnalysis {
   /// Bodies that remember and steps that may be cut: where Newton's method takes statuses and geometry along, as Code_Aster does, steps are cut where
   /// Code_Aster cuts them, and the path is the same (ssnv506e). Else contact is settled within each iteration, which fails less.
   bool iterates_jointly(const StepPlan& plan) const {
-    return problem_.contact->joint_iterations && plan.cutting && assembler_.has_memory() && mixed_->can_iterate_jointly();
+    return problem_.contact->joint_iterations && plan.cutting && !options_.line_search && assembler_.has_memory() && mixed_->can_iterate_jointly();
   }
 
   /// Of a step that cannot be cut.
