@@ -152,7 +152,11 @@ void check_pairing(const Keywords& zone) {
                         "write ALGO_CONT='LAC', or APPARIEMENT='MAIT_ESCL'");
 }
 
-// ADAPTATION changes the penalty of friction until no point that sticks slips by more than GLIS_MAXI (U4.44.11), which comma does not.
+bool adapts_penalties(const Keywords& keywords) {
+  const std::string adaptation = keywords.text("ADAPTATION");
+  return adaptation == "ADAPT_COEF" || adaptation == "TOUT";
+}
+
 void take_friction(const Keywords& keywords, solver::MixedZone& zone) {
   zone.friction_penalised = keywords.text("ALGO_FROT") == "PENALISATION";
   if (!zone.friction_penalised) {
@@ -160,10 +164,7 @@ void take_friction(const Keywords& keywords, solver::MixedZone& zone) {
     return;
   }
   zone.friction_penalty = keywords.real("COEF_PENA_FROT");
-  const std::string adaptation = keywords.text("ADAPTATION");
-  if (adaptation != "ADAPT_COEF" && adaptation != "TOUT") return;
-  throw DiagnosticError("unsupported", "comma does not adapt a penalty of friction", keywords.span_of("ADAPTATION"),
-                        "write ADAPTATION='CYCLAGE' or 'NON', and a COEF_PENA_FROT that is large enough");
+  if (keywords.has("GLIS_MAXI") && adapts_penalties(keywords)) zone.largest_slip = keywords.real("GLIS_MAXI");
 }
 
 solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh) {
@@ -173,8 +174,7 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
-  const std::string adaptation = keywords.text("ADAPTATION");
-  if (zone.penalised && (adaptation == "ADAPT_COEF" || adaptation == "TOUT")) zone.largest_depth = keywords.real("PENE_MAXI");
+  if (zone.penalised && adapts_penalties(keywords)) zone.largest_depth = keywords.real("PENE_MAXI");
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";

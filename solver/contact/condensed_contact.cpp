@@ -500,6 +500,10 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
   return value;
 }
 
+double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
+  return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
+}
+
 Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Index rows) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows);
   for (std::size_t p = 0; p < problem.points.size(); ++p) {

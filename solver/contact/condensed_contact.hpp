@@ -65,6 +65,9 @@ struct CondensedState {
 /// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point);
 
+/// How far a point slips where the rows have these jumps; 0 without friction.
+double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);
+
 /// What the multipliers alone put on the rows (`rows` of them) of closed points.
 Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Eigen::Index rows);
 

@@ -48,6 +48,7 @@ struct MixedZone {
   double friction = 0.0;             ///< COULOMB
   bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
   double friction_penalty = 0.0;         ///< a force over a length, or one over a length
+  std::optional<double> largest_slip;    ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks slips by more in the step
   double friction_augmentation = 100.0;  ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
   std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
   std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction

@@ -17,10 +17,6 @@ constexpr double negligible_slip = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_share = 1e-9;
 
-double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
-  return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
-}
-
 }  // namespace
 
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {

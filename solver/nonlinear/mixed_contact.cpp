@@ -74,6 +74,7 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
       counters_(counters),
       support_(std::move(support)),
       stiffening_(definition.zones.size(), 1.0),
+      friction_stiffening_(definition.zones.size(), 1.0),
       reference_(Eigen::VectorXd::Zero(dofs.size())) {
   number_multipliers();
 }
@@ -132,7 +133,7 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   CondensedPoint result;
   result.weight = point.weight;
   result.law = law_of(zone);
-  if (zone.mixed.penalised) result.law.augmentation *= stiffening_[static_cast<std::size_t>(point.zone)];
+  stiffen(point, result);
   result.bilateral = zone.mixed.bilateral;
   if (point.node >= 0 && contains(zone.mixed.frictionless_nodes, point.node)) result.law.friction = 0.0;
   const bool one_direction = dimension_ == 2 || Eigen::Map<const Vector3d>(zone.mixed.frictionless_direction.data()).norm() > 0.0;
@@ -251,7 +252,7 @@ void MixedContact::share_friction() {
     if (!(point.law.friction > 0.0) || point.node_count == 0) continue;
     const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     if (mixed.friction_penalised)
-      point.share_augmentation = mixed.friction_penalty;
+      point.share_augmentation = point.law.friction_augmentation;
     else if (shared[static_cast<std::size_t>(point.nodes[0])] && !mixed.penalised)
       point.share_augmentation = mixed.friction_augmentation;
   }
@@ -496,29 +497,46 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
 
 bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
   const Eigen::VectorXd now = jumps(u);
-  std::vector<double> excess(definition_.zones.size(), 0.0);
+  std::vector<double> depth(definition_.zones.size(), 0.0), slip = depth;  // as multiples of what is allowed
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
-    const std::optional<double> limit = depth_limit_ ? depth_limit_ : mixed.largest_depth;
-    if (!mixed.penalised || !limit || problem_.points[p].rows == 0) continue;
-    excess[zone] = std::max(excess[zone], -now[problem_.points[p].first_row] / *limit);
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0) continue;
+    const std::optional<double> deepest = depth_limit_ ? depth_limit_ : mixed.largest_depth;
+    if (mixed.penalised && deepest) depth[zone] = std::max(depth[zone], -now[point.first_row] / *deepest);
+    if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
+      slip[zone] = std::max(slip[zone], slip_of(point, now) / *mixed.largest_slip);
   }
+  const bool pressed = raise(stiffening_, depth, "contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'");
+  const bool rubbed = raise(friction_stiffening_, slip, "penalty of friction", "points that stick from slipping more", "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'");
+  if (!pressed && !rubbed) return false;
+  for (std::size_t p = 0; p < points_.size(); ++p) stiffen(points_[p], problem_.points[p]);
+  return true;
+}
+
+/// Factors of zones grow by as much as there is too much of what they keep down; whether any did.
+bool MixedContact::raise(std::vector<double>& factors, const std::vector<double>& excess, const char* penalty, const char* what, const char* hint) const {
   bool raised = false;
   for (std::size_t zone = 0; zone < excess.size(); ++zone) {
     if (excess[zone] <= 1.0) continue;
-    stiffening_[zone] *= std::max(least_raise, raise_margin * excess[zone]);
-    if (stiffening_[zone] > most_raise_)
-      throw Error("no-convergence", fmt::format("a contact penalty {:g} times the one given does not keep points from going deeper than allowed", most_raise_),
-                  "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'");
+    factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
+    if (factors[zone] > most_raise_)
+      throw Error("no-convergence", fmt::format("a {} {:g} times the one given does not keep {} than allowed", penalty, most_raise_, what), hint);
     raised = true;
   }
-  if (!raised) return false;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
-    if (mixed.penalised) problem_.points[p].law.augmentation = mixed.augmentation * stiffening_[static_cast<std::size_t>(points_[p].zone)];
-  }
-  return true;
+  return raised;
+}
+
+/// Penalties as they are raised.
+void MixedContact::stiffen(const ContactPoint& point, CondensedPoint& condensed) const {
+  const auto zone = static_cast<std::size_t>(point.zone);
+  const MixedZone& mixed = definition_.zones[zone].mixed;
+  if (mixed.penalised) condensed.law.augmentation = mixed.augmentation * stiffening_[zone];
+  if (!mixed.friction_penalised) return;
+  const double penalty = mixed.friction_penalty * friction_stiffening_[zone];
+  condensed.law.friction_augmentation = penalty;
+  if (condensed.share_augmentation > 0.0) condensed.share_augmentation = penalty;
 }
 
 bool MixedContact::has_penalties() const {

@@ -84,7 +84,8 @@ class MixedContact {
   double penetration(const Eigen::VectorXd& u) const;
   const std::vector<ContactPoint>& points() const { return points_; }
 
-  /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth); whether there were any. Throws Error
+  /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth), or points that stick slip by more
+  /// (MixedZone::largest_slip); whether there were any. Throws Error
   /// `no-convergence` where that does not help.
   bool stiffen_penalties(const Eigen::VectorXd& u);
 
@@ -114,6 +115,8 @@ class MixedContact {
   void start_statuses(const Eigen::VectorXd& jumps);
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
+  bool raise(std::vector<double>& factors, const std::vector<double>& excess, const char* penalty, const char* what, const char* hint) const;
+  void stiffen(const ContactPoint& point, CondensedPoint& condensed) const;
   void choose_directions();
   Directions directions(const ContactPoint& point) const;
   std::vector<char> shared_multipliers() const;
@@ -148,6 +151,7 @@ class MixedContact {
   std::map<Key, int> multiplier_numbers_;
   int dimension_ = 3;
   std::vector<double> stiffening_;  ///< by which the penalty of each zone is raised, >= 1
+  std::vector<double> friction_stiffening_;  ///< the same of its penalty of friction
   std::optional<double> depth_limit_;  ///< of all zones, in place of their own
   double most_raise_ = 1e12;           ///< beyond, rounding of the gaps makes pressures
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
