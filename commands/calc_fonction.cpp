@@ -38,10 +38,24 @@ Tables tables_of(const Keywords& operation) {
   return tables;
 }
 
-TabulatedFunction combined(const std::vector<Keywords>& terms) {
+// Where COMB and MULT are tabulated, if it is said.
+std::vector<double> abscissas(const Call& call) {
+  if (!call.has("LIST_PARA")) return {};
+  std::vector<double> values = call.data<ListConcept>("LIST_PARA").values;
+  check_rising(call, "LIST_PARA", values);
+  return values;
+}
+
+TabulatedFunction combined(const Call& call) {
+  const std::vector<Keywords>& terms = call.factors("COMB");
   std::vector<double> coefficients;
   for (const Keywords& term : terms) coefficients.push_back(term.real("COEF"));
-  return solver::combination(tables_of(terms), coefficients);
+  return solver::combination(tables_of(terms), coefficients, abscissas(call));
+}
+
+TabulatedFunction succession(const Keywords& operation) {
+  const Tables tables = tables_of(operation);
+  return solver::in_succession(*tables[0], *tables[1], operation.text("SURCHARGE") == "GAUCHE" ? solver::Overlap::first : solver::Overlap::second);
 }
 
 TabulatedFunction envelope(const Keywords& operation) {
@@ -56,10 +70,13 @@ TabulatedFunction power(const Keywords& operation) {
 
 TabulatedFunction computed(const Call& call) {
   const auto only = [&](const char* keyword) -> const Keywords& { return call.factor(keyword); };
-  if (call.given("COMB")) return combined(call.factors("COMB"));
-  if (call.given("MULT")) return solver::product(tables_of(call.factors("MULT")));
+  if (call.given("COMB")) return combined(call);
+  if (call.given("MULT")) return solver::product(tables_of(call.factors("MULT")), abscissas(call));
   if (call.given("ENVELOPPE")) return envelope(only("ENVELOPPE"));
   if (call.given("MOYENNE")) return solver::mean(tables_of(only("MOYENNE")));
+  if (call.given("ASSE")) return succession(only("ASSE"));
+  if (call.given("FRACTILE")) return solver::fractile(tables_of(only("FRACTILE")), only("FRACTILE").real("FRACT"));
+  if (call.given("REGR_POLYNOMIALE")) return solver::polynomial_fit(table_of(only("REGR_POLYNOMIALE")), static_cast<int>(only("REGR_POLYNOMIALE").integer("DEGRE")));
   if (call.given("ABS")) return solver::mapped(table_of(only("ABS")), [](double y) { return std::abs(y); });
   if (call.given("PUISSANCE")) return power(only("PUISSANCE"));
   if (call.given("INTEGRE")) return solver::integral(table_of(only("INTEGRE")), only("INTEGRE").real("COEF"));
@@ -73,6 +90,9 @@ TabulatedFunction computed(const Call& call) {
 
 // Functions out of functions (U4.32.04).
 Product calc_fonction(const Call& call, Context&) {
+  if (call.has("LIST_PARA") && !call.given("COMB") && !call.given("MULT"))
+    throw interpreter::DiagnosticError("contradictory-keywords", "CALC_FONCTION: LIST_PARA goes with COMB and MULT alone", call.span_of("LIST_PARA"),
+                                       "leave it out, and tabulate the result anew by CALC_FONC_INTERP");
   TabulatedFunction function = computed(call);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");

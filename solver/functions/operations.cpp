@@ -1,9 +1,11 @@
 #include "solver/functions/operations.hpp"
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -25,11 +27,11 @@ TabulatedFunction shape_of(const TabulatedFunction& function) {
   return shape;
 }
 
-/// At each common abscissa, `join` of the functions' values.
+/// At each abscissa, the common ones unless others are given, `join` of the functions' values.
 template <class Join>
-TabulatedFunction joined(Functions functions, Join join) {
+TabulatedFunction joined(Functions functions, Join join, std::vector<double> abscissas = {}) {
   TabulatedFunction result = shape_of(*functions.front());
-  result.x = common_abscissas(functions);
+  result.x = abscissas.empty() ? common_abscissas(functions) : std::move(abscissas);
   std::vector<double> values(functions.size());
   for (const double x : result.x) {
     std::ranges::transform(functions, values.begin(), [x](const TabulatedFunction* function) { return (*function)(x); });
@@ -57,21 +59,28 @@ std::vector<double> common_abscissas(Functions functions) {
   return all;
 }
 
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients) {
-  return joined(functions, [&](const std::vector<double>& values) {
-    return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0);
-  });
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients, std::vector<double> abscissas) {
+  const auto sum = [&](const std::vector<double>& values) { return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0); };
+  return joined(functions, sum, std::move(abscissas));
 }
 
-TabulatedFunction product(Functions functions) {
-  return joined(functions, [](const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>());
-  });
+TabulatedFunction product(Functions functions, std::vector<double> abscissas) {
+  const auto multiply = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>()); };
+  return joined(functions, multiply, std::move(abscissas));
 }
 
 TabulatedFunction mean(Functions functions) {
   return joined(functions, [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  });
+}
+
+TabulatedFunction fractile(Functions functions, double share) {
+  return joined(functions, [share](std::vector<double> values) {
+    std::ranges::sort(values);
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    return std::lerp(values[below], values[std::min(below + 1, values.size() - 1)], place - std::floor(place));
   });
 }
 
@@ -86,6 +95,36 @@ TabulatedFunction lower_envelope(Functions functions) {
 TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate) {
   TabulatedFunction result = function;
   std::ranges::transform(result.y, result.y.begin(), ordinate);
+  return result;
+}
+
+TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts) {
+  TabulatedFunction result = shape_of(first);
+  result.right = second.right;
+  const auto take = [&result](const TabulatedFunction& from, auto counts_at) {
+    for (std::size_t i = 0; i < from.x.size(); ++i) {
+      if (!counts_at(from.x[i])) continue;
+      result.x.push_back(from.x[i]);
+      result.y.push_back(from.y[i]);
+    }
+  };
+  const bool by_first = counts == Overlap::first;
+  take(first, [&](double x) { return by_first || (x < second.x.front() && !is_same(x, second.x.front())); });
+  take(second, [&](double x) { return !by_first || (x > first.x.back() && !is_same(x, first.x.back())); });
+  return result;
+}
+
+TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree) {
+  const auto count = static_cast<Eigen::Index>(function.x.size());
+  if (count <= degree) throw Error("out-of-function", fmt::format("{} points determine no polynomial of degree {}", count, degree), "take a lower degree");
+  // Powers of a variable between -1 and 1.
+  const double middle = 0.5 * (function.x.front() + function.x.back()), half = std::max(0.5 * (function.x.back() - function.x.front()), std::numeric_limits<double>::min());
+  Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(count, degree + 1);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (int k = 1; k <= degree; ++k) powers(i, k) = powers(i, k - 1) * (function.x[static_cast<std::size_t>(i)] - middle) / half;
+  const Eigen::Map<const Eigen::VectorXd> values(function.y.data(), count);
+  TabulatedFunction result = function;
+  Eigen::Map<Eigen::VectorXd>(result.y.data(), count) = powers * powers.householderQr().solve(values);
   return result;
 }
 

@@ -5,6 +5,7 @@
 // throw Error `out-of-function` when the functions have no abscissa in common, or where one cannot be evaluated.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -18,16 +19,25 @@ using Functions = std::span<const TabulatedFunction* const>;
 /// The abscissas of all the functions within the range of each, rising; those that differ by rounding only are one.
 std::vector<double> common_abscissas(Functions functions);
 
-/// sum of coefficients[i] * functions[i].
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients);
-TabulatedFunction product(Functions functions);
+/// sum of coefficients[i] * functions[i], at `abscissas` (rising) in place of the common ones unless there are none.
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients, std::vector<double> abscissas = {});
+TabulatedFunction product(Functions functions, std::vector<double> abscissas = {});
 TabulatedFunction mean(Functions functions);
+/// At each abscissa the value below which that share (0 to 1) of the functions lies, linear between those in order: 0.5 is the median.
+TabulatedFunction fractile(Functions functions, double share);
 /// The largest or the smallest of the functions at each abscissa.
 TabulatedFunction upper_envelope(Functions functions);
 TabulatedFunction lower_envelope(Functions functions);
 
 /// The function with another ordinate at each of its points.
 TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate);
+
+/// What overlap of two functions one after the other counts.
+enum class Overlap : std::uint8_t { first, second };
+/// The points of one function, then those of another, and the ends of both.
+TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts);
+/// The polynomial of least squares through the points, at their abscissas. Throws Error `out-of-function` where they are no more than the degree.
+TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree);
 
 /// By the trapezoidal rule from the first abscissa, where it is `at_first`.
 TabulatedFunction integral(const TabulatedFunction& function, double at_first);

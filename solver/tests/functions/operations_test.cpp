@@ -96,3 +96,27 @@ TEST_CASE("a function and its inverse undo each other", "[functions]") {
   CHECK(inverse(falling).right == Extension::constant);
   CHECK_THROWS_AS(inverse(bump), Error);
 }
+
+TEST_CASE("functions one after the other keep the ends of both, and one of them where they overlap", "[functions]") {
+  TabulatedFunction late{.x = {3.0, 5.0}, .y = {0.0, 1.0}};
+  late.right = Extension::constant;
+  const TabulatedFunction by_second = in_succession(line, late, Overlap::second);
+  CHECK(by_second.x == std::vector<double>{0.0, 1.0, 3.0, 5.0});
+  CHECK(by_second.y == std::vector<double>{1.0, 3.0, 0.0, 1.0});
+  CHECK(by_second.right == Extension::constant);
+  CHECK(in_succession(line, late, Overlap::first).x == std::vector<double>{0.0, 1.0, 4.0, 5.0});
+}
+
+TEST_CASE("a fractile of functions goes from the lower to the upper envelope", "[functions]") {
+  const Pointers two{&line, &bump};
+  CHECK(fractile(two, 0.0).y == lower_envelope(two).y);
+  CHECK(fractile(two, 1.0).y == upper_envelope(two).y);
+  CHECK(fractile(two, 0.5).y == mean(two).y);
+}
+
+TEST_CASE("least squares give a polynomial back, and the mean for degree 0", "[functions]") {
+  const TabulatedFunction fit = polynomial_fit(parabola(), 2);
+  for (std::size_t i = 0; i < fit.x.size(); ++i) CHECK(fit.y[i] == Approx(fit.x[i] * fit.x[i]).margin(1e-14));
+  CHECK(polynomial_fit(bump, 0).y[1] == Approx(4.0 / 3.0));
+  CHECK_THROWS_AS(polynomial_fit(bump, 3), Error);
+}
