@@ -1,6 +1,7 @@
 #include "solver/contact/contact_field.hpp"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace comma::solver {
@@ -31,6 +32,33 @@ double status_of(const NodeContact& contact, const Eigen::Vector3d& place) {
   return contact.closed || contact.normal_force > 0.0 ? sliding : open;
 }
 
+void write_state(const NodeContact& contact, Positions positions, double* row) {
+  const ContactPair& pair = contact.pair;
+  row[cont] = status_of(contact, positions[pair.slave]);
+  row[jeu] = contact.gap;
+  for (int axis = 0; axis < 3; ++axis) {
+    row[pt_x + axis] = positions[pair.slave][axis];
+    row[proj_x + axis] = pair.foot[axis];
+  }
+  row[glix] = contact.slip[0];
+  row[gliy] = contact.slip[1];
+  row[gli] = contact.slip.norm();
+}
+
+/// To those of other zones at the node.
+void add_forces(const NodeContact& contact, double* row) {
+  const auto add = [row](int column, double force) { row[column] = (row[column] == row[column] ? row[column] : 0.0) + force; };
+  add(rn, contact.normal_force);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double normal = contact.normal_force * contact.pair.normal[axis], shear = contact.shear_force[axis];
+    add(rnx + axis, normal);
+    add(rtax + axis, contact.sticking ? shear : 0.0);
+    add(rtgx + axis, contact.sticking ? 0.0 : shear);
+    add(rx + axis, normal + shear);
+  }
+  row[r] = std::hypot(row[rx], row[ry], row[rz]);
+}
+
 }  // namespace
 
 NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions) {
@@ -48,22 +76,9 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
       for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r}) row[force] = 0.0;
       continue;
     }
-    row[cont] = status_of(contact, positions[pair.slave]);
-    row[jeu] = contact.gap;
-    row[rn] = contact.normal_force;
-    const Eigen::Vector3d whole = contact.normal_force * pair.normal + contact.shear_force;
-    row[r] = whole.norm();
-    for (int axis = 0; axis < 3; ++axis) {
-      row[rnx + axis] = contact.normal_force * pair.normal[axis];
-      row[rtax + axis] = contact.sticking ? contact.shear_force[axis] : 0.0;
-      row[rtgx + axis] = contact.sticking ? 0.0 : contact.shear_force[axis];
-      row[rx + axis] = whole[axis];
-      row[pt_x + axis] = positions[pair.slave][axis];
-      row[proj_x + axis] = pair.foot[axis];
-    }
-    row[glix] = contact.slip[0];
-    row[gliy] = contact.slip[1];
-    row[gli] = contact.slip.norm();
+    const bool is_shared = row[jeu] == row[jeu];
+    if (!is_shared || (pair.status == PairingStatus::paired && contact.gap < row[jeu])) write_state(contact, positions, row);
+    add_forces(contact, row);
   }
   return field;
 }

@@ -60,6 +60,21 @@ TEST_CASE("A node that one zone holds is not unpaired because another zone does 
   }
 }
 
+TEST_CASE("A node that two zones hold carries the forces of both, and the gap of the nearer one") {
+  const std::vector<Vector3d> places(1, Vector3d::Zero());
+  const std::vector<ContactPair> pairs(2, pair(0, PairingStatus::paired));
+  for (const bool swapped : {false, true}) {
+    const std::vector<double> gaps = swapped ? std::vector<double>{0.5, 0.0} : std::vector<double>{0.0, 0.5};
+    const NodalField one = contact_field(pairs, gaps, swapped ? Eigen::Vector2d(0, 5) : Eigen::Vector2d(5, 0), 1, places);
+    CHECK(one.at(0, one.component("RN")) == 5.0);
+    CHECK(one.at(0, one.component("CONT")) == 2.0);
+    CHECK(one.at(0, one.component("JEU")) == 0.0);
+  }
+  const NodalField both = contact_field(pairs, std::vector<double>{0.0, 0.0}, Eigen::Vector2d(5, 3), 1, places);
+  CHECK(both.at(0, both.component("RN")) == 8.0);
+  CHECK(both.at(0, both.component("R")) == 8.0);
+}
+
 TEST_CASE("Where contact is only watched, bodies that touch do not overlap") {
   const std::vector<Vector3d> places(3, Vector3d(60, 155, 0));
   std::vector<ContactPair> pairs;
