@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "interpreter/item_span.hpp"
@@ -167,6 +168,10 @@ class ValueCheck {
       const auto converted = convert_any(item);
       if (!converted) {
         report_type(item, {i, items.size()});
+        return false;
+      }
+      if (converted->is_real() && !std::isfinite(converted->as_real())) {
+        error("not-finite", fmt::format("{} wants a finite number, not {}", label_, item.repr()), span_at({i, items.size()}), "give a value");
         return false;
       }
       item = *converted;
