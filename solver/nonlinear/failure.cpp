@@ -18,9 +18,16 @@ std::string table(std::span<const IterationReport> history) {
   return text;
 }
 
+/// Of a linear problem, a residual beyond this share of the loads is not what rounding leaves.
+constexpr double unbalanced_share = 1e-2;
+
+bool is_unbalanced(const IterationReport& last, bool is_linear) { return is_linear && last.relative_residual > unbalanced_share; }
+
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
+  if (is_unbalanced(last, is_linear))
+    return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
   if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
   if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
@@ -31,6 +38,8 @@ std::string likely_cause(std::span<const IterationReport> history, bool is_linea
 std::string remedy(std::span<const IterationReport> history, bool is_linear) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
+  if (is_unbalanced(last, is_linear))
+    return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
   if (is_linear) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
 }
