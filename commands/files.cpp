@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -30,16 +32,26 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }
+  const fs::path file = found(unit, extensions);
+  const int known = units_.emplace(file, unit).first->second;
+  if (known == unit) return file;
+  throw interpreter::DiagnosticError("missing-file", fmt::format("no file stands for unit {}: {} is that of unit {}", unit, file.filename().string(), known), {},
+                                     fmt::format("put {}.{} beside the command file, or name both in an .export", command_file_.stem().string(), unit));
+}
+
+fs::path Files::found(int unit, const std::vector<std::string>& extensions) const {
   std::vector<std::string> stems = {command_file_.stem().string()};
   if (const std::string& stem = stems.front(); stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back()))) {
     stems.push_back(stem.substr(0, stem.size() - 1));
   }
-  std::string tried;
+  const fs::path own = command_file_.parent_path() / (stems.front() + "." + std::to_string(unit));
+  if (fs::is_regular_file(own)) return own;
+  std::string tried = own.filename().string();
   for (const std::string& stem : stems) {
     for (const std::string& extension : extensions) {
       const fs::path candidate = command_file_.parent_path() / (stem + "." + extension);
       if (fs::is_regular_file(candidate)) return candidate;
-      tried += (tried.empty() ? "" : ", ") + candidate.filename().string();
+      tried += ", " + candidate.filename().string();
     }
   }
   if (const auto others = files_with(command_file_.parent_path(), extensions); others.size() == 1) return others.front();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,9 @@ class Files {
  public:
   Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
 
-  /// The input file of a unit: the .export's, else a file beside the command file with its stem and one of the extensions,
+  /// The input file of a unit: the .export's, else a file beside the command file with its stem and the unit or one of the extensions,
   /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
-  /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for.
+  /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for, or where the file stands for another unit already.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
 
   /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of the
@@ -44,9 +45,12 @@ class Files {
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
  private:
+  std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;
+
   std::filesystem::path command_file_;
   std::vector<ExportFile> exported_;
   std::filesystem::path output_folder_;
+  mutable std::map<std::filesystem::path, int> units_;  ///< of files that were found by their names
 };
 
 }  // namespace comma::commands
