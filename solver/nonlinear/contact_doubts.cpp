@@ -85,9 +85,11 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
     limit = std::max(limit, point.share_augmentation > 0.0 ? 1.0 : point.law.friction * forces_[point.first_row]);
     reach = std::max(reach, slip_of(point, without));
   }
-  if (creep <= least || creep <= doubtful_share * reach) return;
+  const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(zone)].mixed;
+  const bool is_allowed = mixed.largest_slip && creep <= *mixed.largest_slip;
+  if (is_allowed || creep <= least || creep <= doubtful_share * reach) return;
   ContactDoubt doubt{.kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
-  doubt.penalty = definition_.zones[static_cast<std::size_t>(zone)].mixed.friction_penalty;
+  doubt.penalty = mixed.friction_penalty * friction_stiffening_[static_cast<std::size_t>(zone)];
   // With it, friction is at its limit after a small share of the present creep.
   doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
   doubts.note(doubt);
