@@ -96,6 +96,32 @@ void check_normals(const Keywords& zone, const std::string& keyword, const std::
                         zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
+// Surfaces are edges of plane bodies, faces of solids, plates or beams, and no cell faces itself.
+void check_surface(const Keywords& zone, const char* keyword, const std::vector<int>& cells, const solver::Model& model) {
+  for (const int cell : cells) {
+    const auto type = model.mesh->cell_types[static_cast<std::size_t>(cell)];
+    if (solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) != solver::dimension(type)) continue;
+    const bool solid = solver::dimension(type) == 3;
+    throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: {} holds {}, a cell of the body itself ({}), not of its surface", keyword, model.mesh->cell_name(cell), solver::name_of(type)),
+                          zone.span_of(keyword), fmt::format("name a group of its {}", solid ? "faces" : "edges"));
+  }
+}
+
+void check_sides(const Keywords& zone, const solver::ContactZone& surfaces, const solver::Mesh& mesh) {
+  const auto shared = std::ranges::find_first_of(surfaces.slave_cells, surfaces.master_cells);
+  if (shared == surfaces.slave_cells.end()) return;
+  throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself", mesh.cell_name(*shared)),
+                        zone.span_of("GROUP_MA_ESCL"), "give each side a group of its own");
+}
+
+void take_thickness(const Keywords& keywords, const char* keyword, solver::FieldFunction& thickness, solver::ContactZone& zone) {
+  if (!keywords.has(keyword)) return;
+  const auto handle = keywords.concept_of(keyword);
+  thickness = field_function(handle, keywords.span_of(keyword));
+  const auto& parameters = interpreter::data_of<FunctionConcept>(handle, keyword).parameters();
+  if (std::ranges::find(parameters, "INST") != parameters.end()) zone.thickness_changes = true;
+}
+
 solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::ContactZone zone;
   zone.master_cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA_MAIT", "MAILLE_MAIT"});
@@ -109,8 +135,8 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
   if (keywords.has("TOLE_INTERP")) zone.interpenetration_tolerance = keywords.real("TOLE_INTERP");
   if (keywords.text("APPARIEMENT") == "NODAL") zone.pairing = solver::PairingRule::node;
-  if (keywords.has("DIST_ESCL")) zone.slave_thickness = field_function(keywords.concept_of("DIST_ESCL"), keywords.span_of("DIST_ESCL"));
-  if (keywords.has("DIST_MAIT")) zone.master_thickness = field_function(keywords.concept_of("DIST_MAIT"), keywords.span_of("DIST_MAIT"));
+  take_thickness(keywords, "DIST_ESCL", zone.slave_thickness, zone);
+  take_thickness(keywords, "DIST_MAIT", zone.master_thickness, zone);
   if (keywords.has("DIST_APPA")) zone.pairing_distance = keywords.real("DIST_APPA");
   return zone;
 }
@@ -189,9 +215,12 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   return zone;
 }
 
-// A discrete zone with a penalty, or one that never opens again.
+// A discrete zone: what makes it more than inequalities (a penalty, friction, contact that never opens again).
 solver::MixedZone discrete_zone(const Keywords& keywords) {
   solver::MixedZone zone;
+  if (keywords.has("COULOMB") && keywords.text("ALGO_CONT") == "GCP")
+    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: projected conjugate gradients know no friction", keywords.span_of("COULOMB"),
+                          "write ALGO_CONT='CONTRAINTE' or 'PENALISATION', or take FORMULATION='CONTINUE'");
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   if (zone.penalised) zone.augmentation = keywords.real("E_N");
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
@@ -253,6 +282,9 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   }
   for (const Keywords& keywords : call.factors("ZONE")) {
     solver::ContactZone& zone = definition.zones.emplace_back(contact_zone(keywords, mesh));
+    check_surface(keywords, "GROUP_MA_MAIT", zone.master_cells, model);
+    check_surface(keywords, "GROUP_MA_ESCL", zone.slave_cells, model);
+    check_sides(keywords, zone, mesh);
     take_half_thickness(keywords, model, zone);
     zone.mixed = is_mixed ? mixed_zone(keywords, mesh) : discrete_zone(keywords);
     if (call.text("VERI_NORM") != "OUI") continue;

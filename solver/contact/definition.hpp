@@ -82,6 +82,7 @@ struct ContactZone {
   double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
+  bool thickness_changes = false;  ///< either depends on time
   std::unordered_map<int, HalfThickness> half_thickness;  ///< of cells of both surfaces, what their elements add; those not named add nothing
   MixedZone mixed;                 ///< for zones that is_condensed() speaks of
 };
@@ -103,11 +104,11 @@ struct ContactDefinition {
   std::vector<ContactZone> zones;
 };
 
-/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, or that never open
+/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, that rub, or that never open
 /// again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand for forces.
 inline bool is_condensed(const ContactDefinition& definition) {
   if (definition.formulation == ContactFormulation::mixed) return true;
-  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.bilateral; });
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0; });
 }
 
 }  // namespace comma::solver

@@ -523,7 +523,7 @@ class StaticAnalysis {
     std::optional<GeometryUpdates> geometry;
     if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
     for (int update = 0;; ++update) {
-      if (updates || !now_.paired) pair(time);
+      if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time);
       ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
       if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
@@ -533,7 +533,7 @@ class StaticAnalysis {
         const auto balance = [&] { return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state); };
         iterations = earlier + balance();
         while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
-          if (observer_) observer_(event_of_step(time, "contact is deeper than allowed: its penalty is raised"));
+          if (observer_) observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
           iterations += balance();
         }
       }
@@ -560,20 +560,23 @@ class StaticAnalysis {
     return factor * std::max(1, now_.conditions.slot_count);
   }
 
+  /// Whether surfaces that face each other for good have gaps that change nevertheless.
+  bool thickness_changes() const {
+    return problem_.contact && std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.thickness_changes; });
+  }
+
   void pair(double time) {
-    if (!problem_.contact) {
-      now_.paired = true;
-      return;
-    }
-    const std::vector<Vector3d> now = positions();
+    now_.paired = true;
+    if (!problem_.contact) return;
+    const bool stays = problem_.contact->geometry_update == GeometryUpdate::none && now_.reference.size() > 0;
+    if (!stays) now_.reference = now_.state.u;
+    const std::vector<Vector3d> places = positions_at(now_.reference, mesh_, dofs_);
     if (mixed_) {
-      mixed_->pair(now, time);
+      mixed_->pair(places, time);
     } else {
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, now, time);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, places, time);
       ++counters_.pairings;
     }
-    now_.paired = true;
-    now_.reference = now_.state.u;
   }
 
   /// The multipliers of the mixed formulation are unknowns beside them.
