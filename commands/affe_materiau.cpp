@@ -88,8 +88,8 @@ solver::CommandVariable command_variable(const Keywords& assignment, const solve
 }  // namespace
 
 Product affe_materiau(const Call& call, Context&) {
-  const solver::Mesh& mesh = call.has("MAILLAGE") ? *call.data<MeshConcept>("MAILLAGE").mesh
-                                                  : *call.data<ModelConcept>("MODELE").model->mesh;
+  const std::shared_ptr<const solver::Mesh> whole = call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
+  const solver::Mesh& mesh = *whole;
   auto field = std::make_shared<solver::MaterialField>();
   field->by_cell.resize(static_cast<std::size_t>(mesh.cell_count()));
   for (const Keywords& assignment : call.factors("AFFE")) {
@@ -110,6 +110,7 @@ Product affe_materiau(const Call& call, Context&) {
   }
   auto product = std::make_shared<MaterialFieldConcept>();
   product->field = std::move(field);
+  product->mesh = whole;
   return product;
 }
 

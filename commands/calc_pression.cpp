@@ -4,6 +4,7 @@
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "solver/fields/boundary_pressure.hpp"
 #include "solver/fields/field_computation.hpp"
@@ -35,6 +36,7 @@ void add_pressures(const Call& call, ResultConcept& data) {
   const solver::StaticProblem problem = problem_of_result(call, data);
   solver::FieldComputation computation(problem, data.result);
   const solver::Mesh& mesh = data.result.mesh();
+  require_mesh(call, "MAILLAGE", call.data<MeshConcept>("MAILLAGE").mesh.get(), mesh);
   const auto cells = selected_cells(call, mesh);
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());

@@ -40,6 +40,7 @@ struct MaterialConcept : ConceptData {
 
 struct MaterialFieldConcept : ConceptData {
   std::shared_ptr<const solver::MaterialField> field;
+  std::shared_ptr<const solver::Mesh> mesh;
 };
 
 struct PropertiesConcept : ConceptData {
@@ -66,6 +67,7 @@ struct StepPlanConcept : ConceptData {
 };
 
 struct ContactConcept : ConceptData {
+  std::shared_ptr<const solver::Model> model;
   std::variant<solver::ContactDefinition, std::vector<solver::UnilateralCondition>> conditions;
 };
 

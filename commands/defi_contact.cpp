@@ -108,10 +108,16 @@ void check_surface(const Keywords& zone, const char* keyword, const std::vector<
 }
 
 void check_sides(const Keywords& zone, const solver::ContactZone& surfaces, const solver::Mesh& mesh) {
+  for (const auto& [cells, keyword] : {std::pair(&surfaces.master_cells, "GROUP_MA_MAIT"), std::pair(&surfaces.slave_cells, "GROUP_MA_ESCL")})
+    if (cells->empty()) throw DiagnosticError("empty-group", fmt::format("DEFI_CONTACT: {} holds no cell", keyword), zone.span_of(keyword), "name a group that has cells");
   const auto shared = std::ranges::find_first_of(surfaces.slave_cells, surfaces.master_cells);
-  if (shared == surfaces.slave_cells.end()) return;
-  throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself", mesh.cell_name(*shared)),
+  if (shared != surfaces.slave_cells.end()) {
+    throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself", mesh.cell_name(*shared)),
                         zone.span_of("GROUP_MA_ESCL"), "give each side a group of its own");
+  }
+  if (!std::ranges::includes(mesh.nodes_of_cells(surfaces.master_cells), mesh.nodes_of_cells(surfaces.slave_cells))) return;
+  throw DiagnosticError("wrong-surface", "DEFI_CONTACT: all nodes of the slave surface are nodes of the master surface: the bodies hang together, and there is nothing to close or open",
+                        zone.span_of("GROUP_MA_ESCL"), "mesh the bodies apart, with nodes of their own on either side");
 }
 
 void take_thickness(const Keywords& keywords, const char* keyword, solver::FieldFunction& thickness, solver::ContactZone& zone) {
@@ -301,6 +307,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
 Product defi_contact(const Call& call, Context&) {
   const solver::Model& model = *call.data<ModelConcept>("MODELE").model;
   auto product = std::make_shared<ContactConcept>();
+  product->model = call.data<ModelConcept>("MODELE").model;
   if (call.text("FORMULATION") == "LIAISON_UNIL") {
     std::vector<solver::UnilateralCondition> conditions;
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));

@@ -6,6 +6,7 @@
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "commands/text_listing.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -104,6 +105,7 @@ PrintedPart part_of(const Keywords& print, bool med) {
   const auto& handle = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
   const solver::Mesh& mesh = whole_result ? interpreter::data_of<ResultConcept>(handle, "RESULTAT").result.mesh()
                                           : *interpreter::data_of<FieldConcept>(handle, "CHAM_GD").mesh;
+  if (print.has("MAILLAGE")) require_mesh(print, "MAILLAGE", interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh.get(), mesh);
   PrintedPart part{mesh, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
   for (solver::ResultStep& step : part.result.steps) {
     for (auto item = step.fields.begin(); item != step.fields.end();) {

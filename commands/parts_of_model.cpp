@@ -5,6 +5,7 @@
 #include <set>
 
 #include "commands/concepts.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/extrapolation.hpp"
@@ -54,10 +55,19 @@ void keep_dimension(Part& part, const solver::Mesh& mesh, const std::string& dim
 
 std::shared_ptr<const solver::Model> model_behind(const Call& call) {
   std::shared_ptr<const solver::Model> model;
+  const solver::Mesh* own = nullptr;
+  if (call.has("RESULTAT")) {
+    const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
+    model = result.model;
+    own = &result.mesh();
+  } else if (call.has("CHAM_GD")) {
+    const auto& field = call.data<FieldConcept>("CHAM_GD");
+    model = field.model;
+    own = field.mesh.get();
+  }
   if (call.has("MODELE")) {
     model = call.data<ModelConcept>("MODELE").model;
-  } else {
-    model = call.has("RESULTAT") ? call.data<ResultConcept>("RESULTAT").result.model : call.data<FieldConcept>("CHAM_GD").model;
+    if (own) require_mesh(call, "MODELE", model->mesh.get(), *own);
   }
   if (!model) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
   return model;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands/functions.hpp"
+#include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/functions/deformed_place.hpp"
 
@@ -71,6 +72,20 @@ void take_iterations(const Keywords& solver, SolverChoice& choice) {
   choice.options.most_iterations = static_cast<int>(solver.integer("NMAX_ITER"));
 }
 
+void take_materials(const Call& call, solver::StaticProblem& problem) {
+  if (!call.has("CHAM_MATER")) return;
+  const auto& materials = call.data<MaterialFieldConcept>("CHAM_MATER");
+  if (problem.model) require_mesh(call, "CHAM_MATER", materials.mesh.get(), *problem.model->mesh);
+  problem.materials = materials.field;
+}
+
+void take_properties(const Call& call, solver::StaticProblem& problem) {
+  if (!call.has("CARA_ELEM")) return;
+  const auto& properties = call.data<PropertiesConcept>("CARA_ELEM");
+  if (problem.model) require_mesh(call, "CARA_ELEM", properties.model ? properties.model->mesh.get() : nullptr, *problem.model->mesh);
+  problem.properties = properties.properties;
+}
+
 }  // namespace
 
 void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
@@ -80,7 +95,9 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
   problem.driven.clear();
   for (const Keywords& excitation : keywords.factors("EXCIT")) {
     solver::AppliedLoad applied;
-    applied.load = excitation.data<LoadConcept>("CHARGE").load;
+    const auto& load_concept = excitation.data<LoadConcept>("CHARGE");
+    if (problem.model) require_mesh(excitation, "CHARGE", load_concept.model ? load_concept.model->mesh.get() : nullptr, *problem.model->mesh);
+    applied.load = load_concept.load;
     applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
@@ -102,18 +119,21 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
 solver::StaticProblem static_problem(const Call& call) {
   solver::StaticProblem problem;
   problem.model = call.data<ModelConcept>("MODELE").model;
-  problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
-  problem.properties = call.has("CARA_ELEM") ? call.data<PropertiesConcept>("CARA_ELEM").properties
-                                             : std::make_shared<const solver::ElementProperties>();
+  take_materials(call, problem);
+  problem.properties = std::make_shared<const solver::ElementProperties>();
+  take_properties(call, problem);
   take_loads(call, problem);
   return problem;
 }
 
 solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source) {
   solver::StaticProblem problem = source.problem;
-  if (call.has("MODELE")) problem.model = call.data<ModelConcept>("MODELE").model;
-  if (call.has("CHAM_MATER")) problem.materials = call.data<MaterialFieldConcept>("CHAM_MATER").field;
-  if (call.has("CARA_ELEM")) problem.properties = call.data<PropertiesConcept>("CARA_ELEM").properties;
+  if (call.has("MODELE")) {
+    problem.model = call.data<ModelConcept>("MODELE").model;
+    if (source.result.model || source.result.bare_mesh) require_mesh(call, "MODELE", problem.model->mesh.get(), source.result.mesh());
+  }
+  take_materials(call, problem);
+  take_properties(call, problem);
   if (call.has("EXCIT")) take_loads(call, problem);
   if (!problem.properties) problem.properties = std::make_shared<const solver::ElementProperties>();
   if (problem.model && problem.materials) return problem;

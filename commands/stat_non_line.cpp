@@ -12,6 +12,7 @@
 #include "commands/observation.hpp"
 #include "commands/path_reading.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "commands/solve_alarms.hpp"
 #include "commands/stability_reading.hpp"
@@ -28,7 +29,9 @@ solver::StaticProblem problem_of(const Call& call, const InitialStateChoice& ini
   problem.initial = initial.state;
   problem.behaviours = behaviours_of(call, *problem.model, call.has("ETAT_INIT"));
   if (!call.has("CONTACT")) return problem;
-  const auto& conditions = call.data<ContactConcept>("CONTACT").conditions;
+  const auto& contact_concept = call.data<ContactConcept>("CONTACT");
+  require_mesh(call, "CONTACT", contact_concept.model->mesh.get(), *problem.model->mesh);
+  const auto& conditions = contact_concept.conditions;
   if (const auto* contact = std::get_if<solver::ContactDefinition>(&conditions)) {
     problem.contact = *contact;
   } else {

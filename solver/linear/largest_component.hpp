@@ -5,10 +5,10 @@
 
 namespace comma::solver {
 
-/// The largest magnitude; 0 where there is none.
+/// The largest magnitude; 0 where there is none, NaN where one is.
 template <class Derived>
 double largest_component(const Eigen::DenseBase<Derived>& values) {
-  return values.size() ? values.derived().array().abs().maxCoeff() : 0.0;
+  return values.size() ? values.derived().array().abs().template maxCoeff<Eigen::PropagateNaN>() : 0.0;
 }
 
 }  // namespace comma::solver

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/error.hpp"
+
 namespace comma::solver {
 
 namespace {
@@ -84,6 +86,9 @@ double refine_block(const RefinedSystem& system, int steps, Eigen::Ref<Eigen::Ma
 }  // namespace
 
 double refine(const RefinedSystem& system, int steps, Eigen::Ref<Eigen::MatrixXd> rhs) {
+  if (!rhs.allFinite())
+    throw Error("not-finite", "the loads are not numbers: a force, a property or a prescribed displacement is infinite or not a number",
+                "look at the functions and formulas among them where they divide by zero or take a root of something negative");
   double worst = 0.0;
   for (Eigen::Index first = 0; rhs.rows() > 0 && first < rhs.cols(); first += block_columns) {
     const Eigen::Index count = std::min<Eigen::Index>(block_columns, rhs.cols() - first);

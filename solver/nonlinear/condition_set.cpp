@@ -46,6 +46,8 @@ ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const Uni
   set.pairs = std::move(pairs);
   const Inequalities gaps = gap_rows(set.pairs, mesh, dofs, set.row_slots);
   const Inequalities bounds = unilateral_rows(unilateral, mesh, dofs, time);
+  if (!bounds.bounds.allFinite())
+    throw Error("not-finite", fmt::format("a bound of a unilateral condition is infinite or not a number at t = {:.6g}", time), "look at the function of COEF_IMPO");
   set.full = stacked(gaps, bounds);
   const int pair_count = static_cast<int>(set.pairs.size());
   for (int row = 0; row < static_cast<int>(bounds.bounds.size()); ++row) set.row_slots.push_back(pair_count + row);
