@@ -81,7 +81,8 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
   }
   const std::string hint = is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"
                                     : "make the finer side the slave, or take FORMULATION='CONTINUE' with ALGO_CONT='LAC'";
-  if (!std::isfinite(doubt.share))
+  constexpr double nothing_but_rounding = 1e6;  // of what goes through, beside what is pushed back
+  if (!(doubt.share < nothing_but_rounding))
     return {"coarse-slave",
             fmt::format("master nodes of zone {} have gone through the slave side, {:.3g} deep on the mean, and contact pushes nothing back: no slave node has faced "
                         "the master",

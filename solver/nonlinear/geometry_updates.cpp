@@ -1,6 +1,8 @@
 #include "solver/nonlinear/geometry_updates.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "solver/model/deformed_places.hpp"
 
@@ -27,16 +29,19 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   double moved = 0.0;
   double largest = 0.0;
   double whole = 0.0;
+  double reach = 0.0;
   for (int node = 0; node < mesh_.node_count(); ++node) {
     const Vector3d at = displacement_of(node, now, dofs_);
     const double change = (at - displacement_of(node, paired, dofs_)).norm();
     if (change > moved) history_.worst = mesh_.node_name(node);
     moved = std::max(moved, change);
     whole = std::max(whole, at.norm());
+    for (const double coordinate : mesh_.nodes[static_cast<std::size_t>(node)]) reach = std::max(reach, std::abs(coordinate));
     largest = std::max(largest, (at - displacement_of(node, start_, dofs_)).norm());
   }
-  // Nothing is asked of a step that only rounding moves.
-  history_.changes.push_back(moved > negligible_displacement * whole ? moved / largest : 0.0);
+  // Nothing is asked of a step that only rounding moves, of displacements or of places.
+  const double rounding = std::max(negligible_displacement * whole, std::numeric_limits<double>::epsilon() * reach);
+  history_.changes.push_back(moved > rounding ? moved / largest : 0.0);
   if (contact_.geometry_update == GeometryUpdate::controlled)
     return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);
   return history_.changes.back() <= contact_.geometry_tolerance;

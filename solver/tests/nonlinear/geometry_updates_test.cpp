@@ -43,6 +43,17 @@ TEST_CASE("Updates of the geometry end when it moves by less than a share of the
   CHECK(updates.settled(corner.at(2.03), corner.at(2.039)));
 }
 
+TEST_CASE("Nothing is asked of a geometry that moves by the rounding of its places") {
+  MovingCorner corner;
+  corner.contact.geometry_tolerance = 1e-12;
+  const Eigen::VectorXd start = corner.at(0.0);
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  // In a square of side 1: the last bits of 1 are 2e-16.
+  CHECK_FALSE(updates.settled(start, corner.at(1e-6)));
+  CHECK_FALSE(updates.settled(corner.at(1e-6), corner.at(1e-6 + 1e-15)));
+  CHECK(updates.settled(corner.at(1e-6), corner.at(1e-6 + 1e-16)));
+}
+
 TEST_CASE("A prescribed number of updates is done, however far the geometry moves") {
   MovingCorner corner;
   corner.contact.geometry_update = GeometryUpdate::controlled;
