@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
@@ -110,7 +111,8 @@ void check_surface(const Keywords& zone, const char* keyword, const std::vector<
 void check_sides(const Keywords& zone, const solver::ContactZone& surfaces, const solver::Mesh& mesh) {
   for (const auto& [cells, keyword] : {std::pair(&surfaces.master_cells, "GROUP_MA_MAIT"), std::pair(&surfaces.slave_cells, "GROUP_MA_ESCL")})
     if (cells->empty()) throw DiagnosticError("empty-group", fmt::format("DEFI_CONTACT: {} holds no cell", keyword), zone.span_of(keyword), "name a group that has cells");
-  const auto shared = std::ranges::find_first_of(surfaces.slave_cells, surfaces.master_cells);
+  const std::set<int> masters(surfaces.master_cells.begin(), surfaces.master_cells.end());
+  const auto shared = std::ranges::find_if(surfaces.slave_cells, [&](int cell) { return masters.contains(cell); });
   if (shared != surfaces.slave_cells.end()) {
     throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself", mesh.cell_name(*shared)),
                         zone.span_of("GROUP_MA_ESCL"), "give each side a group of its own");
@@ -305,9 +307,9 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
 }  // namespace
 
 Product defi_contact(const Call& call, Context&) {
-  const solver::Model& model = *call.data<ModelConcept>("MODELE").model;
   auto product = std::make_shared<ContactConcept>();
   product->model = call.data<ModelConcept>("MODELE").model;
+  const solver::Model& model = *product->model;
   if (call.text("FORMULATION") == "LIAISON_UNIL") {
     std::vector<solver::UnilateralCondition> conditions;
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));

@@ -228,7 +228,6 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
     evaluate(state, external);
     if (distance(state).converged) return true;
   }
-  double start = step.dot(residual_);
   go(0.0);
   const Eigen::VectorXd held = loads_at(state.u, external);
   const auto work = [&](double rho) {
@@ -236,7 +235,8 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
     measure(held, assembler_.internal_forces(state.u));
     return step.dot(residual_);
   };
-  if (has_conditions()) start = work(0.0);
+  // The residual at hand is that before the correction, unless contact forces have changed with it.
+  const double start = has_conditions() ? work(0.0) : step.dot(residual_);
   const double reached = search_line(*options_.line_search, start, work);
   go(reached);
   evaluate(state, external);
