@@ -156,6 +156,12 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context) {
   if (call.has("PILOTAGE")) return;  // a path goes beyond limit points
   if (context.counters.indefinite_factorisations == counters_before.indefinite_factorisations) return;
+  if (call.has("CONTACT")) {
+    context.diagnostics.alarm("indefinite-stiffness",
+                              fmt::format("{}: without contact the stiffness is not positive definite: where contact lets go, bodies may give way", call.command),
+                              call.span, "compare with another formulation of contact, or with smaller steps: there may be several solutions");
+    return;
+  }
   context.diagnostics.alarm(
       "indefinite-stiffness",
       fmt::format("{}: the stiffness is not positive definite: some motion gives energy instead of taking it, and the solution may be "

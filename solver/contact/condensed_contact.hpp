@@ -51,6 +51,7 @@ struct CondensedProblem {
   int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and have no penalty (solver/contact/nodal_step.hpp)
   int most_products = 150;      ///< a system
   int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
+  bool indefinite = false;      ///< S may be: no active-set method on it
   bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
   Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
   NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other

@@ -18,7 +18,7 @@ bool is_one_of_a_kind(const CondensedPoint& point) {
 }
 
 bool is_frictionless(const CondensedProblem& problem) {
-  if (!problem.springs.empty() || problem.components != 1) return false;
+  if (!problem.springs.empty() || problem.indefinite || problem.components != 1) return false;
   std::vector<char> taken(static_cast<std::size_t>(problem.node_count), 0);
   for (const CondensedPoint& point : problem.points) {
     if (point.rows == 0) continue;

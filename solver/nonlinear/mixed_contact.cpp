@@ -471,7 +471,8 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
     const int unknown = tangent_.springs()[k].first;
     problem_.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
   }
-  if (!problem_.springs.empty()) close_nearest(free);
+  problem_.indefinite = tangent_.is_indefinite();
+  if (!problem_.springs.empty() || problem_.indefinite) close_nearest(free);
 
   const CondensedState earlier = state_;
   const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);

@@ -14,6 +14,7 @@
 #include "solver/nonlinear/line_search.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
 #include "solver/unilateral/rounds.hpp"
+#include "solver/unilateral/status_iteration.hpp"
 
 namespace comma::solver {
 namespace {
@@ -314,6 +315,7 @@ double NewtonSolver::pushed_back() {
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
+  if (tangent_.is_indefinite()) return solve_by_statuses(*schur_, problem);
   return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem, memory_);
 }
 

@@ -161,7 +161,8 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   if (report.verdict == FactorVerdict::singular) {
     throw singular_matrix_error(*model_.mesh, dofs_, elimination_, reduced, report, digits);
   }
-  if (report.verdict == FactorVerdict::indefinite && !is_saddle_) ++counters_.indefinite_factorisations;
+  is_indefinite_ = report.verdict == FactorVerdict::indefinite && !is_saddle_;
+  if (is_indefinite_) ++counters_.indefinite_factorisations;
   lost_digits_ = has_pivots ? report.lost_digits : std::numeric_limits<double>::digits10;
   measure_rows(reduced);
   factorised_ = true;

@@ -77,6 +77,9 @@ class TangentSystem {
   /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
   bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
 
+  /// Whether the last factorised tangent of one kind of unknowns has a negative eigenvalue: compliances may be negative then.
+  bool is_indefinite() const { return is_indefinite_; }
+
   /// Whether unknowns are of several kinds, so that one size does not suit all.
   bool is_saddle() const { return is_saddle_; }
 
@@ -111,6 +114,7 @@ class TangentSystem {
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_;
   int lost_digits_ = 0;
+  bool is_indefinite_ = false;
   bool factorised_ = false;
   TangentKind kind_ = TangentKind::tangent;  ///< which was factorised
   bool multigrid_failed_ = false;
