@@ -42,6 +42,13 @@ constexpr double least_friction_step = 1.0 / 1024.0;
 /// It stops growing after as many iterations as so many attempts may take.
 constexpr int growth_attempts = 20;
 
+/// A share of a correction has to bring what is left of the equations down by this much of itself.
+constexpr double least_decrease = 1e-4;
+/// It is halved down to this; corrections shorter than the other lead nowhere, and so many of them are the end.
+constexpr double least_share = 1.0 / 128.0;
+constexpr double shortest_useful_share = 1e-2;
+constexpr int most_short_steps = 3;
+
 /// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
 int direct_rows(const CondensedProblem& problem) {
   const bool has_penalty = std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
@@ -57,7 +64,7 @@ class CondensedSolver {
   }
 
   /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
-  /// then from what relaxation finds; then from the statuses given, however far that leads; at last with friction that grows from none.
+  /// then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at last with friction that grows from none.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
@@ -71,6 +78,10 @@ class CondensedSolver {
     if (!solved) {
       restart(multipliers);
       solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = descend(solution.iterations);
     }
     if (!solved) {
       restart(multipliers);
@@ -93,7 +104,13 @@ class CondensedSolver {
   /// From a state near the solution, and no other.
   CondensedSolution refine() {
     CondensedSolution solution;
-    solution.verdict = settle(Rubbing::by_law, solution.iterations) ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    const Eigen::VectorXd multipliers = state_.multipliers;
+    bool solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    if (!solved) {
+      restart(multipliers);
+      solved = descend(solution.iterations);
+    }
+    solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
     return solution;
   }
@@ -195,6 +212,54 @@ class CondensedSolver {
       last = residual_;
     }
     return false;
+  }
+
+  /// Newton's method on statuses, jumps and multipliers together: each correction is halved until less is left of the equations with the statuses that it brings
+  /// (a damped semismooth method; T. De Luca, F. Facchinei, C. Kanzow, Mathematical Programming 75, 1996).
+  bool descend(int& iterations) {
+    rubbing_ = Rubbing::by_law;
+    led_away_ = is_lost_ = false;
+    number_unknowns();
+    require_columns();
+    jumps_ = balanced_jumps();
+    adapt_statuses();
+    int short_ones = 0;
+    for (int iteration = 0; iteration < problem_.max_iterations && short_ones < most_short_steps; ++iteration) {
+      ++iterations;
+      const double before = remainder_;
+      if (correct_partly() < shortest_useful_share) ++short_ones;
+      if (!std::isfinite(residual_)) return false;
+      if (residual_ <= residual_tolerance * scale_) return true;
+      if (remainder_ > 0.5 * before && is_rounding()) return true;
+    }
+    return false;
+  }
+
+  /// The share of the correction that was taken.
+  double correct_partly() {
+    const CondensedState state = state_;
+    const Eigen::VectorXd jumps = jumps_;
+    const double before = remainder_;
+    correct();
+    const Eigen::VectorXd jump_step = jumps_ - jumps, multiplier_step = state_.multipliers - state.multipliers;
+    for (double share = 1.0;; share *= 0.5) {
+      jumps_ = jumps + share * jump_step;
+      state_ = {state.multipliers + share * multiplier_step, state.statuses};
+      number_unknowns();
+      evaluate();
+      adapt_statuses();
+      if (remainder_ < (1.0 - least_decrease * share) * before || share < least_share || !std::isfinite(remainder_)) return share;
+    }
+  }
+
+  /// The statuses that the law asks for, and what is left of the equations with them.
+  void adapt_statuses() {
+    visited_.clear();
+    one_at_a_time_ = false;
+    update_statuses();
+    number_unknowns();
+    require_columns();
+    evaluate();
   }
 
   ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const {
@@ -374,12 +439,18 @@ class CondensedSolver {
     return balanced_;
   }
 
+  /// What is left of the law at a multiplier, and what a length is measured by there.
+  struct LawBalance {
+    Eigen::VectorXd residual, weight;
+    Eigen::VectorXd share_weight;  ///< by which a share is known to its own rounding
+    Eigen::VectorXd open;          ///< augmentation of open points, a pressure over a length, or 0
+  };
+
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate() {
     forces_.setZero();
-    Eigen::VectorXd law_residual = Eigen::VectorXd::Zero(state_.multipliers.size());
-    Eigen::VectorXd law_weight = law_residual;
-    Eigen::VectorXd share_weight = law_residual;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(state_.multipliers.size());
+    LawBalance law{none, none, none, none};
     for (std::size_t p = 0; p < problem_.points.size(); ++p) {
       const CondensedPoint& point = problem_.points[p];
       const ContactLawValue value = law_at(p);
@@ -387,23 +458,44 @@ class CondensedSolver {
       for (int i = 0; i < point.node_count; ++i)
         for (int c = 0; c < problem_.components; ++c) {
           const int index = multiplier_index(point.nodes[i], c);
-          law_residual[index] += point.weight * point.shape[i] * value.residual[c];
-          law_weight[index] += point.weight * std::abs(point.shape[i]);
+          law.residual[index] += point.weight * point.shape[i] * value.residual[c];
+          law.weight[index] += point.weight * std::abs(point.shape[i]);
+          if (c == 0 && state_.statuses[p] == ContactStatus::open) law.open[index] = point.law.augmentation;
           if (c > 0 && point.share_augmentation > 0.0 && state_.statuses[p] != ContactStatus::sticking)
-            share_weight[index] += point.weight * std::abs(point.shape[i]) / point.share_augmentation;
+            law.share_weight[index] += point.weight * std::abs(point.shape[i]) / point.share_augmentation;
         }
     }
     for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
     const Eigen::VectorXd balanced = balanced_jumps();
     scale_ = std::max({rounding_scale * problem_.displacement, largest_component(problem_.free), largest_component(balanced - problem_.free)});
-    residual_ = 0.0;
-    for (const int row : unknown_rows_) residual_ = std::max(residual_, std::abs(jumps_[row] - balanced[row]));
-    for (Index i = 0; i < law_residual.size(); ++i)
-      if (multiplier_unknowns_[i] >= 0 && law_weight[i] > 0.0)  // a share is known to its own rounding
-        residual_ = std::max(residual_, std::abs(law_residual[i]) / (law_weight[i] + (scale_ > 0.0 ? share_weight[i] / scale_ : 0.0)));
+    measure(law, balanced);
     for (Index row = 0; row < balanced.size(); ++row)
       if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
-    if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = std::numeric_limits<double>::infinity();
+    if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = remainder_ = std::numeric_limits<double>::infinity();
+  }
+
+  void measure(const LawBalance& law, const Eigen::VectorXd& balanced) {
+    residual_ = 0.0;
+    double squares = 0.0;
+    const auto count = [&](double left, double counts) {
+      residual_ = std::max(residual_, left);
+      squares += counts * left * counts * left;
+    };
+    for (const int row : unknown_rows_) count(std::abs(jumps_[row] - balanced[row]), 1.0);
+    const double flexibility = largest_pressure() > 0.0 ? scale_ / largest_pressure() : 0.0;
+    for (Index i = 0; i < law.residual.size(); ++i) {
+      if (multiplier_unknowns_[i] < 0 || !(law.weight[i] > 0.0)) continue;
+      const double weight = law.weight[i] + (scale_ > 0.0 ? law.share_weight[i] / scale_ : 0.0);
+      // The pressure of an open point is worth what the bodies give way under it, not what a small augmentation would.
+      count(std::abs(law.residual[i]) / weight, law.open[i] > 0.0 ? std::min(1.0, law.open[i] * flexibility) : 1.0);
+    }
+    remainder_ = std::sqrt(squares);
+  }
+
+  double largest_pressure() const {
+    double largest = 0.0;
+    for (int node = 0; node < problem_.node_count; ++node) largest = std::max(largest, std::abs(state_.multipliers[multiplier_index(node, 0)]));
+    return largest;
   }
 
   /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
@@ -424,8 +516,11 @@ class CondensedSolver {
     const bool stagnates = same_statuses_ > 0 && residual_ > 0.5 * last_residual_;
     last_residual_ = residual_;
     ++same_statuses_;
-    return stagnates && residual_ <= std::max(stagnation_tolerance * scale_, jump_rounding_share * largest_response());
+    return stagnates && is_rounding();
   }
+
+  /// Where corrections bring no more.
+  bool is_rounding() const { return residual_ <= std::max(stagnation_tolerance * scale_, jump_rounding_share * largest_response()); }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.
   bool is_meant(const CondensedPoint& point, ContactStatus now, ContactStatus wanted) const {
@@ -448,9 +543,7 @@ class CondensedSolver {
   }
 
   bool update_statuses() {
-    pressure_scale_ = 0.0;
-    for (int node = 0; node < problem_.node_count; ++node)
-      pressure_scale_ = std::max(pressure_scale_, std::abs(state_.multipliers[multiplier_index(node, 0)]));
+    pressure_scale_ = largest_pressure();
     bool changed = false;
     std::vector<ContactStatus> next = state_.statuses;
     for (std::size_t p = 0; p < next.size() && !(changed && one_at_a_time_); ++p) {
@@ -479,6 +572,7 @@ class CondensedSolver {
   std::vector<int> unknown_rows_;
   int unknowns_ = 0;
   double residual_ = 0.0;
+  double remainder_ = 0.0;  ///< what is left of all equations, by the root of squares (a length)
   double last_residual_ = 0.0;
   double scale_ = 0.0;
   double pressure_scale_ = 0.0;

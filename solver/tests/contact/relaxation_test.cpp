@@ -94,6 +94,21 @@ TEST_CASE("The condensed solution obeys the law of Coulomb") {
   }
 }
 
+TEST_CASE("Points that stuck slide where displacements are imposed that leave their slip no freedom") {
+  constexpr int count = 4;
+  Coupled scene(count, 0.25);
+  Eigen::VectorXd normal = Eigen::VectorXd::Zero(3 * count);
+  for (int p = 0; p < count; ++p) {
+    normal[3 * p] = 1.0;
+    scene.problem.free.segment<3>(3 * p) << -1.0, 0.3, 0.4;
+  }
+  SchurComplement schur(Coupled::identity(3 * count), [&](Eigen::Ref<Eigen::MatrixXd> columns) { columns = (normal.asDiagonal() * columns).eval(); });
+  scene.state.statuses.assign(count, ContactStatus::sticking);
+  const CondensedSolution solution = solve_condensed(schur, scene.problem, scene.state);
+  REQUIRE(solution.verdict == CondensedVerdict::solved);
+  for (int p = 0; p < count; ++p) CHECK((solution.forces.segment<3>(3 * p) - Eigen::Vector3d(1.0, -0.15, -0.2)).norm() < 1e-12);
+}
+
 TEST_CASE("Friction grows from none where a status does not settle") {
   // Normal forces move the points sideways, and friction is stronger than what causes it: cycles, for Newton's method and sweeps alike.
   constexpr int count = 30, size = 2 * count;
