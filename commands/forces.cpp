@@ -298,10 +298,11 @@ using NodeForces = std::map<std::pair<int, solver::Component>, Amount>;
 // ANGL_NAUT by numbers or, in AFFE_CHAR_MECA_F, by functions.
 std::vector<Amount> angles_of(const Keywords& force) {
   std::vector<Amount> angles;
-  const auto functions = force.concepts("ANGL_NAUT");
-  for (const auto& handle : functions) angles.push_back({0.0, field_function(handle, force.span_of("ANGL_NAUT"))});
-  if (!functions.empty()) return angles;
-  for (const double angle : force.reals("ANGL_NAUT")) angles.push_back({angle, {}});
+  const interpreter::Value& given = force.at("ANGL_NAUT").value;
+  if (given.is_sequence() && !given.items().empty() && given.items().front().is_concept())
+    for (const auto& handle : force.concepts("ANGL_NAUT")) angles.push_back({0.0, field_function(handle, force.span_of("ANGL_NAUT"))});
+  else
+    for (const double angle : force.reals("ANGL_NAUT")) angles.push_back({angle, {}});
   return angles;
 }
 

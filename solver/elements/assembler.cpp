@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/cell_material.hpp"
 #include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
@@ -155,14 +156,7 @@ void throw_unsupported_element(const Model& model, int cell) {
 }
 
 CellMaterial elastic_material(const BlockInput& input, int cell) {
-  const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
-  if (material == nullptr || !material->elasticity) {
-    throw Error("missing-material",
-                fmt::format("cell {} carries an element but has no elastic material", input.model.mesh->cell_name(cell)));
-  }
-  CellMaterial result{&*material->elasticity, nullptr};
-  const auto axes = input.properties.material_axes.find(cell);
-  if (axes != input.properties.material_axes.end()) result.axes = &axes->second;
+  const CellMaterial result = cell_material(input.model, input.materials, input.properties, cell);
   if (is_constant(*result.elasticity)) solid_stiffness(result, MaterialPoint());
   return result;
 }

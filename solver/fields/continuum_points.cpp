@@ -5,17 +5,13 @@
 #include <fmt/format.h>
 
 #include "solver/elements/reference_element.hpp"
+#include "solver/elements/cell_material.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
 
 CellMaterial material_of(const FieldInput& input, int cell) {
-  const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[cell].get();
-  if (material == nullptr || !material->elasticity) {
-    throw Error("missing-material", fmt::format("cell {} has no elastic material", input.model.mesh->cell_name(cell)));
-  }
-  const auto axes = input.properties.material_axes.find(cell);
-  return {&*material->elasticity, axes == input.properties.material_axes.end() ? nullptr : &axes->second};
+  return cell_material(input.model, input.materials, input.properties, cell);
 }
 
 MaterialPoint middle_point(const FieldInput& input, int cell) {

@@ -26,30 +26,37 @@ bool is_zero(const Property& property) {
   return property.is_constant() && property(MaterialPoint()) == 0.0;
 }
 
-/// Compliance in the axes L, T, N.
-Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoint& at) {
+double positive(double modulus, const char* name) {
+  if (modulus > 0.0) return modulus;
+  throw Error("invalid-material", fmt::format("an orthotropic material has {} = {}, but it must be positive", name, modulus),
+              modulus == 0.0 ? fmt::format("give {}: only plane bodies do without E_N (C_PLAN), G_LN and G_TN", name) : "");
+}
+
+/// Compliance in the axes L, T, N. Where N does not count, moduli that are absent become those in the plane.
+Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoint& at, AcrossPlane across) {
+  constexpr std::array<const char*, 3> young_names = {"E_L", "E_T", "E_N"}, shear_names = {"G_LT", "G_LN", "G_TN"};
   Matrix6d compliance = Matrix6d::Zero();
   for (int i = 0; i < 3; ++i) {
     const double young = material.young[i](at);
     const double shear = material.shear[i](at);
-    if (!(young > 0.0) || !(shear > 0.0)) {
-      throw Error("invalid-material",
-                  fmt::format("an orthotropic material has a modulus of {}, but it must be positive",
-                              young > 0.0 ? shear : young));
-    }
-    compliance(i, i) = 1.0 / young;
-    compliance(3 + i, 3 + i) = 1.0 / shear;
+    const bool stands_free = i == 2 && across == AcrossPlane::free && young == 0.0;
+    compliance(i, i) = stands_free ? 0.0 : 1.0 / positive(young, young_names[i]);
+    compliance(3 + i, 3 + i) = i > 0 && across != AcrossPlane::solid && shear == 0.0 ? compliance(3, 3) : 1.0 / positive(shear, shear_names[i]);
   }
   for (int pair = 0; pair < 3; ++pair) {
     const int i = tensor_row[3 + pair];
     const int j = tensor_column[3 + pair];
     compliance(i, j) = compliance(j, i) = -material.poisson[pair](at) * compliance(i, i);
   }
+  if (compliance(2, 2) == 0.0) {
+    const Eigen::Vector2d drawn = compliance.block<2, 1>(0, 2);
+    compliance(2, 2) = compliance(0, 0) + 2.0 * drawn.dot(compliance.topLeftCorner<2, 2>().inverse() * drawn);
+  }
   return compliance;
 }
 
-Matrix6d own_stiffness(const OrthotropicElasticity& material, const MaterialPoint& at) {
-  const Eigen::LLT<Matrix6d> factor(own_compliance(material, at));
+Matrix6d own_stiffness(const OrthotropicElasticity& material, const MaterialPoint& at, AcrossPlane across) {
+  const Eigen::LLT<Matrix6d> factor(own_compliance(material, at, across));
   if (factor.info() != Eigen::Success) {
     throw Error("invalid-material", "the constants of an orthotropic material give negative strain energy",
                 "the coefficients NU are too large beside the ratios of the moduli");
@@ -179,7 +186,7 @@ IsotropicModuli moduli(const IsotropicElasticity& elasticity, const MaterialPoin
 Matrix6d solid_stiffness(const CellMaterial& material, const MaterialPoint& at) {
   if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity))
     return solid_stiffness(moduli(*isotropic, at));
-  const Matrix6d own = own_stiffness(std::get<OrthotropicElasticity>(*material.elasticity), at);
+  const Matrix6d own = own_stiffness(std::get<OrthotropicElasticity>(*material.elasticity), at, material.across);
   if (material.axes == nullptr) return own;
   const Matrix6d turn = strain_rotation(*material.axes);
   const Matrix6d stiffness = turn.transpose() * own * turn;
@@ -210,7 +217,7 @@ Matrix6d solid_compliance(const CellMaterial& material, const MaterialPoint& at)
     compliance.diagonal().tail<3>().setConstant(2 * (1 + m.poisson) / m.young);
     return compliance;
   }
-  const Matrix6d own = own_compliance(std::get<OrthotropicElasticity>(*material.elasticity), at);
+  const Matrix6d own = own_compliance(std::get<OrthotropicElasticity>(*material.elasticity), at, material.across);
   if (material.axes == nullptr) return own;
   const Matrix6d turn = strain_rotation(material.axes->transpose());
   return turn * own * turn.transpose();

@@ -4,6 +4,8 @@
 // shear angles 2 eps_xy, 2 eps_xz, 2 eps_yz.
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Dense>
 
 #include "solver/materials/material.hpp"
@@ -32,10 +34,15 @@ Eigen::Matrix4d plane_strain_stiffness(const IsotropicModuli& material);
 /// Plane stress: the row and column of zz are zero.
 Eigen::Matrix4d plane_stress_stiffness(const IsotropicModuli& material);
 
+/// What a plane body lets its material do across the plane, in which N stands then: nothing bears there (`free`: plane stress), or nothing shears
+/// (`held`: plane strain, round an axis).
+enum class AcrossPlane : std::uint8_t { solid, held, free };
+
 /// The elastic material of a cell. `axes`: rows L, T, N; null: the global axes. They turn anisotropic laws alone.
 struct CellMaterial {
   const Elasticity* elasticity = nullptr;
   const Eigen::Matrix3d* axes = nullptr;
+  AcrossPlane across = AcrossPlane::solid;  ///< moduli that do not count then may be absent (0)
 };
 
 /// Whether the stiffness is the same at all points and times.

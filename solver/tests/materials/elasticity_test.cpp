@@ -61,6 +61,23 @@ TEST_CASE("an orthotropic stress along L strains T and N by NU_LT / E_L and NU_L
   CHECK(strain[2] == Approx(-0.35 / 11000));
 }
 
+TEST_CASE("a plane body does without the moduli that it does not use", "[materials]") {
+  const Elasticity whole = wood();
+  OrthotropicElasticity flat = wood();
+  flat.shear[1] = flat.shear[2] = 0.0;
+  const Elasticity without_shears = flat;
+  CHECK_THROWS_AS(solid_stiffness(CellMaterial{&without_shears}, MaterialPoint()), Error);
+  const CellMaterial held{&without_shears, nullptr, AcrossPlane::held};
+  CHECK((plane_strain_stiffness(held, MaterialPoint()) - plane_strain_stiffness(CellMaterial{&whole}, MaterialPoint())).norm() < 1e-9);
+  flat.young[2] = 0.0;
+  const Elasticity without_any = flat;
+  CHECK_THROWS_AS(plane_strain_stiffness(CellMaterial{&without_any, nullptr, AcrossPlane::held}, MaterialPoint()), Error);
+  const CellMaterial free{&without_any, nullptr, AcrossPlane::free};
+  CHECK((plane_stress_stiffness(free, MaterialPoint()) - plane_stress_stiffness(CellMaterial{&whole}, MaterialPoint())).norm() < 1e-9);
+  // Stresses in the plane strain the thickness by NU_LN and NU_TN all the same.
+  CHECK((solid_compliance(free, MaterialPoint()).topLeftCorner<3, 2>() - solid_compliance(CellMaterial{&whole}, MaterialPoint()).topLeftCorner<3, 2>()).norm() < 1e-15);
+}
+
 TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned law is the turned stress",
           "[materials]") {
   const Elasticity elasticity = wood();
