@@ -4,8 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/host_object.hpp"
+#include "interpreter/operations.hpp"
 
 namespace comma::commands {
 
@@ -14,6 +16,7 @@ namespace {
 using interpreter::HostFunction;
 using interpreter::HostObject;
 using interpreter::Object;
+using interpreter::Operator;
 using interpreter::Value;
 
 Value value_of(const Cell& cell) {
@@ -44,6 +47,24 @@ Value method(const char* name, Code&& code) {
   }));
 }
 
+/// Whether a cell lies to a value as the operator says; an empty one never does, and texts without the blanks behind them.
+bool passes(const Cell& cell, Operator op, const Value& value) {
+  if (std::holds_alternative<std::monostate>(cell)) return false;
+  const auto* text = std::get_if<std::string>(&cell);
+  if ((text != nullptr) != value.is_text()) return op == Operator::not_equal;
+  if (text == nullptr) return interpreter::compare(op, value_of(cell), value).as_bool();
+  const auto trimmed = [](const std::string& each) { return each.substr(0, each.find_last_not_of(' ') + 1); };
+  return interpreter::compare(op, trimmed(*text), trimmed(value.as_text())).as_bool();
+}
+
+template <class Keep>
+Value rows_that(const Table& table, const Keep& keep) {
+  Table kept{table.title, table.columns, {}};
+  for (const auto& row : table.rows)
+    if (keep(row)) kept.rows.push_back(row);
+  return extracted_table(kept);
+}
+
 struct ColumnObject : HostObject {
   ColumnObject(std::shared_ptr<const Table> whole, int place) : table(std::move(whole)), column(place) {}
   std::shared_ptr<const Table> table;
@@ -61,6 +82,11 @@ struct ColumnObject : HostObject {
     return method("values", [whole = table, place = column] { return column_values(*whole, place); });
   }
   std::vector<std::string> attribute_names() const override { return {"values"}; }
+  /// The table of the rows that pass (U1.03.02).
+  std::optional<Value> compared(Operator op, const Value& other) const override {
+    if (!other.is_number() && !other.is_text()) return std::nullopt;
+    return rows_that(*table, [&](const std::vector<Cell>& row) { return passes(row[static_cast<std::size_t>(column)], op, other); });
+  }
   std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(table->rows.size()); }
 };
 
@@ -83,6 +109,31 @@ struct TableObject : HostObject {
     std::vector<std::string> names = table->columns;
     names.insert(names.end(), {"values", "para", "rows"});
     return names;
+  }
+
+  /// Rows of both tables, or of either, each once; of tables with the same columns.
+  std::optional<Value> combined(Operator op, const Value& other) const override {
+    const auto* right = other.as_object<TableObject>();
+    if (right == nullptr || right->table->columns != table->columns || (op != Operator::bit_and && op != Operator::bit_or)) return std::nullopt;
+    const auto holds = [](const Table& each, const std::vector<Cell>& row) { return std::ranges::find(each.rows, row) != each.rows.end(); };
+    if (op == Operator::bit_and) return rows_that(*table, [&](const std::vector<Cell>& row) { return holds(*right->table, row); });
+    Table united = *table;
+    for (const auto& row : right->table->rows)
+      if (!holds(united, row)) united.rows.push_back(row);
+    return extracted_table(united);
+  }
+  /// The column of a name, or the table of those of several.
+  std::optional<Value> item(const Value& index) const override {
+    if (index.is_text()) return as_object(std::make_shared<ColumnObject>(table, place_of(index)));
+    if (!index.is_sequence()) return std::nullopt;
+    std::vector<int> places;
+    for (const Value& name : index.items()) places.push_back(place_of(name));
+    return extracted_table(with_columns(*table, places));
+  }
+  int place_of(const Value& name) const {
+    const int column = name.is_text() ? table->column(name.as_text()) : -1;
+    if (column < 0) interpreter::raise(interpreter::ErrorKind::key, name.repr());
+    return column;
   }
 
   static Value columns_of(const Table& table) {

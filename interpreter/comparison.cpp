@@ -6,6 +6,7 @@
 #include <compare>
 
 #include "interpreter/array.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/operations.hpp"
 
 namespace comma::interpreter {
@@ -180,6 +181,8 @@ Value compare(Operator op, const Value& a, const Value& b) {
     return found == (op == Operator::in);
   }
   if (holds_unknown(a) || holds_unknown(b)) return Value::unknown();
+  if (const auto* foreign = a.as_object<HostObject>())
+    if (auto result = foreign->compared(op, b)) return *result;
   if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr) {
     Meter meter{Limits{}};
     return array_operation(op, a, b, meter);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/ast.hpp"
 #include "interpreter/value.hpp"
 
 namespace comma::interpreter {
@@ -19,6 +20,12 @@ struct HostObject : Object {
   virtual std::vector<std::string> attribute_names() const = 0;
   /// What len() gives; nothing for an object without length.
   virtual std::optional<std::int64_t> length() const { return std::nullopt; }
+  /// What ==, !=, <, <=, >, >= with a value on the right give; nothing: as for any object.
+  virtual std::optional<Value> compared(Operator, const Value&) const { return std::nullopt; }
+  /// What & and | with a value on the right give; nothing: as for any object.
+  virtual std::optional<Value> combined(Operator, const Value&) const { return std::nullopt; }
+  /// What lies at object[index]; nothing where nothing does.
+  virtual std::optional<Value> item(const Value&) const { return std::nullopt; }
 };
 
 /// A method of such an object, without keywords. Its code may throw DiagnosticError.

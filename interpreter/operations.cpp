@@ -116,6 +116,8 @@ Value binary_operation(Operator op, const Value& a, const Value& b, Meter& meter
   if (a.is_text() && op == Operator::modulo) return Value(format_percent(a.as_text(), b, meter));
   if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr)
     return array_operation(op, a, b, meter);
+  if (const auto* foreign = a.as_object<HostObject>())
+    if (auto result = foreign->combined(op, b)) return *result;
   if (op == Operator::add) {
     if (auto result = add_sequences(a, b, meter)) return *result;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "interpreter/array.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/operations.hpp"
 #include "interpreter/utf8.hpp"
 
@@ -162,6 +163,8 @@ Value subscript(const Value& object, const Value& index, Meter& meter) {
   }
   if (object.is_text()) return slice != nullptr ? text_slice(object.as_text(), *slice) : text_item(object, index);
   if (const auto* array = object.as_object<ArrayObject>()) return array_subscript(*array, index);
+  if (const auto* foreign = object.as_object<HostObject>())
+    if (auto result = foreign->item(index)) return *result;
   if (const auto* range = object.as_object<RangeObject>()) {
     if (slice == nullptr) return range->at(checked_index(object, index, range->size()));
     const SliceRange part = resolve_slice(*slice, range->size());
