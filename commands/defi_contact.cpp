@@ -265,11 +265,14 @@ void check_one_algorithm(const Call& call) {
 void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
   constexpr int most_updates_by_newton = 100;
   constexpr double rounding = 1e-11;
+  constexpr double tolerable = 0.01;  // what fixed points are content with
   definition.max_geometry_updates = most_updates_by_newton;
   definition.geometry_update = call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
   if (!call.has("RESI_GEOM")) return;
   const double change = call.real("RESI_GEOM");
-  definition.geometry_tolerance = call.text("ALGO_RESO_GEOM") == "NEWTON" ? std::max(rounding, change * change) : change;
+  const bool by_newton = call.text("ALGO_RESO_GEOM") == "NEWTON";
+  definition.geometry_tolerance = by_newton ? std::max(rounding, change * change) : change;
+  if (by_newton) definition.restless_tolerance = std::max(tolerable, change);
 }
 
 solver::ContactDefinition contact(const Call& call, const solver::Model& model) {

@@ -72,6 +72,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",
                           mesh.cell_name(doubt.cell), zone, doubt.length),
               "free its nodes along the normal, or take them out of the contact (SANS_GROUP_NO)"};
+    case solver::DoubtKind::restless_geometry:
+      return {"restless-geometry",
+              fmt::format("updates of the contact geometry move it to and fro without coming to rest, by {:.2g} of the displacement of a step at most, most at node {}: results are "
+                          "known to about that share",
+                          doubt.share, mesh.node_name(doubt.node)),
+              "smooth the normals (LISSAGE='OUI'), take smaller steps or a finer master, where points hop between two facets; a smaller penalty where its rounding moves them"};
     case solver::DoubtKind::stale_geometry:
       return {"stale-geometry",
               fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",

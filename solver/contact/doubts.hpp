@@ -19,18 +19,19 @@ enum class DoubtKind : std::uint8_t {
   unshared_friction,  ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having been found
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
+  restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
 };
 
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth or slip in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back, infinite where it pushes nothing
+  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back, infinite where it pushes nothing
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
-  int node = -1;         ///< slave node of a stale geometry
+  int node = -1;         ///< slave node of a stale geometry, the node that moves most of a restless one
 };
 
 /// The deepest of each kind in each zone.

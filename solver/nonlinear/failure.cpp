@@ -98,7 +98,8 @@ void throw_geometry_failure(double time, const GeometryHistory& history, const C
                 "take smaller steps, or fix the number of updates (REAC_GEOM='CONTROLE')");
   throw Error("no-convergence",
               fmt::format("the contact geometry did not settle within {} updates {}", contact.max_geometry_updates, tail),
-              "take smaller steps, raise ITER_GEOM_MAXI, or fix the number of updates (REAC_GEOM='CONTROLE')");
+              contact.restless_tolerance > 0.0 ? "take smaller steps, smooth the normals (LISSAGE='OUI'), or take ALGO_RESO_GEOM='POINT_FIXE'"
+                                               : "take smaller steps, raise ITER_GEOM_MAXI, or fix the number of updates (REAC_GEOM='CONTROLE')");
 }
 
 }  // namespace comma::solver

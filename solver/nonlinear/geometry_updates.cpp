@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 
 /// Pairings that return within this many updates are in a cycle.
 constexpr std::size_t cycle_length_limit = 4;
+/// Updates in which the geometry should come twice as near to rest.
+constexpr std::size_t patience = 10;
 /// Displacements of a step below this share of the whole ones are rounding.
 constexpr double negligible_displacement = 1e-11;
 
@@ -33,7 +35,7 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   for (int node = 0; node < mesh_.node_count(); ++node) {
     const Vector3d at = displacement_of(node, now, dofs_);
     const double change = (at - displacement_of(node, paired, dofs_)).norm();
-    if (change > moved) history_.worst = mesh_.node_name(node);
+    if (change > moved) worst_ = node;
     moved = std::max(moved, change);
     whole = std::max(whole, at.norm());
     for (const double coordinate : mesh_.nodes[static_cast<std::size_t>(node)]) reach = std::max(reach, std::abs(coordinate));
@@ -42,9 +44,21 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   // Nothing is asked of a step that only rounding moves, of displacements or of places.
   const double rounding = std::max(negligible_displacement * whole, std::numeric_limits<double>::epsilon() * reach);
   history_.changes.push_back(moved > rounding ? moved / largest : 0.0);
+  if (worst_ >= 0) history_.worst = mesh_.node_name(worst_);
   if (contact_.geometry_update == GeometryUpdate::controlled)
     return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);
-  return history_.changes.back() <= contact_.geometry_tolerance;
+  if (history_.changes.back() <= contact_.geometry_tolerance) return true;
+  if (!goes_to_and_fro()) return false;
+  restless_ = history_.changes.back();
+  return true;
+}
+
+bool GeometryUpdates::goes_to_and_fro() const {
+  const auto& changes = history_.changes;
+  if (!(contact_.restless_tolerance > 0.0) || changes.size() < 2 * patience) return false;
+  const auto recent = changes.end() - static_cast<std::ptrdiff_t>(patience);
+  const auto [least, most] = std::minmax_element(recent, changes.end());
+  return *most <= contact_.restless_tolerance && *least > 0.5 * *std::min_element(changes.begin(), recent);
 }
 
 void GeometryUpdates::note_cycle(const std::vector<ContactPair>& pairs) {

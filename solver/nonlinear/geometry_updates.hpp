@@ -16,8 +16,14 @@ class GeometryUpdates {
   GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start);
 
   /// Whether no node has moved from `paired` (the displacements when surfaces were last paired) to `now` by more than RESI_GEOM of the largest displacement
-  /// of this step (all nodes count, and displacements by their length: ssnv104h tells), or the prescribed number of updates is done.
+  /// of this step (all nodes count, and displacements by their length: ssnv104h tells), or the prescribed number of updates is done; or where it goes
+  /// to and fro (see restless()).
   bool settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
+
+  /// By how much of the largest displacement of the step a geometry that is settled goes on moving to and fro, within what is tolerated of it: points that hop between
+  /// two facets, or a penalty whose rounding moves them. 0: it is at rest.
+  double restless() const { return restless_; }
+  int restless_node() const { return worst_; }
 
   /// To be told the pairs of each geometry: facets that return after others took their place, several times over, will go on returning.
   void note_cycle(const std::vector<ContactPair>& pairs);
@@ -30,7 +36,11 @@ class GeometryUpdates {
   const Mesh& mesh_;
   const DofMap& dofs_;
   const Eigen::VectorXd& start_;
+  bool goes_to_and_fro() const;
+
   GeometryHistory history_;
+  double restless_ = 0.0;
+  int worst_ = -1;  ///< the node that moved most
   std::vector<std::vector<ContactPair>> visited_;
 };
 

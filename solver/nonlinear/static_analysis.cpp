@@ -21,6 +21,7 @@
 #include "solver/nonlinear/newton.hpp"
 #include "solver/nonlinear/path_following.hpp"
 #include "solver/nonlinear/step_watch.hpp"
+#include "solver/nonlinear/surface_doubts.hpp"
 #include "solver/on_exit.hpp"
 
 namespace comma::solver {
@@ -97,7 +98,7 @@ class StaticAnalysis {
         throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
                     "with reuse= the steps up to there are kept; ACTION='CONTINUE' goes on");
     }
-    if (passed_master_) passed_master_->conclude(doubts_);
+    if (surface_doubts_) surface_doubts_->conclude(doubts_);
   }
 
   const ContactDoubts& doubts() const { return doubts_; }
@@ -461,30 +462,21 @@ class StaticAnalysis {
 
   void note_doubts_about_surfaces(double instant) {
     if (!problem_.contact || path_ || !now_.paired) return;
+    if (!surface_doubts_) surface_doubts_.emplace(*problem_.contact, mesh_);
     const std::vector<Vector3d> now = positions();
-    const double pushed_back = mixed_ ? mixed_->pushed_back() : newton_.pushed_back();
-    if (!passed_master_) passed_master_.emplace(*problem_.contact, mesh_);
-    where_surfaces_pair([&] { passed_master_->look(now, pushed_back, instant); });
-    where_surfaces_pair([&] { note_geometry_left_behind(instant, now, pushed_back); });
+    SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(), {}};
+    if (may_be_left_behind()) state.pairs = [&] { return pairs_solved_with(instant); };
+    surface_doubts_->look(state, doubts_);
   }
 
-  /// Surfaces that cannot be paired, or not any more, are no reason to lose a step that has converged.
-  template <class Check>
-  static void where_surfaces_pair(Check&& check) {
-    try {
-      check();
-    } catch (const Error&) {
-      return;
-    }
+  /// Whether the geometry is updated less than it asks for, or averages face each other as they did when the step began.
+  bool may_be_left_behind() const {
+    return problem_.contact->geometry_update != GeometryUpdate::automatic || (mixed_ && mixed_->is_left_behind());
   }
 
-  /// Where the geometry is updated less than it asks for, or averages face each other as they did when the step began: whether the surfaces as they
-  /// are have the gaps that were solved for.
-  void note_geometry_left_behind(double instant, const std::vector<Vector3d>& now, double pushed_back) {
-    const bool from_start = mixed_ && mixed_->is_left_behind();
-    if (problem_.contact->geometry_update == GeometryUpdate::automatic && !from_start) return;
-    const std::vector<ContactPair> paired = mixed_ ? pair_surfaces(*problem_.contact, mesh_, positions_at(from_start ? start_ : now_.reference, mesh_, dofs_), instant) : now_.pairs;
-    note_stale_geometry(*problem_.contact, mesh_, now, {paired, pair_surfaces(*problem_.contact, mesh_, now, instant), pushed_back}, doubts_);
+  std::vector<ContactPair> pairs_solved_with(double instant) const {
+    if (!mixed_) return now_.pairs;
+    return pair_surfaces(*problem_.contact, mesh_, positions_at(mixed_->is_left_behind() ? start_ : now_.reference, mesh_, dofs_), instant);
   }
 
   /// What the intensity multiplies, and what it does not.
@@ -538,11 +530,20 @@ class StaticAnalysis {
         }
       }
       const bool settled = !geometry || geometry->settled(now_.reference, now_.state.u);
-      if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) return iterations;
+      if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) {
+        if (geometry) note_restless_geometry(*geometry);
+        return iterations;
+      }
       if (!geometry) continue;
       geometry->note_cycle(now_.pairs);
       geometry->require_more(time);
     }
+  }
+
+  /// Where it moves by more than the user asks for: of Newton's method, the root of what is aimed at.
+  void note_restless_geometry(const GeometryUpdates& updates) {
+    if (updates.restless() <= std::sqrt(problem_.contact->geometry_tolerance)) return;
+    doubts_.note({.kind = DoubtKind::restless_geometry, .share = updates.restless(), .node = updates.restless_node()});
   }
 
   void resize_multipliers(const ConditionSet& next) {
@@ -677,7 +678,7 @@ class StaticAnalysis {
   std::unique_ptr<PathFollowing> path_;
 
   Progress now_;
-  std::optional<PassedMaster> passed_master_;
+  std::optional<SurfaceDoubts> surface_doubts_;
   ContactDoubts doubts_;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first

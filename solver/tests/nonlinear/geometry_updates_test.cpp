@@ -1,5 +1,7 @@
 #include "solver/nonlinear/geometry_updates.hpp"
 
+#include <tuple>
+
 #include <catch2/catch.hpp>
 
 #include "scene.hpp"
@@ -52,6 +54,25 @@ TEST_CASE("Nothing is asked of a geometry that moves by the rounding of its plac
   CHECK_FALSE(updates.settled(start, corner.at(1e-6)));
   CHECK_FALSE(updates.settled(corner.at(1e-6), corner.at(1e-6 + 1e-15)));
   CHECK(updates.settled(corner.at(1e-6), corner.at(1e-6 + 1e-16)));
+}
+
+TEST_CASE("A geometry that goes to and fro within what is tolerated is settled, and says by how much") {
+  MovingCorner corner;
+  corner.contact.geometry_tolerance = 1e-12;
+  const Eigen::VectorXd start = corner.at(0.0);
+  for (const auto& [tolerated, hop, ends] : {std::tuple{0.01, 1e-3, true}, {0.01, 0.02, false}, {0.0, 1e-3, false}}) {
+    corner.contact.restless_tolerance = tolerated;
+    GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+    bool settled = false;
+    for (int update = 0; update < 50 && !settled; ++update) settled = updates.settled(corner.at(1.0 + hop * (update % 2)), corner.at(1.0 + hop * (1 - update % 2)));
+    CHECK(settled == ends);
+    CHECK(updates.restless() == Approx(ends ? hop : 0.0).epsilon(2e-3));
+  }
+  // One that comes nearer to rest, however slowly, goes on.
+  corner.contact.restless_tolerance = 0.01;
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  double hop = 1e-3;
+  for (int update = 0; update < 100; ++update, hop *= 0.92) REQUIRE_FALSE(updates.settled(corner.at(1.0), corner.at(1.0 + hop)));
 }
 
 TEST_CASE("A prescribed number of updates is done, however far the geometry moves") {

@@ -1,0 +1,37 @@
+// What the surfaces of contact tell of each step that has converged.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solver/contact/doubts.hpp"
+
+namespace comma::solver {
+
+/// A step as its surfaces show it.
+struct SurfaceState {
+  double instant = 0.0;
+  Positions now;
+  double pushed_back = 0.0;  ///< how far contact forces move the surfaces apart (a length)
+  /// The pairs that were solved with, where the geometry may have moved on since; empty: it has not.
+  std::function<std::vector<ContactPair>()> pairs;
+};
+
+/// Looks for master nodes that go through the slave side, and for gaps that are not those which were solved for.
+class SurfaceDoubts {
+ public:
+  /// Keeps references.
+  SurfaceDoubts(const ContactDefinition& contact, const Mesh& mesh) : contact_(contact), mesh_(mesh), passed_master_(contact, mesh) {}
+
+  /// After each step. Surfaces that cannot be paired, or not any more, tell nothing.
+  void look(const SurfaceState& state, ContactDoubts& doubts);
+  /// After the last step.
+  void conclude(ContactDoubts& doubts) const { passed_master_.conclude(doubts); }
+
+ private:
+  const ContactDefinition& contact_;
+  const Mesh& mesh_;
+  PassedMaster passed_master_;
+};
+
+}  // namespace comma::solver
