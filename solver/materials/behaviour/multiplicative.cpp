@@ -89,7 +89,8 @@ MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const
   double kept = 1.0;
   const auto [radius_before, slope_before] = hardening(point.curve, state.p);
   const bool yields = trial.size > radius_before;
-  const bool flows_on = !yields && state.flowing && trial.size > 0.0 && before == now;
+  const bool may_flow = !std::holds_alternative<NoYield>(point.curve);
+  const bool flows_on = may_flow && !yields && state.flowing && trial.size > 0.0 && before == now;
   if (yields || flows_on) {
     const double hardness = point.shear * trial.trace;
     const double dp = yields ? plastic_increment(point.curve, trial.size, hardness, state.p) : 0.0;
