@@ -282,6 +282,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   if (is_mixed) definition.formulation = solver::ContactFormulation::mixed;
   definition.smooth_normals = call.text("LISSAGE") == "OUI";
   set_geometry_update(call, definition);
+  definition.has_friction = is_mixed && call.text("FROTTEMENT") == "COULOMB";
   definition.joint_iterations = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON" && call.text("ALGO_RESO_GEOM") == "NEWTON";
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));

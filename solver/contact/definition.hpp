@@ -98,6 +98,7 @@ struct ContactDefinition {
   bool joint_iterations = false;     ///< one iteration of Newton's method updates statuses, geometry and bodies (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
+  bool has_friction = false;              ///< FROTTEMENT='COULOMB', though all coefficients be zero: fields have its components
   bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
   double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
   int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number

@@ -21,7 +21,7 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
                                        bool is_linear);
 
 /// Error `contact-cycling`: the active set needed more changes than allowed.
-[[noreturn]] void throw_active_set_limit(int limit);
+[[noreturn]] void throw_active_set_limit(int limit, bool by_gradients);
 
 /// Error `contact-cycling`: the statuses of the mixed formulation did not settle. `friction`: the strongest of all zones.
 [[noreturn]] void throw_condensed_limit(int limit, double friction);

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/contact_field.hpp"
 #include "solver/contact/extent.hpp"
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
+#include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/mesh/slave_cut.hpp"
@@ -565,7 +565,8 @@ double MixedContact::penetration(const Eigen::VectorXd& u) const {
 void MixedContact::add_multipliers(NodalField& displacements) const {
   if (definition_.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
-  const auto added = static_cast<std::size_t>(problem_.components);
+  const int added_components = definition_.has_friction ? dimension_ : problem_.components;
+  const auto added = static_cast<std::size_t>(added_components);
   const std::size_t before = displacements.components.size();
   const std::size_t all = before + added;
   const std::size_t nodes = displacements.values.size() / before;
@@ -573,7 +574,7 @@ void MixedContact::add_multipliers(NodalField& displacements) const {
   for (std::size_t node = 0; node < nodes; ++node)
     std::copy_n(displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before), before,
                 values.begin() + static_cast<std::ptrdiff_t>(node * all));
-  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + problem_.components);
+  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + added_components);
   const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
   for (const ContactZone& zone : definition_.zones) {
     if (zone.mixed.local_average) continue;
@@ -611,7 +612,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
     const CondensedPoint& condensed = problem_.points[p];
-    if (point.node < 0 || point.area > 0.0) continue;
+    if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
     NodeContact contact;
     contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
     if (condensed.first_row >= 0) {
@@ -620,7 +621,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contact.closed = point.status == PairingStatus::paired && state_.statuses[p] != ContactStatus::open;
       contact.sticking = state_.statuses[p] == ContactStatus::sticking;
     }
-    if (problem_.components > 1) contact.slip.setZero();
+    if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
     const Directions along = condensed.rows > 1 ? directions(point) : Directions();
     for (int c = 1; c < condensed.rows; ++c) {
       contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
@@ -635,7 +636,18 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contacts[known->second] = contact;
     }
   }
+  add_nodes_without_contact(positions, contacts);
   return contact_field(contacts, mesh_.node_count(), positions);
+}
+
+/// Nodes of zones where contact is not enforced, and those that the user leaves out.
+void MixedContact::add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const {
+  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions)) contacts.push_back({.pair = pair, .gap = surface_gap(pair, mesh_, positions)});
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
+    const ContactZone& each = definition_.zones[zone];
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
+      if (contains(each.excluded_slave_nodes, node)) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
+  }
 }
 
 std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) const {

@@ -13,6 +13,7 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/condensed_contact.hpp"
+#include "solver/contact/contact_field.hpp"
 #include "solver/contact/contact_points.hpp"
 #include "solver/contact/doubts.hpp"
 #include "solver/fields/field.hpp"
@@ -134,6 +135,7 @@ class MixedContact {
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
+  void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);

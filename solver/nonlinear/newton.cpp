@@ -296,7 +296,7 @@ void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const 
     throw_contradiction(*conditions_, full, mesh_, dofs_);
   }
   if (solution.verdict == ActiveSetVerdict::too_many_iterations)
-    throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_);
+    throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_, by_gradients());
 }
 
 /// Whether the compliance of all rows is worth its memory: the active set needs it, for gradients it saves two solves an iteration.
