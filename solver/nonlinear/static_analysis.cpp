@@ -186,6 +186,10 @@ class StaticAnalysis {
     try {
       return solve_and_check(instant);
     } catch (const Error& error) {
+      if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports()) {
+        take_back(before);
+        return solve_from_either_side(instant, before);
+      }
       if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
       const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
       if (!may_unload || !is_failure_of_step(error.code())) throw;

@@ -17,6 +17,8 @@ namespace {
 
 /// Beyond, the rounding of squares hides what holds a body.
 constexpr int most_gram_digits = 15;
+/// A support whose pivot has lost more digits counts as none, where contact is to hold the body.
+constexpr int weak_support_digits = 4;
 
 /// From the lower triangle of a matrix whose pattern has room for it.
 void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, SymmetricMatrix& matrix) {
@@ -69,6 +71,13 @@ void TangentSystem::forget() {
   solver_.reset();
   unsymmetric_.reset();
   known_.forget();
+}
+
+bool TangentSystem::spring_weak_supports() {
+  if (!may_add_springs_ || linear_.singular_digits == weak_support_digits || !solver_ || lost_digits_ <= weak_support_digits) return false;
+  linear_.singular_digits = weak_support_digits;
+  forget();
+  return true;
 }
 
 SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {

@@ -50,6 +50,9 @@ class TangentSystem {
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
   void allow_springs() { may_add_springs_ = true; }
+  /// From now on where hardly anything holds them, too: what a body on weak supports does without contact is so far off that little is left of the digits of what it
+  /// does with it. False, and nothing changes, where the last factor has lost few digits, or springs are there already.
+  bool spring_weak_supports();
   /// The forces take part in the tangent from now on, whole or by their symmetric half; they must outlive the system.
   void follow(const FollowerForces& forces, bool whole) {
     followers_ = &forces;
