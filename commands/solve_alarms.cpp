@@ -159,6 +159,17 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
       call.span, "use quadratic cells with MODELISATION='D_PLAN_INCO_UP', 'AXIS_INCO_UP' or '3D_INCO_UP', or with fewer points (D_PLAN_SI, AXIS_SI, 3D_SI), and compare two meshes");
 }
 
+void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !problem.initial->displacement || problem.initial->variables || !problem.behaviours) return;
+  const auto remembers = [](const solver::CellBehaviour& each) {
+    return each.relation != solver::Relation::elastic && each.relation != solver::Relation::hyperelastic;
+  };
+  if (std::ranges::none_of(*problem.behaviours, remembers)) return;
+  context.diagnostics.alarm("no-internal-variables",
+                            fmt::format("{}: ETAT_INIT gives displacements without internal variables: hardening and plastic strains begin at zero", call.command),
+                            call.factor("ETAT_INIT").span, "give VARI too, or keep VARI_ELGA in the result (ARCHIVAGE, CHAM_EXCLU)");
+}
+
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context) {
   if (call.has("PILOTAGE")) return;  // a path goes beyond limit points
   if (context.counters.indefinite_factorisations == counters_before.indefinite_factorisations) return;

@@ -13,6 +13,9 @@ namespace comma::commands {
 /// Alarm `near-incompressible`: cells that lock.
 void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
+/// Alarm `no-internal-variables`: materials that remember go on from displacements without what they remembered.
+void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+
 /// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive definite.
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
 
