@@ -51,6 +51,7 @@ Product defi_fonction(const Call& call, Context&) {
   solver::TabulatedFunction function;
   function.parameter = call.text("NOM_PARA");
   function.result = call.text("NOM_RESU");
+  if (call.result) function.name = call.result->name;
   read_points(call, function);
   sort_points(call, function);
   read_shape(call, function);

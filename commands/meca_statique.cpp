@@ -52,6 +52,7 @@ Product meca_statique(const Call& call, Context& context) {
   warn_of_locking(call, product->problem, context);
   const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
+  warn_of_repeated_loads(call, context);
   warn_of_indefinite_stiffness(call, before, context);
   return product;
 }

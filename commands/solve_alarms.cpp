@@ -159,6 +159,17 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
       call.span, "use quadratic cells with MODELISATION='D_PLAN_INCO_UP', 'AXIS_INCO_UP' or '3D_INCO_UP', or with fewer points (D_PLAN_SI, AXIS_SI, 3D_SI), and compare two meshes");
 }
 
+void warn_of_repeated_loads(const interpreter::Call& call, Context& context) {
+  if (!call.has("EXCIT")) return;
+  std::set<const interpreter::Concept*> seen;
+  for (const interpreter::Keywords& excitation : call.factors("EXCIT")) {
+    const interpreter::ConceptPtr& load = excitation.concept_of("CHARGE");
+    if (seen.insert(load.get()).second) continue;
+    context.diagnostics.alarm("repeated-load", fmt::format("{}: EXCIT names the load {} more than once: it counts as often", call.command, load->name), excitation.span_of("CHARGE"),
+                              "name it once; where two functions of time shall act on it, add them up (CALC_FONCTION, COMB)");
+  }
+}
+
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.initial || !problem.initial->displacement || problem.initial->variables || !problem.behaviours) return;
   const auto remembers = [](const solver::CellBehaviour& each) {

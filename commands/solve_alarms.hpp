@@ -13,6 +13,9 @@ namespace comma::commands {
 /// Alarm `near-incompressible`: cells that lock.
 void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
+/// Alarm `repeated-load`: a load that EXCIT names more than once.
+void warn_of_repeated_loads(const interpreter::Call& call, Context& context);
+
 /// Alarm `no-internal-variables`: materials that remember go on from displacements without what they remembered.
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 

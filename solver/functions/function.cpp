@@ -40,7 +40,7 @@ double beyond(const TabulatedFunction& f, double at, bool on_the_left) {
   if (extension == Extension::constant) return on_the_left ? f.y.front() : f.y.back();
   if (extension == Extension::linear && f.x.size() > 1) return segment(f, on_the_left ? 0 : f.x.size() - 2, at);
   throw Error("out-of-function",
-              fmt::format("{} = {} lies outside the function {}({}), which is defined from {} to {}", f.parameter, at, f.result,
+              fmt::format("{} = {} lies outside the function {}({}), which is defined from {} to {}", f.parameter, at, f.name.empty() ? f.result : f.name,
                           f.parameter, f.x.front(), f.x.back()),
               fmt::format("extend the function on the {}", on_the_left ? "left" : "right"));
 }

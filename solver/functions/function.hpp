@@ -18,6 +18,7 @@ enum class Scale : std::uint8_t { linear, logarithmic };
 struct TabulatedFunction {
   std::string parameter = "INST";
   std::string result = "TOUTRESU";
+  std::string name;  ///< by which messages call it; empty: by its result
   std::vector<double> x;
   std::vector<double> y;
   Scale x_scale = Scale::linear;
