@@ -18,13 +18,13 @@ enum class Scale : std::uint8_t { linear, logarithmic };
 struct TabulatedFunction {
   std::string parameter = "INST";
   std::string result = "TOUTRESU";
-  std::string name;  ///< by which messages call it; empty: by its result
   std::vector<double> x;
   std::vector<double> y;
   Scale x_scale = Scale::linear;
   Scale y_scale = Scale::linear;
   Extension left = Extension::excluded;
   Extension right = Extension::excluded;
+  std::string name{};  ///< by which messages call it; empty: by its result
 
   double operator()(double at) const;
 };
