@@ -71,6 +71,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     take_held(step, "DEPL", state->displacement);
     take_held(step, "SIEF_ELGA", state->stresses);
     take_held(step, "VARI_ELGA", state->variables);
+    state->loads = keywords.data<ResultConcept>("EVOL_NOLI").problem.loads;
     take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
     choice.instant = step.instant;
     choice.order = step.order;

@@ -232,6 +232,13 @@ void Assembler::set_time(double time) {
   if (!constant) ++version_;
 }
 
+void Assembler::impose_strains(std::span<const AppliedLoad> loads, double time) {
+  auto strains = std::make_unique<const ImposedStrains>(model_, loads, time);
+  if (strains->empty()) strains.reset();
+  for (const auto& block : blocks_->list) block->impose(strains.get());
+  imposed_ = std::move(strains);
+}
+
 SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_stiffness, u, state_); }
 
 SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_); }
@@ -278,7 +285,7 @@ Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const { ret
 Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_forces, u, state_); }
 
 Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
-  return state_.empty() ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
+  return state_.empty() && !imposed_ ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
 }
 
 Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {

@@ -39,6 +39,10 @@ class Assembler {
   /// instant. Before the first call no command variable is known. Throws Error `out-of-function`, `incompatible-field`.
   void set_time(double time);
   const VariableState& state() const { return state_; }
+  /// From now on laws with a memory see strains less the initial ones that the loads impose at a time; elasticity without a memory has them as
+  /// forces (external_forces()). Keeps pointers into the loads.
+  void impose_strains(std::span<const AppliedLoad> loads, double time);
+  bool imposes_strains() const { return imposed_ != nullptr; }
 
   /// Lower triangle of the symmetric part of the tangent stiffness at u (size n x n, force / length); the pattern never changes between calls. Rows of
   /// continua, bars and beams add up to exactly zero over each translation (see translation.hpp), so that a residual b - K x taken in
@@ -87,7 +91,8 @@ class Assembler {
   SymmetricMatrix starting_stiffness(const Eigen::VectorXd& u) const;
   Eigen::VectorXd starting_forces(const Eigen::VectorXd& u) const;
 
-  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables; empty where none is given. Linear statics read
+  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables, and laws with a memory
+  /// imposed ones; empty where none is given. Linear statics read
   /// K u = f_ext + f_strains.
   Eigen::VectorXd variable_forces(const Eigen::VectorXd& u) const;
 
@@ -130,6 +135,7 @@ class Assembler {
   const DofMap& dofs_;
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
+  std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
   int version_ = 0;
 };
 

@@ -99,7 +99,9 @@ class ElementBlock {
   /// A step begins at u with stresses and variables laid out as above; zero where empty.
   virtual void resume(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>) {}
 
-  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart.
+  /// From now on the strain that a law with a memory sees is less by these, until others are given; null: by none.
+  virtual void impose(const ImposedStrains*) {}
+  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart; none where impose() gave them.
   virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
   /// Adds the forces with which initial stresses, laid out as in stresses() and absent in cells without, push the nodes apart on the initial geometry.
   /// Throws Error `unsupported` where the element knows none.

@@ -130,4 +130,10 @@ double ImposedStrains::mean(int cell, std::string_view component) const {
   return sum;
 }
 
+void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell) {
+  if (known != nullptr && known->acts_on(cell)) return;
+  throw Error("unsupported", fmt::format("cell {}: initial strains of a material with a memory have no intensity that is sought", mesh.cell_name(cell)),
+              "leave out TYPE_CHARGE='FIXE_PILO' of the load with PRE_EPSI");
+}
+
 }  // namespace comma::solver

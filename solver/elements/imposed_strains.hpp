@@ -53,4 +53,7 @@ class ImposedStrains {
   std::vector<PartField> fields_;
 };
 
+/// Throws Error `unsupported` unless the law of a cell with a memory sees strains less `known` ones there: a law takes no forces in their place.
+void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell);
+
 }  // namespace comma::solver

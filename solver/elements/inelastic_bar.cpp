@@ -26,13 +26,13 @@ double ratio_or_one(double now, double before) { return before != 0.0 ? now / be
 /// What the material is at an instant.
 struct BarMaterial {
   PlasticPoint plastic;
-  double expansion = 0.0;
+  double expansion = 0.0;  ///< strain of the command variables, and imposed one
 };
 
 /// A bar where a step begins, or at a trial.
 struct BarState {
   double strain = 0.0;
-  double expansion = 0.0;  ///< strain of the command variables
+  double expansion = 0.0;  ///< as above
   double stress = 0.0;
   double back_stress = 0.0;
   double p = 0.0;
@@ -195,9 +195,10 @@ class InelasticBar final : public ElementBlock {
     }
   }
 
+  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : cells_)
-      if (imposed.acts_on(cell)) throw Error("unsupported", fmt::format("cell {}: initial strains are known for linear elasticity only", mesh_.cell_name(cell)));
+      if (imposed.acts_on(cell)) check_known_to_law(imposed_, mesh_, cell);
   }
 
  private:
@@ -240,8 +241,11 @@ class InelasticBar final : public ElementBlock {
       MaterialPoint at;
       state.sample(cells_[index], nodes, middle, 0, at);
       const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])], &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
-      at.place({0.5 * (first[0] + second[0]), 0.5 * (first[1] + second[1]), 0.5 * (first[2] + second[2])});
-      return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at), state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at)};
+      const Eigen::Vector3d centre = 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
+      at.place({centre[0], centre[1], centre[2]});
+      const double imposed = imposed_ ? imposed_->slender(cells_[index], centre)[0] : 0.0;
+      return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
+              imposed + (state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at))};
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])), error.hint());
     }
@@ -290,6 +294,7 @@ class InelasticBar final : public ElementBlock {
   std::vector<Member> members_;
   std::vector<BarState> past_;
   std::optional<double> extrapolation_;
+  const ImposedStrains* imposed_ = nullptr;
 };
 
 }  // namespace

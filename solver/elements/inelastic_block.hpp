@@ -70,11 +70,15 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
+  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
-    for (const int cell : this->cells_)
-      if (imposed.acts_on(cell))
-        throw Error("unsupported", fmt::format("cell {}: initial strains are known for linear elasticity only", this->mesh_.cell_name(cell)));
+    for (const int cell : this->cells_) {
+      if (!imposed.acts_on(cell)) continue;
+      if (law_.is_large()) throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only", this->mesh_.cell_name(cell)));
+      check_known_to_law(imposed_, this->mesh_, cell);
+    }
   }
+  void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const override {}
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     double* target = out.data();
@@ -197,9 +201,10 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const auto& elastic = block.materials_[block.material_of_element_[element]];
       plastic = &material.point;
       const bool strained = elastic.strained(state);
+      if (block.imposed_) inelastic = block.imposed_strain(element, g, x);
       if (material.constant && !strained) return;
       const MaterialPoint at = block.material_point(element, g, x, state);
-      if (strained) inelastic = inelastic_strain(elastic.material, at);
+      if (strained) inelastic += inelastic_strain(elastic.material, at);
       if (material.constant) return;
       own = plastic_point(*material.elasticity, *material.plasticity, block.law_.relation(), at);
       plastic = &own;
@@ -207,6 +212,15 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     Constants(const Constants&) = delete;
     Constants& operator=(const Constants&) = delete;
   };
+
+  /// Plane bodies have no strains out of their plane but that across it.
+  Vector6d imposed_strain(int element, int g, const Coordinates& x) const {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    at.head<Dim>() = x.transpose() * this->samples_[g].values;
+    Vector6d strain = Vector6d::Zero();
+    strain.head<strains>() = imposed_->continuum(this->cells_[static_cast<std::size_t>(element)], g, at).template head<strains>();
+    return strain;
+  }
 
   PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const VariableState& state, Respond how) const {
     return located(this->cells_[static_cast<std::size_t>(element)], [&] {
@@ -316,7 +330,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   bool may_be_concurrent(const VariableState& state) const {
-    return this->evaluates_no_function(state) && std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
+    return imposed_ == nullptr && this->evaluates_no_function(state) && std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
   void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {
@@ -361,6 +375,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   PointLaw law_;
   std::vector<PointPast> past_;  ///< cells x points
   std::optional<double> extrapolation_;
+  const ImposedStrains* imposed_ = nullptr;
   std::vector<PlasticMaterial> plastic_materials_;
   std::vector<int> plastic_material_of_element_;
 };

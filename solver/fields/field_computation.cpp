@@ -170,6 +170,7 @@ void FieldComputation::move_to(std::size_t step) {
   step_ = step;
   std::erase_if(known_, [&](const auto& item) { return item.first.first + 1 < step; });
   assembler_.set_time(result_.steps[step].instant);
+  assembler_.impose_strains(problem_.loads, result_.steps[step].instant);
 }
 
 FieldInput FieldComputation::input() const {
@@ -249,6 +250,7 @@ Field FieldComputation::mechanical_strains(std::size_t step) {
 
 Field FieldComputation::plastic_strains_at_points(std::size_t step) {
   require_small_strains("EPSP_ELGA");
+  if (assembler_.imposes_strains()) throw Error("unsupported", "EPSP_ELGA is not known beside initial strains (PRE_EPSI)");
   return plastic_strains(input(), displacement(step), element_field("SIEF_ELGA", step));
 }
 

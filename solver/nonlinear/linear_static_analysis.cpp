@@ -40,6 +40,7 @@ class LinearStaticAnalysis {
 
   Eigen::VectorXd solve(double time) {
     assembler_.set_time(time);
+    assembler_.impose_strains(problem_.loads, time);
     const Eigen::VectorXd offset = elimination_.offset(time);
     const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
     tangent_.refresh(offset);

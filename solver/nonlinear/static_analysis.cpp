@@ -370,6 +370,7 @@ class StaticAnalysis {
     elimination_.measure_from(differential_from_);
     now_.state.reduced = now_.state.u(elimination_.kept());
     assembler_.set_time(instant);
+    assembler_.impose_strains(loads_so_far(), instant);
     resume();
     go_on_with_path();
     if (!result_.steps.empty()) return;
@@ -483,11 +484,19 @@ class StaticAnalysis {
     return pair_surfaces(*problem_.contact, mesh_, positions_at(mixed_->is_left_behind() ? start_ : now_.reference, mesh_, dofs_), instant);
   }
 
+  std::span<const AppliedLoad> loads_so_far() const {
+    if (problem_.initial) return problem_.initial->loads;
+    return result_.steps.empty() ? std::span<const AppliedLoad>() : problem_.loads;
+  }
+
   /// What the intensity multiplies, and what it does not.
   DrivenLoads driven_loads(double time) {
     DrivenLoads loads;
     loads.fixed = assembler_.external_forces(problem_.loads, time);
+    // A law with a memory knows no strains but those that do not depend on the intensity: others are refused.
+    assembler_.impose_strains({}, time);
     loads.driven = assembler_.external_forces(problem_.driven, time);
+    assembler_.impose_strains(problem_.loads, time);
     drive_ = 0.0;
     loads.fixed_offset = elimination_.offset(time);
     drive_ = 1.0;
@@ -497,6 +506,7 @@ class StaticAnalysis {
 
   int solve_step(double time) {
     assembler_.set_time(time);
+    assembler_.impose_strains(problem_.loads, time);
     followers_.set_time(time);
     newton_.start_step(time - last_instant_);
     if (path_) {

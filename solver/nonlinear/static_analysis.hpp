@@ -41,6 +41,7 @@ struct InitialState {
   std::optional<ElementField> stresses;   ///< as SIEF_ELGA
   std::optional<ElementField> variables;  ///< as VARI_ELGA
   std::optional<NodalField> differential_reference;  ///< from which differential loads count; absent: from `displacement`
+  std::vector<AppliedLoad> loads;  ///< that led there: initial strains count from theirs
   std::optional<NodalField> earlier;  ///< the displacement a step before, which gives a path its direction
   std::optional<double> intensity;    ///< of driven loads; absent: 0
 };

@@ -95,6 +95,52 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
   }
 }
 
+namespace {
+
+std::shared_ptr<const Material> metal() {
+  Material material;
+  material.elasticity = IsotropicElasticity{100.0, 0.25};
+  material.plasticity.linear = LinearHardening{10.0, 1e-2};
+  return std::make_shared<const Material>(material);
+}
+
+}  // namespace
+
+TEST_CASE("a free body whose material flows takes an initial strain without stress and without flow", "[loads]") {
+  for (const CellType type : {CellType::quad8, CellType::tetra10, CellType::hexa8}) {
+    CAPTURE(name_of(type));
+    const Body body(single_cell(type, 0.04), dimension(type) == 3 ? Formulation::solid : Formulation::plane_stress, metal());
+    const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear}};
+    Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &behaviours);
+    Load load;
+    load.initial_strains.push_back({0, strain, {}});
+    const auto loads = applied(load, [](double t) { return t; });
+    CHECK_THROWS_WITH(assembler.external_forces(loads, 1.0), Catch::Contains("memory"));
+    assembler.impose_strains(loads, 1.0);
+    CHECK(assembler.external_forces(loads, 1.0).norm() == 0.0);
+    const Eigen::VectorXd u = body.displacements([&](const Point& x, int c) { return stretched(x, c, dimension(type)); });
+    CHECK(assembler.internal_forces(u).norm() < 1e-13);
+    CHECK(assembler.variable_forces(u).norm() > 1e-3);
+    CHECK(largest_stress(assembler.stresses(u, loads, 1.0)) < 1e-13);
+    CHECK(assembler.internal_variables(u).at(0, 0, 0) == 0.0);
+    assembler.accept(u);
+    // The same displacement without the strain is as if the body were strained back by it: it flows.
+    assembler.impose_strains(loads, 0.0);
+    CHECK(largest_stress(assembler.stresses(u)) > 1e-2);
+    CHECK(assembler.internal_variables(u).at(0, 0, 0) > 0.0);
+  }
+}
+
+TEST_CASE("large strains of a material that flows refuse initial ones", "[loads]") {
+  const Body body(single_cell(CellType::hexa8), Formulation::solid, metal());
+  const BehaviourOfCells behaviours = {{Kinematics::logarithmic, Relation::isotropic_linear}};
+  Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &behaviours);
+  Load load;
+  load.initial_strains.push_back({0, strain, {}});
+  assembler.impose_strains(applied(load), 0.0);
+  CHECK_THROWS_WITH(assembler.external_forces(applied(load), 0.0), Catch::Contains("small strains"));
+}
+
 TEST_CASE("initial strains are refused where there is no such strain", "[loads]") {
   const Body body(with_skin(CellType::hexa8, 0.0), Formulation::solid, elastic(100.0, 0.25));
   Load skin, beam;

@@ -38,6 +38,20 @@ Eigen::VectorXd moved(double strain) {
 
 const BehaviourOfCells mixed = {{Kinematics::small, Relation::mixed_linear}};
 
+TEST_CASE("a bar that flows takes an initial elongation without force, and is pressed by it when held", "[elements]") {
+  const Body body = bar(Formulation::bar);
+  Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &mixed);
+  Load load;
+  load.initial_slender_strains.push_back({0, {0.004, 0.0, 0.0}, {}});
+  const std::vector<AppliedLoad> loads = {{std::make_shared<const Load>(load), {}}};
+  assembler.impose_strains(loads, 0.0);
+  Eigen::VectorXd longer = Eigen::VectorXd::Zero(6);
+  longer.tail<3>() << 0.004, 0.008, 0.008;
+  CHECK(assembler.internal_forces(longer).norm() < 1e-11);
+  const ElementField held = assembler.stresses(Eigen::VectorXd::Zero(6), loads, 0.0);
+  CHECK(held.at(0, 0, held.component("N")) == Approx(-area * (yield + slope * (0.004 - yield / young))));
+}
+
 TEST_CASE("the tangent of a bar that flows is the derivative of its forces", "[elements]") {
   const Body body = bar(Formulation::bar);
   for (const Relation relation : {Relation::isotropic_linear, Relation::kinematic_linear, Relation::mixed_linear}) {
