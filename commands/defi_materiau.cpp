@@ -182,6 +182,9 @@ solver::ContactSpring contact_spring(const Keywords& law) {
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
+  if (std::ranges::none_of(call.items, [](const interpreter::Keyword& item) { return item.given && !item.factors.empty(); })) {
+    throw DiagnosticError("missing-one-of", "DEFI_MATERIAU gives the material nothing", call.span, "give it a law, such as ELAS=_F(E=..., NU=...)");
+  }
   auto material = call.has("MATER") ? std::make_shared<solver::Material>(*call.data<MaterialConcept>("MATER").material) : std::make_shared<solver::Material>();
   if (call.has("ELAS")) material->elasticity = isotropic(call.factor("ELAS"));
   if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
