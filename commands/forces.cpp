@@ -17,7 +17,6 @@
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/loads/end_effect.hpp"
-#include "solver/loads/nodal_history.hpp"
 #include "solver/loads/plate_moments.hpp"
 
 namespace comma::commands {
@@ -244,43 +243,6 @@ void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load
   append(load.pressures, std::move(pressures));
 }
 
-std::shared_ptr<const solver::NodalHistory> pressure_history(const Keywords& call, const solver::Mesh& mesh) {
-  constexpr const char* pressure = "PRES";
-  const solver::Result& result = call.data<ResultConcept>("EVOL_CHAR").result;
-  if (&result.mesh() != &mesh) throw DiagnosticError("incompatible-field", "EVOL_CHAR: the result lies on another mesh than the model", call.span_of("EVOL_CHAR"));
-  auto history = std::make_shared<solver::NodalHistory>();
-  for (const solver::ResultStep& step : result.steps) {
-    for (const auto& [name, field] : step.fields) {
-      const auto* nodal = std::get_if<solver::NodalField>(&field);
-      if (name != pressure || nodal == nullptr || nodal->component(pressure) < 0) {
-        throw DiagnosticError("unsupported", fmt::format("EVOL_CHAR: the result holds {}, but of such loads comma knows pressures at nodes (PRES) alone", name),
-                              call.span_of("EVOL_CHAR"), "make the others by the keywords of AFFE_CHAR_MECA_F");
-      }
-      const int component = nodal->component(pressure);
-      history->add(step.instant, std::get<solver::NodalField>(solver::with_components(*nodal, {&component, 1})));
-    }
-  }
-  if (history->empty()) throw DiagnosticError("unknown-field", "EVOL_CHAR: the result holds no PRES", call.span_of("EVOL_CHAR"), "CREA_RESU puts it there");
-  return history;
-}
-
-// They act on all of the boundary of the model where every node of a cell has one.
-void add_evolving_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  if (!call.has("EVOL_CHAR")) return;
-  const auto history = pressure_history(call, target.mesh);
-  const std::size_t before = load.pressures.size();
-  for (int cell = 0; cell < target.mesh.cell_count(); ++cell) {
-    if (!is_surface(target, cell) || !std::ranges::all_of(target.mesh.cell(cell), [&](int node) { return history->covers(node); })) continue;
-    solver::PressureLoad pressure{};
-    pressure.cell = cell;
-    pressure.pressure_at_nodes = [history](int node, double time) { return history->at(node, time); };
-    load.pressures.push_back(std::move(pressure));
-  }
-  if (load.pressures.size() == before) {
-    throw DiagnosticError("no-skin", "EVOL_CHAR: no cell on the boundary of the model has a pressure at all of its nodes", call.span_of("EVOL_CHAR"));
-  }
-}
-
 void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::PressureLoad> pressures;
   for (const Keywords& occurrence : call.factors("EFFE_FOND")) {
@@ -502,7 +464,7 @@ void add_forces(const Keywords& call, const LoadedModel& target, solver::Load& l
   add_force_vector(call, target, load);
   add_pressures(call, target, load);
   add_plate_forces(call, target, load);
-  add_evolving_pressures(call, target, load);
+  add_evolving_loads(call, target, load);
   add_end_effects(call, target, load);
   add_distributed_forces(call, target, load);
   add_beam_forces(call, target, load);

@@ -81,4 +81,7 @@ void add_relations(const interpreter::Keywords& call, const LoadedModel& target,
 /// Forces on nodes, skins, volumes, beams; weight, rotation, initial strains.
 void add_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
+/// EVOL_CHAR: pressures and forces that a result holds in time, linear between its instants.
+void add_evolving_loads(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
+
 }  // namespace comma::commands

@@ -28,12 +28,19 @@ void check_pressure(const Model& model, const PressureLoad& load) {
   }
 }
 
+namespace {
+
+double interpolated(const NodalFunction& function, std::span<const int> nodes, const CellSample& sample, double time) {
+  double value = 0.0;
+  for (std::size_t a = 0; a < nodes.size(); ++a) value += sample.values[static_cast<Eigen::Index>(a)] * function(nodes[a], time);
+  return value;
+}
+
+}  // namespace
+
 double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample& sample, const Point& at, double time) {
-  if (!load.pressure_at_nodes) return load.pressure_function ? load.pressure_function(at, time) : load.pressure;
-  const auto nodes = mesh.cell(load.cell);
-  double pressure = 0.0;
-  for (std::size_t a = 0; a < nodes.size(); ++a) pressure += sample.values[static_cast<Eigen::Index>(a)] * load.pressure_at_nodes(nodes[a], time);
-  return pressure;
+  if (load.pressure_at_nodes) return interpolated(load.pressure_at_nodes, mesh.cell(load.cell), sample, time);
+  return load.pressure_function ? load.pressure_function(at, time) : load.pressure;
 }
 
 namespace {
@@ -72,7 +79,7 @@ void check_distributed_force(const Model& model, const DistributedForce& load) {
                             mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
   }
   for (int c = body; c < 3; ++c) {
-    if (load.force[c] == 0.0 && !load.functions[c]) continue;
+    if (load.force[c] == 0.0 && !load.functions[c] && !load.functions_at_nodes[c]) continue;
     throw Error("unknown-dof",
                 fmt::format("a force along {} acts on cell {}, whose nodes have no such degree of freedom",
                             axis_names[c], mesh.cell_name(load.cell)));
@@ -102,8 +109,11 @@ class CellIntegrator {
     // Forces in a body are integrated where its stresses are (ssnv263c); gravity and centrifugal forces with the mass.
     const CellType type = mesh_.cell_types[load.cell];
     const auto& samples = input_.model.is_skin(load.cell) ? of_skin(load.cell) : samples_.of_stiffness(type, input_.model.formulations[load.cell]);
-    integrate(load.cell, samples, [&](const CellPoint& point, const CellSample&) -> Eigen::Vector3d {
-      return factor * point.measure(cell_dimension) * values_at(load.force, load.functions, to_point(point.at), time_);
+    integrate(load.cell, samples, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
+      Eigen::Vector3d density = values_at(load.force, load.functions, to_point(point.at), time_);
+      for (int c = 0; c < 3; ++c)
+        if (const NodalFunction& function = load.functions_at_nodes[static_cast<std::size_t>(c)]) density[c] = interpolated(function, mesh_.cell(load.cell), sample, time_);
+      return factor * point.measure(cell_dimension) * density;
     });
   }
 

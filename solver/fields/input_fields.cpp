@@ -56,6 +56,7 @@ ElementField force_data(const Mesh& mesh, const Load& load, int cell_dimension) 
   for (const DistributedForce& force : load.distributed_forces) {
     if (dimension(mesh.cell_types[force.cell]) != cell_dimension) continue;
     for (const FieldFunction& function : force.functions) require_number(static_cast<bool>(function), "distributed forces");
+    for (const NodalFunction& function : force.functions_at_nodes) require_number(static_cast<bool>(function), "distributed forces");
     add(field, force.cell, force.force);
   }
   drop_empty_cells(field);

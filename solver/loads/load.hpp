@@ -60,6 +60,7 @@ struct DistributedForce {
   int cell;
   std::array<double, 3> force{};
   std::array<FieldFunction, 3> functions;  ///< one that is set replaces that component of `force`
+  std::array<NodalFunction, 3> functions_at_nodes = {};  ///< the same, interpolated by the shape functions of the cell
 };
 
 /// In which axes the loads of a bar or beam are given: global, or own_axes() of the cell.
