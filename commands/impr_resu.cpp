@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
@@ -80,6 +82,7 @@ solver::Result chosen_steps(const Keywords& print, const solver::Result& result)
   part.bare_mesh = result.bare_mesh;
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
+    if (print.given("TOUT_CHAM") && print.text("TOUT_CHAM") == "NON") copy.fields.clear();
     if (!print.given("NOM_CHAM")) continue;
     const auto names = print.texts("NOM_CHAM");
     std::erase_if(copy.fields, [&](const auto& item) { return std::ranges::find(names, item.first) == names.end(); });
@@ -251,10 +254,30 @@ void add_views(const Keywords& print, const PrintedPart& part, std::vector<solve
   }
 }
 
-std::string gmsh_text(const Call& call) {
+// Of a whole result what the format cannot hold, fields at Gauss points, is left out; one that NOM_CHAM asks for is not.
+void leave_out_points(const Keywords& print, PrintedPart& part, interpreter::Diagnostics& diagnostics) {
+  if (!print.has("RESULTAT") || print.given("NOM_CHAM")) return;
+  std::set<std::string> left_out;
+  for (solver::ResultStep& step : part.result.steps) {
+    std::erase_if(step.fields, [&](const auto& item) {
+      const auto* on_cells = std::get_if<solver::ElementField>(&item.second);
+      const bool at_points = on_cells != nullptr && on_cells->support == solver::Support::gauss_point;
+      if (at_points) left_out.insert(item.first);
+      return at_points;
+    });
+  }
+  if (left_out.empty()) return;
+  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: Gmsh has no place for fields at Gauss points: {} of {} left out", fmt::join(left_out, ", "), part.name), print.span,
+                    "CALC_CHAMP brings them to the nodes of cells; NOM_CHAM names those that are to be written");
+}
+
+std::string gmsh_text(const Call& call, interpreter::Diagnostics& diagnostics) {
   std::vector<PrintedPart> parts;
   std::vector<solver::GmshView> views;
-  for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, false));
+  for (const Keywords& print : call.factors("RESU")) {
+    parts.push_back(part_of(print, false));
+    leave_out_points(print, parts.back(), diagnostics);
+  }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     check_same_mesh(parts, i, call);
     add_views(call.factors("RESU")[i], parts[i], views);
@@ -298,7 +321,7 @@ Product impr_resu(const Call& call, Context& context) {
     return nullptr;
   }
   if (word == "GMSH") {
-    context.write(path, gmsh_text(call));
+    context.write(path, gmsh_text(call, context.diagnostics));
     return nullptr;
   }
   for (const Keywords& print : call.factors("RESU")) context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));

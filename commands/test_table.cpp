@@ -16,6 +16,7 @@ using interpreter::DiagnosticError;
 
 TestedValue reduced(const Call& call, const Table& table, int column) {
   const std::string& type = call.text("TYPE_TEST");
+  if (call.given("VALE_CALC_K")) throw DiagnosticError("wrong-type", "TEST_TABLE: TYPE_TEST makes a number of the column", call.span_of("VALE_CALC_K"), "leave out TYPE_TEST to compare a text");
   const auto numbers = numbers_in(table, column, call);
   if (numbers.empty()) throw DiagnosticError("wrong-count", "TEST_TABLE: no row is left to reduce", call.span, "loosen FILTRE");
   if (type == "MAX") return *std::max_element(numbers.begin(), numbers.end());
@@ -35,11 +36,17 @@ TestedValue only_cell(const Call& call, const Table& all, int column) {
                           call.span_of("FILTRE"), "make FILTRE stricter or looser, or give TYPE_TEST");
   }
   const Cell& cell = table.rows.front()[static_cast<std::size_t>(column)];
+  const auto* text = std::get_if<std::string>(&cell);
+  const bool compares_text = call.given("VALE_CALC_K");
+  if (text != nullptr && compares_text) return *text;
+  if (text != nullptr) {
+    throw DiagnosticError("wrong-type", fmt::format("TEST_TABLE: the cell holds the text '{}'", *text), call.span_of("NOM_PARA"), "compare it by VALE_CALC_K");
+  }
+  if (compares_text && !std::holds_alternative<std::monostate>(cell)) {
+    throw DiagnosticError("wrong-type", "TEST_TABLE: the cell holds a number", call.span_of("VALE_CALC_K"), "compare it by VALE_CALC or VALE_CALC_I");
+  }
   if (const auto* real = std::get_if<double>(&cell)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return *integer;
-  if (const auto* text = std::get_if<std::string>(&cell); text != nullptr) {
-    throw DiagnosticError("wrong-type", fmt::format("TEST_TABLE: the cell holds the text '{}'", *text), call.span_of("NOM_PARA"));
-  }
   throw DiagnosticError("wrong-type", "TEST_TABLE: the cell is empty", call.span_of("NOM_PARA"));
 }
 
