@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "commands/commands.hpp"
 #include "commands/function_building.hpp"
@@ -69,6 +70,24 @@ void add_strains(const solver::CommandVariable& whole, const Keywords& assignmen
   }
 }
 
+// Temperatures that change through the thickness of a plate would bend it.
+void check_even_through_thickness(const solver::CommandVariable& variable, const Keywords& assignment) {
+  if (variable.variable != Parameter::temperature) return;
+  for (const char* name : {"TEMP_MIL", "TEMP_INF", "TEMP_SUP"}) {
+    for (const solver::VariableSnapshot& snapshot : variable.snapshots) {
+      const int column = component_in(*snapshot.field, name);
+      if (column < 0) continue;
+      const auto& values = solver::values_of(*snapshot.field);
+      const std::size_t width = solver::components_of(*snapshot.field).size();
+      for (std::size_t i = static_cast<std::size_t>(column); i < values.size(); i += width) {
+        if (std::isnan(values[i])) continue;
+        throw DiagnosticError("unsupported", fmt::format("AFFE_VARC: comma does not know {}, a temperature within the thickness of a plate", name),
+                              assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"), "give TEMP, the same through the thickness, and curvatures by PRE_EPSI");
+      }
+    }
+  }
+}
+
 solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
   const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
   solver::CommandVariable variable;
@@ -102,6 +121,7 @@ Product affe_materiau(const Call& call, Context&) {
   }
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     solver::CommandVariable variable = command_variable(assignment, mesh);
+    check_even_through_thickness(variable, assignment);
     if (assignment.text("NOM_VARC") == "EPSA") {
       add_strains(variable, assignment, field->variables);
     } else {
