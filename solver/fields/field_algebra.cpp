@@ -183,6 +183,23 @@ NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
   return part;
 }
 
+ElementField side_by_side(const ElementField& first, const ElementField& second) {
+  ElementField both{first.quantity, first.support, first.components, {0}, {}};
+  for (const std::string& name : second.components)
+    if (both.component(name) < 0) both.components.push_back(name);
+  for (int cell = 0; cell + 1 < static_cast<int>(first.starts.size()); ++cell) {
+    const ElementField& part = first.points(cell) > 0 ? first : second;
+    for (int point = 0; point < part.points(cell); ++point) {
+      for (const std::string& name : both.components) {
+        const int column = part.component(name);
+        both.values.push_back(column < 0 ? absent : part.at(cell, point, column));
+      }
+    }
+    both.starts.push_back(both.starts.back() + part.points(cell));
+  }
+  return both;
+}
+
 Field with_components(const Field& field, std::span<const int> components) {
   const std::size_t width = components_of(field).size();
   const auto rows = static_cast<std::size_t>(FieldRows(field).total());

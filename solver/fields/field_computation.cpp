@@ -15,6 +15,7 @@
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/loading_indicators.hpp"
 #include "solver/fields/nodal_forces.hpp"
+#include "solver/fields/plate_forces.hpp"
 #include "solver/fields/strains.hpp"
 #include "solver/fields/surface_stresses.hpp"
 #include "solver/fields/variable_fields.hpp"
@@ -42,8 +43,8 @@ std::vector<int> skin_cells(const Model& model) {
   return cells;
 }
 
-// What plates have: forces in their own axes, energies, forces on nodes. Their other fields lie in layers.
-constexpr std::array<std::string_view, 6> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+// What plates have: forces and strains in their own axes, energies, forces on nodes. Their other fields lie in layers.
+constexpr std::array<std::string_view, 8> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
 void check_plates(const Model& model, std::string_view name, std::optional<std::span<const int>> cells) {
   if (std::ranges::find(plate_fields, name) != plate_fields.end()) return;
@@ -233,7 +234,12 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
-  return generalised_strains(input(), section_forces(element_field("SIEF_ELNO", step)));
+  const ElementField forces = section_forces(element_field("SIEF_ELNO", step));
+  const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
+  if (!names_one("NXX")) return generalised_strains(input(), forces);
+  if (assembler_.imposes_strains()) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
+  const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
+  return names_one("N") ? side_by_side(generalised_strains(input(), forces), of_plates) : of_plates;
 }
 
 Field FieldComputation::section_strains_at_points(std::size_t step) {

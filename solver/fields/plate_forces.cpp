@@ -2,8 +2,10 @@
 
 #include <array>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -13,6 +15,7 @@ namespace comma::solver {
 
 namespace {
 
+constexpr std::array<std::string_view, 8> force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 constexpr std::array<std::array<std::string_view, 2>, 3> pairs = {{{"NXX", "MXX"}, {"NYY", "MYY"}, {"NXY", "MXY"}}};
 
 int column_of(const ElementField& field, std::string_view name) {
@@ -27,7 +30,77 @@ double offset_of(const Model& model, const ElementProperties& properties, int ce
   throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", model.mesh->cell_name(cell)));
 }
 
+// Command variables count by their mean over the corners.
+MaterialPoint middle_of_plate(const FieldInput& input, int cell) {
+  const auto nodes = input.model.mesh->cell(cell);
+  const std::vector<double> shares(nodes.size(), 1.0 / static_cast<double>(nodes.size()));
+  MaterialPoint at;
+  input.state.sample(cell, nodes, shares, 0, at);
+  std::array<double, 3> place{};
+  for (const int node : nodes)
+    for (std::size_t c = 0; c < 3; ++c) place[c] += input.model.mesh->nodes[static_cast<std::size_t>(node)][c] / static_cast<double>(nodes.size());
+  at.place(place);
+  return at;
+}
+
+/// An elastic plate of unit width at one place.
+struct PlateInUse {
+  PlateSection section;
+  IsotropicModuli material;
+  double expansion;
+  bool shears;
+};
+
+PlateInUse plate_in_use(const FieldInput& input, int cell) {
+  const auto section = input.properties.plates.find(cell);
+  if (section == input.properties.plates.end()) throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", input.model.mesh->cell_name(cell)));
+  const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
+  if (material == nullptr) throw Error("unsupported", fmt::format("the plate on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+  const MaterialPoint at = middle_of_plate(input, cell);
+  return {section->second, moduli(*material, at), inelastic_axial_strain(*material, at), input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
+}
+
+/// xx, yy and half the angle xy that plane forces, or moments, of a resistance 1 / compliance cause.
+Eigen::Vector3d plane_strain_of(const Eigen::Vector3d& forces, double compliance, double poisson) {
+  return compliance * Eigen::Vector3d(forces[0] - poisson * forces[1], forces[1] - poisson * forces[0], (1.0 + poisson) * forces[2]);
+}
+
+using PlateForces = Eigen::Matrix<double, 8, 1>;
+
+PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
+  const double h = plate.section.thickness, offset = plate.section.offset;
+  const Eigen::Vector3d normal = forces.head<3>();
+  const Eigen::Vector3d curvature = plane_strain_of(forces.segment<3>(3) - offset * normal, 12.0 / (plate.material.young * h * h * h), plate.material.poisson);
+  PlateForces strains = PlateForces::Zero();
+  strains.head<3>() = plane_strain_of(normal, 1.0 / (plate.material.young * h), plate.material.poisson) - offset * curvature;
+  strains.head<2>().array() += plate.expansion;
+  strains.segment<3>(3) = curvature;
+  const double shear_modulus = 0.5 * plate.material.young / (1.0 + plate.material.poisson);
+  if (plate.shears) strains.tail<2>() = forces.tail<2>() / (plate.section.shear_factor * shear_modulus * h);
+  return strains;
+}
+
 }  // namespace
+
+ElementField plate_strains(const FieldInput& input, const ElementField& forces) {
+  std::array<int, 8> columns;
+  for (std::size_t c = 0; c < 8; ++c) columns[c] = column_of(forces, force_names[c]);
+  ElementField result{"EPSI_R", forces.support, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY", "GAX", "GAY"}, {0}, {}};
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    const bool is_one = is_plate(input.model.formulations[static_cast<std::size_t>(cell)]) && !input.model.is_skin(cell);
+    const int points = is_one ? forces.points(cell) : 0;
+    result.starts.push_back(result.starts.back() + points);
+    if (points == 0) continue;
+    const PlateInUse plate = plate_in_use(input, cell);
+    for (int point = 0; point < points; ++point) {
+      PlateForces acting;
+      for (std::size_t c = 0; c < 8; ++c) acting[static_cast<Eigen::Index>(c)] = forces.at(cell, point, columns[c]);
+      const PlateForces strains = strains_of(plate, acting);
+      result.values.insert(result.values.end(), strains.begin(), strains.end());
+    }
+  }
+  return result;
+}
 
 ElementField forces_about_middle(const Model& model, const ElementProperties& properties, const ElementField& forces,
                                  std::span<const int> cells) {

@@ -1,9 +1,10 @@
-// Forces and moments of plates about their own middle (POST_CHAMP, COQU_EXCENT; U4.81.05, R3.07.06).
+// Forces and moments of plates about their own middle (POST_CHAMP, COQU_EXCENT; U4.81.05, R3.07.06), and the strains that go with them (R3.07.03).
 #pragma once
 
 #include <span>
 
 #include "solver/elements/section.hpp"
+#include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 
 namespace comma::solver {
@@ -13,5 +14,9 @@ namespace comma::solver {
 /// `not-a-plate` where none of the cells is a plate, `missing-properties` for a plate without section.
 ElementField forces_about_middle(const Model& model, const ElementProperties& properties, const ElementField& forces,
                                  std::span<const int> cells);
+
+/// DEGE_ELNO: EXX EYY EXY KXX KYY KXY GAX GAY that elastic plates have where their forces (EFGE_ELNO: NXX ... QY, moments about the surface of the mesh) are
+/// known; in own axes, about that surface, EXY and KXY being halves of angles, thermal elongation included. GAX and GAY are 0 of plates that do not shear.
+ElementField plate_strains(const FieldInput& input, const ElementField& forces);
 
 }  // namespace comma::solver
