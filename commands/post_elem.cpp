@@ -162,14 +162,35 @@ void list_masses(Table& table, const Call& call) {
 
 // --- integrals --------------------------------------------------------------------------------------------------------------
 
-void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+/// Of each cell.
+struct Integrals {
+  solver::ElementField of_field;
+  solver::ElementField of_one;
+};
+
+Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
   const solver::ElementField field = on_elements(source, model);
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
-  const solver::ElementField integrals = summed ? field : solver::integrate_cells(model, field);
-  const solver::ElementField volumes = solver::cell_volumes(model);
+  return {summed ? field : solver::integrate_cells(model, field), solver::cell_volumes(model)};
+}
+
+// What lies at nodes is known on the skin of the model too.
+Integrals integrals_over_skin(const FieldSource& source, const solver::Model& model, std::span<const int> cells) {
+  solver::NodalField one{"NEUT_R", {"VOL"}, std::vector<double>(source.mesh.nodes.size(), 1.0)};
+  return {solver::integrate_skin(model, std::get<solver::NodalField>(source.field), cells), solver::integrate_skin(model, one, cells)};
+}
+
+void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+  const Integrals inside = integrals_of(occurrence, source, model);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
     keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-    std::erase_if(part.cells, [&](int cell) { return integrals.points(cell) == 0; });
+    std::vector<int> skin;
+    std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
+    std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
+    const bool over_skin = part.cells.empty() && !skin.empty() && std::holds_alternative<solver::NodalField>(source.field);
+    const Integrals integrals = over_skin ? integrals_over_skin(source, model, skin) : inside;
+    if (over_skin) part.cells = skin;
     if (part.cells.empty()) {
       throw DiagnosticError("no-element", fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field", occurrence.text("TYPE_MAILLE"), part.name),
                             occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
@@ -177,10 +198,10 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
     Row row = source.columns;
     const Row place = place_columns(part);
     row.insert(row.end(), place.begin(), place.end());
-    const double volume = solver::sum_over_cells(volumes, 0, std::span<const int>(part.cells));
+    const double volume = solver::sum_over_cells(integrals.of_one, 0, std::span<const int>(part.cells));
     if (!summed) row.emplace_back("VOL", volume);
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
-      const double total = solver::sum_over_cells(integrals, component_of(occurrence, field.components, name), std::span<const int>(part.cells));
+      const double total = solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name), std::span<const int>(part.cells));
       row.emplace_back("INTE_" + name, total);
       if (!summed) row.emplace_back("MOYE_" + name, total / volume);
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/tensor_reader.hpp"
 
@@ -89,6 +90,29 @@ ElementField integrate_cells(const Model& model, const ElementField& field) {
         result.values[start + c] += weight * value;
       }
     }
+  }
+  return result;
+}
+
+ElementField integrate_skin(const Model& model, const NodalField& field, std::span<const int> cells) {
+  const Mesh& mesh = *model.mesh;
+  CellSamples samples;
+  std::vector<bool> chosen(static_cast<std::size_t>(mesh.cell_count()), false);
+  for (const int cell : cells) chosen[static_cast<std::size_t>(cell)] = true;
+  ElementField result{field.quantity, Support::cell, field.components, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (chosen[static_cast<std::size_t>(cell)]) {
+      const auto nodes = mesh.cell(cell);
+      const std::size_t start = result.values.size();
+      result.values.resize(start + field.components.size(), 0.0);
+      for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::skin)) {
+        const CellPoint point = locate(mesh, cell, sample);
+        const double weight = sample.weight * point.measure(dimension(mesh.cell_types[cell])) * (is_axisymmetric(model.formulations[cell]) ? point.at[0] : 1.0);
+        for (std::size_t c = 0; c < field.components.size(); ++c)
+          for (std::size_t a = 0; a < nodes.size(); ++a) result.values[start + c] += weight * sample.values[static_cast<Eigen::Index>(a)] * field.at(nodes[a], static_cast<int>(c));
+      }
+    }
+    result.starts.push_back(static_cast<int>(result.values.size() / field.components.size()));
   }
   return result;
 }

@@ -24,6 +24,9 @@ ElementField total_energy_density(const ElementField& stresses, const ElementFie
 /// from ENEL_ELGA): one value a cell and component. Volumes are those of ContinuumPoint.
 ElementField integrate_cells(const Model& model, const ElementField& field);
 
+/// The same of a field at nodes over faces or edges: areas or lengths, times r in axisymmetric models.
+ElementField integrate_skin(const Model& model, const NodalField& field, std::span<const int> cells);
+
 /// The volume of each continuum cell (component VOL).
 ElementField cell_volumes(const Model& model);
 
