@@ -44,7 +44,7 @@ std::vector<int> skin_cells(const Model& model) {
 }
 
 // What plates have: forces and strains in their own axes, energies, forces on nodes. Their other fields lie in layers.
-constexpr std::array<std::string_view, 8> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+constexpr std::array<std::string_view, 9> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
 void check_plates(const Model& model, std::string_view name, std::optional<std::span<const int>> cells) {
   if (std::ranges::find(plate_fields, name) != plate_fields.end()) return;
@@ -58,6 +58,13 @@ void check_plates(const Model& model, std::string_view name, std::optional<std::
     return;
   }
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) check(cell);
+}
+
+std::vector<int> plate_cells(const Model& model) {
+  std::vector<int> cells;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
+    if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) cells.push_back(cell);
+  return cells;
 }
 
 bool ends(std::string_view name, std::string_view place) {
@@ -330,8 +337,14 @@ Field FieldComputation::total_energy(std::size_t step) {
                               strain_before, before);
 }
 
+// The work of the forces of plates is their elastic energy, as long as nothing else strains them.
 Field FieldComputation::total_energy_of_cells(std::size_t step) {
-  return integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+  const Field continua = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+  const std::vector<int> plates = plate_cells(*problem_.model);
+  if (plates.empty()) return continua;
+  if (!assembler_.state().empty() || assembler_.imposes_strains())
+    throw Error("unsupported", "the total energy of plates is not known beside strains of command variables or of loads", "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
+  return side_by_side(on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), plates), std::get<ElementField>(continua));
 }
 
 Field FieldComputation::unloading(std::size_t step) {
