@@ -158,6 +158,10 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
     // The choice was ours and it does not pivot: the solver that does takes over.
     report = factorise_with(LinearMethod::mumps, reduced);
   }
+  if (report.verdict == FactorVerdict::singular && choose_method(reduced) == LinearMethod::mumps && solver_->method() != LinearMethod::mumps) {
+    // Of a matrix with zeros on its diagonal a method without interchanges may lose a pivot that is there.
+    report = factorise_with(LinearMethod::mumps, reduced);
+  }
   for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced); ++round) {
     report = factorise_with(solver_->method(), reduced);
   }
