@@ -48,6 +48,8 @@ constexpr double least_decrease = 1e-4;
 constexpr double least_share = 1.0 / 128.0;
 constexpr double shortest_useful_share = 1e-2;
 constexpr int most_short_steps = 3;
+/// Jumps that grow by more are those of a body that nothing holds any more.
+constexpr double most_growth = 1e6;
 
 /// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
 int direct_rows(const CondensedProblem& problem) {
@@ -223,12 +225,13 @@ class CondensedSolver {
     require_columns();
     jumps_ = balanced_jumps();
     adapt_statuses();
+    const double farthest = most_growth * scale_;
     int short_ones = 0;
     for (int iteration = 0; iteration < problem_.max_iterations && short_ones < most_short_steps; ++iteration) {
       ++iterations;
       const double before = remainder_;
       if (correct_partly() < shortest_useful_share) ++short_ones;
-      if (!std::isfinite(residual_)) return false;
+      if (!std::isfinite(residual_) || scale_ > farthest) return false;
       if (residual_ <= residual_tolerance * scale_) return true;
       if (remainder_ > 0.5 * before && is_rounding()) return true;
     }
