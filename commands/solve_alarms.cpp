@@ -170,12 +170,26 @@ void warn_of_repeated_loads(const interpreter::Call& call, Context& context) {
   }
 }
 
-void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
-  if (!problem.initial || !problem.initial->displacement || problem.initial->variables || !problem.behaviours) return;
-  const auto remembers = [](const solver::CellBehaviour& each) {
+namespace {
+
+bool has_flow(const solver::StaticProblem& problem) {
+  return problem.behaviours && std::ranges::any_of(*problem.behaviours, [](const solver::CellBehaviour& each) {
     return each.relation != solver::Relation::elastic && each.relation != solver::Relation::hyperelastic;
-  };
-  if (std::ranges::none_of(*problem.behaviours, remembers)) return;
+  });
+}
+
+}  // namespace
+
+void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  const auto strains = [](const solver::AppliedLoad& each) { return !each.load->initial_strains.empty() || !each.load->initial_slender_strains.empty(); };
+  if (!has_flow(problem) || std::ranges::none_of(problem.loads, strains)) return;
+  context.diagnostics.alarm("initial-strains",
+                            fmt::format("{}: laws that flow see strains less the initial ones (PRE_EPSI); what Code_Aster does beyond the yield point is not known", call.command),
+                            call.span, "give strains that are known beforehand as a command variable (AFFE_VARC, EPSA)");
+}
+
+void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !problem.initial->displacement || problem.initial->variables || !has_flow(problem)) return;
   context.diagnostics.alarm("no-internal-variables",
                             fmt::format("{}: ETAT_INIT gives displacements without internal variables: hardening and plastic strains begin at zero", call.command),
                             call.factor("ETAT_INIT").span, "give VARI too, or keep VARI_ELGA in the result (ARCHIVAGE, CHAM_EXCLU)");

@@ -19,6 +19,9 @@ void warn_of_repeated_loads(const interpreter::Call& call, Context& context);
 /// Alarm `no-internal-variables`: materials that remember go on from displacements without what they remembered.
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
+/// Alarm `initial-strains`: loads give initial strains to materials that remember, where what Code_Aster does with them is not known.
+void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+
 /// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive definite.
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
 

@@ -225,6 +225,7 @@ Product stat_non_line(const Call& call, Context& context) {
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
   warn_of_repeated_loads(call, context);
+  warn_of_initial_strains(call, product->problem, context);
   warn_of_lost_variables(call, product->problem, context);
   const solver::Counters before = context.counters;
   const Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
