@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "load_scene.hpp"
+#include "solver/error.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -139,6 +140,14 @@ TEST_CASE("large strains of a material that flows refuse initial ones", "[loads]
   load.initial_strains.push_back({0, strain, {}});
   assembler.impose_strains(applied(load), 0.0);
   CHECK_THROWS_WITH(assembler.external_forces(applied(load), 0.0), Catch::Contains("small strains"));
+}
+
+TEST_CASE("loads without initial strains are not asked for their size", "[loads]") {
+  const Body body(single_cell(CellType::quad4, 0.0), Formulation::plane_strain, elastic(100.0, 0.3));
+  Load load;
+  load.pressures.emplace_back().cell = 0;
+  const auto loads = applied(load, [](double) -> double { throw Error("out-of-function", "the function ends earlier"); });
+  CHECK(ImposedStrains(body.model, loads, 1.0).empty());
 }
 
 TEST_CASE("initial strains are refused where there is no such strain", "[loads]") {
