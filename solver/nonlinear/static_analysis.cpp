@@ -186,10 +186,7 @@ class StaticAnalysis {
     try {
       return solve_and_check(instant);
     } catch (const Error& error) {
-      if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports()) {
-        take_back(before);
-        return solve_from_either_side(instant, before);
-      }
+      if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports()) return solve_on_stiffer_supports(instant, before, error);
       if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
       const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
       if (!may_unload || !is_failure_of_step(error.code())) throw;
@@ -199,6 +196,17 @@ class StaticAnalysis {
     newton_.predict_with(TangentKind::elastic);
     const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
     return solve_and_check(instant);
+  }
+
+  /// Supports so weak that they cost the digits of what contact does stand aside while it is sought.
+  int solve_on_stiffer_supports(double instant, const Progress& before, const Error& failure) {
+    take_back(before);
+    try {
+      return solve_from_either_side(instant, before);
+    } catch (const Error& error) {
+      if (error.code() == "singular-matrix") throw failure;
+      throw;
+    }
   }
 
   /// With the solution of the path that was passed over, where the plan says so; nothing where that fails too.

@@ -20,6 +20,8 @@ constexpr int most_gram_digits = 15;
 /// A support whose pivot has lost more digits counts as none, where contact is to hold the body.
 constexpr int weak_support_digits = 4;
 
+bool has_pivots(LinearMethod method) { return method != LinearMethod::conjugate_gradient && method != LinearMethod::multigrid; }
+
 /// From the lower triangle of a matrix whose pattern has room for it.
 void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, SymmetricMatrix& matrix) {
   for (int column = 0; column < change.outerSize(); ++column) {
@@ -74,7 +76,7 @@ void TangentSystem::forget() {
 }
 
 bool TangentSystem::spring_weak_supports() {
-  if (!may_add_springs_ || linear_.singular_digits == weak_support_digits || !solver_ || lost_digits_ <= weak_support_digits) return false;
+  if (!may_add_springs_ || linear_.singular_digits == weak_support_digits || !solver_ || !has_pivots(solver_->method()) || lost_digits_ <= weak_support_digits) return false;
   linear_.singular_digits = weak_support_digits;
   forget();
   return true;
@@ -167,8 +169,8 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   }
   // Iterations have no pivots: what moves freely is looked for before they start.
   const int digits = linear_.singular_digits;
-  const bool has_pivots = solver_->method() != LinearMethod::conjugate_gradient && solver_->method() != LinearMethod::multigrid;
-  if (!has_pivots && !find_free_parts(*model_.mesh, dofs_, elimination_, reduced, {}, digits).empty()) {
+  const bool pivots = has_pivots(solver_->method());
+  if (!pivots && !find_free_parts(*model_.mesh, dofs_, elimination_, reduced, {}, digits).empty()) {
     report.verdict = FactorVerdict::singular;
   }
   if (report.verdict == FactorVerdict::singular) {
@@ -176,7 +178,7 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
   }
   is_indefinite_ = report.verdict == FactorVerdict::indefinite && !is_saddle_;
   if (is_indefinite_) ++counters_.indefinite_factorisations;
-  lost_digits_ = has_pivots ? report.lost_digits : std::numeric_limits<double>::digits10;
+  lost_digits_ = pivots ? report.lost_digits : std::numeric_limits<double>::digits10;
   measure_rows(reduced);
   factorised_ = true;
 }
