@@ -485,7 +485,8 @@ class CondensedSolver {
       squares += counts * left * counts * left;
     };
     for (const int row : unknown_rows_) count(std::abs(jumps_[row] - balanced[row]), 1.0);
-    const double flexibility = largest_pressure() > 0.0 ? scale_ / largest_pressure() : 0.0;
+    const double pressure = largest_pressure();
+    const double flexibility = pressure > 0.0 ? scale_ / pressure : 0.0;
     for (Index i = 0; i < law.residual.size(); ++i) {
       if (multiplier_unknowns_[i] < 0 || !(law.weight[i] > 0.0)) continue;
       const double weight = law.weight[i] + (scale_ > 0.0 ? law.share_weight[i] / scale_ : 0.0);

@@ -14,6 +14,7 @@
 #include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/model/deformed_places.hpp"
+#include "solver/nonlinear/combinations.hpp"
 #include "solver/nonlinear/critical_modes.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
@@ -54,13 +55,9 @@ class StaticAnalysis {
       tangent_.follow(followers_, !problem.contact && problem.unilateral.empty());
       newton_.follow(followers_);
     }
-    require_symmetry();
-    if (options.stability) require_modes(*options.stability, problem);
+    require_known_combination(problem, options, assembler_, !links_.empty());
     if (!links_.empty()) let_links_turn();
-    if (options.path) follow_path();
-    if (options.extrapolates_flow && (problem.contact || !problem.unilateral.empty() || options.path))
-      throw Error("unsupported", "steps that extrapolate the plastic strain go with neither contact, unilateral conditions nor path following", "take METHODE='NEWTON'");
-    if (options.extrapolates_flow) require_extrapolation();
+    if (options.path) path_ = std::make_unique<PathFollowing>(problem, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, observer);
     if (!is_mixed()) return;
     tangent_.allow_springs();
     mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
@@ -251,36 +248,11 @@ class StaticAnalysis {
     return Error(error.code(), error.what(), otherwise + error.hint());
   }
 
-  void require_symmetry() const {
-    if (assembler_.is_symmetric() || (!problem_.contact && problem_.unilateral.empty())) return;
-    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one",
-                "leave out the unsymmetric element or the conditions");
-  }
-
-  /// Continua and bars alone know how.
-  void require_extrapolation() const {
-    for (std::size_t cell = 0; problem_.behaviours && cell < problem_.behaviours->size(); ++cell) {
-      const Formulation formulation = problem_.model->formulations[cell];
-      const bool is_bar = formulation == Formulation::bar || formulation == Formulation::bar_2d;
-      if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || is_bar || (*problem_.behaviours)[cell].relation == Relation::elastic) continue;
-      throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua and bars alone", mesh_.cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
-    }
-  }
-
   void watch(const StepPlan& plan) {
-    const bool watches_residuals = plan.event(StepEventKind::divergence) || plan.event(StepEventKind::residual) || plan.further_iterations > 0.0;
-    if (path_ && (watches_residuals || options_.tangent.elastic_below > 0.0))
-      throw Error("unsupported", "where the intensity of loads is sought, residuals are not watched on the way and steps take one kind of stiffness",
-                  "leave out DIVE_RESI, RESI_MAXI, ITER_SUPPL and PAS_MINI_ELAS");
+    require_watchable(plan, problem_, options_);
     newton_.watch(residual_watch(plan));
-    require_contact_to_watch(plan);
     limit_depth(plan.event(StepEventKind::depth));
     watch_.emplace(plan, mesh_, result_.steps.back());
-  }
-
-  void require_contact_to_watch(const StepPlan& plan) const {
-    if (plan.event(StepEventKind::collision) == nullptr || problem_.contact || !problem_.unilateral.empty()) return;
-    throw Error("contradictory-keywords", "nothing here can close or open, which is watched (EVENEMENT='COLLISION')", "give CONTACT, or leave out the event");
   }
 
   void limit_depth(const StepEvent* event) {
@@ -295,13 +267,6 @@ class StaticAnalysis {
     const OnExit as_they_are([&] { assembler_.extrapolate(std::nullopt); });
     assembler_.extrapolate(last_duration_ > 0.0 ? (time - last_instant_) / last_duration_ : 0.0);
     return newton_.solve(time, external, offset, now_.conditions, 0, 0, now_.state);
-  }
-
-  void follow_path() {
-    if (problem_.contact || !problem_.unilateral.empty() || !problem_.followers.empty())
-      throw Error("unsupported", "the intensity of loads is not sought together with contact, unilateral conditions or loads that follow",
-                  "leave out PILOTAGE, or the conditions");
-    path_ = std::make_unique<PathFollowing>(problem_, dofs_, assembler_, elimination_, options_, counters_, tangent_, reference_, observer_);
   }
 
   bool is_mixed() const { return problem_.contact && is_condensed(*problem_.contact); }
@@ -331,9 +296,6 @@ class StaticAnalysis {
   }
 
   void let_links_turn() {
-    if (problem_.contact || !problem_.unilateral.empty() || options_.path || options_.stability)
-      throw Error("unsupported", "rigid bodies in large rotations go with neither contact, unilateral conditions, path following nor modes of buckling",
-                  "leave out TYPE_CHARGE='SUIV' of LIAISON_SOLIDE where rotations are small");
     newton_.relinearise({[this](double time, NewtonState& state) { return turn_links(time, state); }, [this](const Eigen::VectorXd& u) { return links_.violation(u); }});
   }
 
