@@ -10,6 +10,7 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/locking.hpp"
 
 namespace comma::commands {
@@ -181,8 +182,8 @@ bool has_flow(const solver::StaticProblem& problem) {
 }  // namespace
 
 void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
-  const auto strains = [](const solver::AppliedLoad& each) { return !each.load->initial_strains.empty() || !each.load->initial_slender_strains.empty(); };
-  if (!has_flow(problem) || std::ranges::none_of(problem.loads, strains)) return;
+  const auto gives_strains = [](const solver::AppliedLoad& each) { return solver::gives_initial_strains(*each.load); };
+  if (!has_flow(problem) || std::ranges::none_of(problem.loads, gives_strains)) return;
   context.diagnostics.alarm("initial-strains",
                             fmt::format("{}: laws that flow see strains less the initial ones (PRE_EPSI); what Code_Aster does beyond the yield point is not known", call.command),
                             call.span, "give strains that are known beforehand as a command variable (AFFE_VARC, EPSA)");

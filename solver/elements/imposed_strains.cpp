@@ -59,18 +59,14 @@ Eigen::Matrix<double, N, 1> sum(const Parts& parts, const Eigen::Vector3d& at, d
 
 }  // namespace
 
-namespace {
-
-bool gives_strains(const Load& load) {
+bool gives_initial_strains(const Load& load) {
   return !load.initial_strains.empty() || !load.initial_slender_strains.empty() || !load.initial_plate_strains.empty() || !load.initial_strain_fields.empty();
 }
-
-}  // namespace
 
 ImposedStrains::ImposedStrains(const Model& model, std::span<const AppliedLoad> loads, double time) : time_(time) {
   for (const AppliedLoad& applied : loads) {
     // A function of time that ends before this instant is nobody's business here.
-    if (!gives_strains(*applied.load)) continue;
+    if (!gives_initial_strains(*applied.load)) continue;
     const double factor = applied.multiplier ? applied.multiplier(time) : 1.0;
     for (const InitialStrain& strain : applied.load->initial_strains) {
       check_continuum(model, strain.cell);
