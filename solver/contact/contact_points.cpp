@@ -20,13 +20,14 @@ constexpr double at_node_tolerance = 1e-12;
 
 class ZonePoints {
  public:
-  ZonePoints(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time)
+  ZonePoints(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time, const FacedFacets& before)
       : zone_(definition.zones[static_cast<std::size_t>(zone)]),
         index_(zone),
         model_(model),
         mesh_(*model.mesh),
         positions_(positions),
         time_(time),
+        before_(before),
         search_(zone_, definition.smooth_normals, mesh_, positions),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()),
         merges_(zone_.normal_side == NormalSide::master || definition.smooth_normals) {}
@@ -41,7 +42,7 @@ class ZonePoints {
         points[known->second].weight += point.weight;
         continue;
       }
-      face_master(at, point);
+      face_master(at, before_.of(points.size()), point);
       if (point.node >= 0) at_nodes_.emplace(point.node, points.size());
       points.push_back(point);
     }
@@ -82,13 +83,13 @@ class ZonePoints {
   /// Of the initial face: pressures are forces over the area before deformation.
   double measure(int cell, const Eigen::Vector2d& xi) const { return initial_stretch(model_, cell, xi); }
 
-  void face_master(const FacePoint& at, ContactPoint& point) const {
+  void face_master(const FacePoint& at, FacedFacet before, ContactPoint& point) const {
     const Vector3d here = position(point);
     if (search_.too_far(here)) {
       point.status = PairingStatus::too_far;
       return;
     }
-    const auto hit = search_.nearest(here, own_nodes(point));
+    const auto hit = search_.nearest(here, own_nodes(point), before);
     if (!hit) return;
     point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
     point.facet = hit->facet;
@@ -111,6 +112,7 @@ class ZonePoints {
   const Mesh& mesh_;
   Positions positions_;
   double time_;
+  const FacedFacets& before_;
   FacetSearch search_;
   std::unordered_set<int> excluded_;
   bool merges_;
@@ -118,13 +120,13 @@ class ZonePoints {
 };
 
 /// Slave nodes as points of weight one, whose tractions are forces.
-std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
+std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time, const FacedFacets& before) {
   std::map<std::pair<int, int>, int> cells;  // of a zone's node: one of its slave faces
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone)
     for (const int cell : definition.zones[zone].slave_cells)
       for (const int node : mesh.cell(cell)) cells.emplace(std::pair(static_cast<int>(zone), node), cell);
   std::vector<ContactPoint> points;
-  for (const ContactPair& pair : pair_surfaces(definition, mesh, positions, time)) {
+  for (const ContactPair& pair : pair_surfaces(definition, mesh, positions, time, before)) {
     if (pair.status == PairingStatus::excluded) continue;
     ContactPoint point;
     point.zone = pair.zone;
@@ -162,15 +164,16 @@ double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi) 
   return is_axisymmetric(model.formulations[face]) ? radius * stretch : stretch;
 }
 
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time) {
-  if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time);
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time,
+                                         const FacedFacets& before) {
+  if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time, before);
   std::vector<ContactPoint> points;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     if (definition.zones[zone].mixed.local_average) {
       append_patch_points(definition, static_cast<int>(zone), model, positions, start, time, points);
       continue;
     }
-    ZonePoints builder(definition, static_cast<int>(zone), model, positions, time);
+    ZonePoints builder(definition, static_cast<int>(zone), model, positions, time, before);
     for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
   }
   return points;

@@ -41,8 +41,10 @@ struct ContactPoint {
 /// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
 /// Zones of local average contact have a point a patch; `start`: where the nodes were when the step began.
+/// `before`: what each faced at the last pairing, if anything is to be kept of it (averages over patches keep nothing).
 /// Throws what face_rule, projections and normals throw.
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time);
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time,
+                                         const FacedFacets& before = {});
 
 /// Initial area of a face a unit of its reference cell's; times the radius where axisymmetric.
 double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi);

@@ -65,7 +65,7 @@ bool FacetSearch::too_far(const Vector3d& point) const {
   return nearest > zone_.pairing_distance;
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own) const {
+std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own, FacedFacet faced) const {
   Hit best;
   best.projection.distance = infinitely_far;
   facets_.search(point, [&](int item) {
@@ -74,8 +74,29 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
     if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinitely_far;
     return best.projection.distance * (1.0 + search_margin) + search_margin;
   });
-  if (best.facet < 0 || is_outside(best.projection)) return std::nullopt;
+  if (faced.margin > 0.0 && faced.facet >= 0 && faced.facet != best.facet)
+    if (auto before = kept(point, faced, best.projection.distance)) return before;
+  const double slack = faced.margin > 0.0 && faced.facet >= 0 ? faced.margin : 0.0;
+  if (best.facet < 0 || is_outside(best.projection, slack)) return std::nullopt;
   return best;
+}
+
+std::optional<FacetSearch::Hit> FacetSearch::kept(const Vector3d& point, FacedFacet faced, double least_distance) const {
+  std::array<Vector3d, max_facet_nodes> points;
+  Box box;
+  const auto places = places_of(faced.facet, points, box);
+  const auto found = projected(point, mesh_.cell_types[faced.facet], places);
+  if (!found || found->outside > faced.margin || found->distance > least_distance + faced.margin * box.diagonal().norm()) return std::nullopt;
+  return Hit{faced.facet, *found};
+}
+
+std::span<const Vector3d> FacetSearch::places_of(int facet, std::array<Vector3d, max_facet_nodes>& points, Box& box) const {
+  const auto cell = mesh_.cell(facet);
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    points[i] = positions_[cell[i]];
+    box.extend(points[i]);
+  }
+  return std::span<const Vector3d>(points.data(), cell.size());
 }
 
 std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
@@ -116,11 +137,7 @@ void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int 
   if (share_a_node(own, cell)) return;
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    points[i] = positions_[cell[i]];
-    box.extend(points[i]);
-  }
-  const std::span<const Vector3d> places(points.data(), cell.size());
+  const auto places = places_of(facet, points, box);
   const auto found = projected(point, mesh_.cell_types[facet], places);
   if (!found) return;
   if (zone_.pairing_direction && best.facet >= 0 && (found->outside > 0.0) != (best.projection.outside > 0.0)) {
@@ -132,10 +149,10 @@ void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int 
   if (gain > tie || (gain >= -tie && facet < best.facet)) best = {facet, *found};
 }
 
-bool FacetSearch::is_outside(const Projection& projection) const {
+bool FacetSearch::is_outside(const Projection& projection, double margin) const {
   // A negative tolerance admits only what falls inside; the margin is the accuracy of the projection itself.
   constexpr double accuracy = 1e-9;
-  return projection.outside > std::max(0.0, zone_.projection_tolerance) + accuracy;
+  return projection.outside > std::max(0.0, zone_.projection_tolerance) + margin + accuracy;
 }
 
 Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {

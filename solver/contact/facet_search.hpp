@@ -10,6 +10,7 @@
 
 #include "solver/contact/box_tree.hpp"
 #include "solver/contact/definition.hpp"
+#include "solver/contact/faced_facets.hpp"
 #include "solver/contact/normals.hpp"
 #include "solver/contact/projection.hpp"
 #include "solver/mesh/mesh.hpp"
@@ -33,7 +34,8 @@ class FacetSearch {
   /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the orthogonal
   /// projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing direction: the nearest facet
   /// among those that a line along it meets, else the one that it passes by the closest.
-  std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own) const;
+  /// A facet that was faced before is kept within its margin, and facing any of them.
+  std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
   std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
@@ -48,8 +50,10 @@ class FacetSearch {
   std::vector<Box> facet_boxes() const;
   std::vector<Box> node_boxes() const;
   std::optional<Projection> projected(const Eigen::Vector3d& point, CellType type, std::span<const Eigen::Vector3d> places) const;
+  std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points, Box& box) const;
   void consider(const Eigen::Vector3d& point, std::span<const int> own, int facet, Hit& best) const;
-  bool is_outside(const Projection& projection) const;
+  std::optional<Hit> kept(const Eigen::Vector3d& point, FacedFacet faced, double least_distance) const;
+  bool is_outside(const Projection& projection, double margin) const;
 
   const ContactZone& zone_;
   const Mesh& mesh_;

@@ -26,7 +26,7 @@ class ZonePairing {
     slave_sizes_ = nodal_half_thickness(zone_, mesh);
   }
 
-  ContactPair pair(int slave) const {
+  ContactPair pair(int slave, FacedFacet before) const {
     ContactPair result;
     result.zone = index_;
     result.slave = slave;
@@ -35,7 +35,7 @@ class ZonePairing {
       result.status = PairingStatus::excluded;
     } else if (search_.too_far(at)) {
       result.status = PairingStatus::too_far;
-    } else if (const auto hit = place_on_master(slave)) {
+    } else if (const auto hit = place_on_master(slave, before)) {
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
@@ -49,9 +49,9 @@ class ZonePairing {
   }
 
  private:
-  std::optional<FacetSearch::Hit> place_on_master(int slave) const {
+  std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
     const std::span own(&slave, 1);
-    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own) : search_.nearest(positions_[slave], own);
+    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own) : search_.nearest(positions_[slave], own, before);
   }
 
   const ContactZone& zone_;
@@ -67,11 +67,15 @@ class ZonePairing {
 
 }  // namespace
 
-std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time) {
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time, const FacedFacets& before) {
   std::vector<ContactPair> pairs;
+  std::size_t asked = 0;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     const ZonePairing pairing(definition, static_cast<int>(zone), mesh, positions, time);
-    for (const int slave : contact_nodes(mesh, definition.zones[zone])) pairs.push_back(pairing.pair(slave));
+    for (const int slave : contact_nodes(mesh, definition.zones[zone])) {
+      pairs.push_back(pairing.pair(slave, before.of(asked)));
+      if (pairs.back().status != PairingStatus::excluded) ++asked;
+    }
   }
   return pairs;
 }

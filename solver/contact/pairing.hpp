@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include "solver/contact/definition.hpp"
+#include "solver/contact/faced_facets.hpp"
 #include "solver/contact/facet.hpp"
 #include "solver/contact/normals.hpp"
 #include "solver/mesh/mesh.hpp"
@@ -39,6 +40,8 @@ struct ContactPair {
 /// in reference coordinates, and is then brought back on its border. The pairing distance is measured to the nearest master
 /// node, as Code_Aster does: a node in the middle of a long facet is far from it. With
 /// PairingRule::node it takes the nearest master node, and the mean of the normals there. `time`: at which thicknesses are read.
-std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time = 0.0);
+/// `before`: what slave nodes faced at the last pairing, if anything is to be kept of it.
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time = 0.0,
+                                       const FacedFacets& before = {});
 
 }  // namespace comma::solver

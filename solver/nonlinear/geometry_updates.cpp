@@ -15,6 +15,13 @@ using Eigen::Vector3d;
 constexpr std::size_t cycle_length_limit = 4;
 /// Updates in which the geometry should come twice as near to rest.
 constexpr std::size_t patience = 10;
+/// After this many updates they are relaxed where the last one moves the geometry by more than half of any before, and points keep their facets within a margin: within the
+/// widest one after `updates_to_widest`, and a hundredth less in each before.
+constexpr int free_updates = 5;
+constexpr int updates_to_widest = 11;
+constexpr double widest_margin = 0.05;
+/// Of a correction of the geometry at least this share is made.
+constexpr double least_relaxation = 0.05;
 /// Displacements of a step below this share of the whole ones are rounding.
 constexpr double negligible_displacement = 1e-11;
 
@@ -51,6 +58,25 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   if (!goes_to_and_fro()) return false;
   restless_ = history_.changes.back();
   return true;
+}
+
+double GeometryUpdates::margin() const {
+  const int done = static_cast<int>(history_.changes.size());
+  if (contact_.geometry_update != GeometryUpdate::automatic || done < free_updates) return 0.0;
+  const int to_go = std::min(updates_to_widest, contact_.max_geometry_updates - 1) - done;
+  return widest_margin * std::pow(100.0, -std::max(0, to_go));
+}
+
+Eigen::VectorXd GeometryUpdates::relaxed(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+  const auto& changes = history_.changes;
+  if (contact_.geometry_update != GeometryUpdate::automatic || changes.empty()) return now;
+  Eigen::VectorXd move = now - paired;
+  const Eigen::VectorXd turn = last_move_.size() ? Eigen::VectorXd(move - last_move_) : Eigen::VectorXd();
+  const bool nears = static_cast<int>(changes.size()) < free_updates || changes.back() < 0.5 * *std::min_element(changes.begin(), changes.end() - 1);
+  if (!nears && turn.squaredNorm() > 0.0)
+    relaxation_ = std::clamp(-relaxation_ * last_move_.dot(turn) / turn.squaredNorm(), least_relaxation, 1.0);
+  last_move_ = std::move(move);
+  return relaxation_ < 1.0 ? Eigen::VectorXd(paired + relaxation_ * last_move_) : now;
 }
 
 bool GeometryUpdates::goes_to_and_fro() const {

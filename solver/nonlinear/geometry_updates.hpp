@@ -25,6 +25,13 @@ class GeometryUpdates {
   double restless() const { return restless_; }
   int restless_node() const { return worst_; }
 
+  /// By how much of its size points keep the facet that they faced when surfaces are paired next (FacedFacet): nothing at first, and more and more of it in updates that do not settle.
+  double margin() const;
+
+  /// The displacements at which surfaces are to be paired next: those of the last solution, or of updates that do not come nearer to rest the relaxed ones (Aitken's factor
+  /// of vectors: Kuettler and Wall, Computational Mechanics 43, 2008, section 3). `paired`, `now`: as settled() was given.
+  Eigen::VectorXd relaxed(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
+
   /// To be told the pairs of each geometry: facets that return after others took their place, several times over, will go on returning.
   void note_cycle(const std::vector<ContactPair>& pairs);
 
@@ -40,6 +47,8 @@ class GeometryUpdates {
 
   GeometryHistory history_;
   double restless_ = 0.0;
+  double relaxation_ = 1.0;
+  Eigen::VectorXd last_move_;  ///< of the solution from where its surfaces were paired
   int worst_ = -1;  ///< the node that moved most
   std::vector<std::vector<ContactPair>> visited_;
 };

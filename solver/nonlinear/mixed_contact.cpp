@@ -113,10 +113,13 @@ void MixedContact::number_patches(int zone) {
   }
 }
 
-void MixedContact::pair(Positions positions, double time) {
+void MixedContact::pair(Positions positions, double time, double margin) {
   const std::vector<Vector3d> start = positions_at(reference_, mesh_, dofs_);
   follows_ = largest_slide(definition_, mesh_, positions, start) > (follows_ ? short_slide : far_slide);
-  points_ = contact_points(definition_, model_, positions, follows_ ? positions : Positions(start), time);
+  FacedFacets before{{}, margin};
+  if (margin > 0.0)
+    for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
+  points_ = contact_points(definition_, model_, positions, follows_ ? positions : Positions(start), time, before);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();

@@ -47,7 +47,7 @@ class MixedContact {
   void remember() { remembered_ = {state_, started_}; }
   void restore() { std::tie(state_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
-  void pair(Positions positions, double time);
+  void pair(Positions positions, double time, double margin = 0.0);
   /// Whether places of some zone face each other as they did when the step began.
   bool is_left_behind() const;
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard

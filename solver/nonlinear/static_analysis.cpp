@@ -499,7 +499,7 @@ class StaticAnalysis {
     std::optional<GeometryUpdates> geometry;
     if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
     for (int update = 0;; ++update) {
-      if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time);
+      if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time, geometry ? &*geometry : nullptr);
       ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
       if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
@@ -550,16 +550,20 @@ class StaticAnalysis {
     return problem_.contact && std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.thickness_changes; });
   }
 
-  void pair(double time) {
+  void pair(double time, GeometryUpdates* updates) {
     now_.paired = true;
     if (!problem_.contact) return;
     const bool stays = problem_.contact->geometry_update == GeometryUpdate::none && now_.reference.size() > 0;
-    if (!stays) now_.reference = now_.state.u;
+    if (!stays) now_.reference = updates ? updates->relaxed(now_.reference, now_.state.u) : now_.state.u;
+    const double margin = updates ? updates->margin() : 0.0;
     const std::vector<Vector3d> places = positions_at(now_.reference, mesh_, dofs_);
     if (mixed_) {
-      mixed_->pair(places, time);
+      mixed_->pair(places, time, margin);
     } else {
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, places, time);
+      FacedFacets before{{}, margin};
+      for (const ContactPair& pair : now_.pairs)
+        if (pair.status != PairingStatus::excluded) before.facets.push_back(pair.facet);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, places, time, before);
       ++counters_.pairings;
     }
   }
@@ -612,7 +616,7 @@ class StaticAnalysis {
 
   /// How the surfaces stand before anything presses.
   NodalField initial_contact_state(double instant) {
-    pair(instant);
+    pair(instant, nullptr);
     now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
     resize_multipliers(now_.conditions);
     return contact_state();

@@ -24,10 +24,10 @@ struct Table {
     definition.zones.push_back(zone);
   }
 
-  std::vector<ContactPair> pair() const {
+  std::vector<ContactPair> pair(const FacedFacets& before = {}) const {
     std::vector<Vector3d> positions;
     for (const Point& p : mesh.nodes) positions.emplace_back(p[0], p[1], p[2]);
-    return pair_surfaces(definition, mesh, positions);
+    return pair_surfaces(definition, mesh, positions, 0.0, before);
   }
   ContactZone& zone() { return definition.zones.front(); }
 };
@@ -51,6 +51,20 @@ TEST_CASE("A projection outside the surface is brought back within the tolerance
   CHECK(table.pair()[1].status == PairingStatus::outside);
   table.zone().projection_tolerance = -1.0;
   CHECK(table.pair()[0].status == PairingStatus::outside);
+}
+
+TEST_CASE("Within a margin a slave node keeps the facet that it faced, and facing the surface at all") {
+  Table table({{2.02, 1, 0}, {4.54, 1, 0}});  // beside the first facet by 0.02 of a half edge; beyond the last one and its tolerance by 0.04
+  CHECK(table.pair()[0].facet == 1);
+  CHECK(table.pair({{0, 1}, 0.03})[0].facet == 0);
+  CHECK((table.pair({{0, 1}, 0.03})[0].foot - Vector3d(2, 0, 0)).norm() == 0.0);
+  CHECK(table.pair({{0, 1}, 0.01})[0].facet == 1);
+  CHECK(table.pair({{0, 1}, 0.03})[1].status == PairingStatus::outside);
+  CHECK(table.pair({{0, 1}, 0.05})[1].status == PairingStatus::paired);
+  CHECK(table.pair({{0, -1}, 0.05})[1].status == PairingStatus::outside);
+  // Those that the user leaves out are not counted.
+  table.zone().excluded_slave_nodes = {3};
+  CHECK(table.pair({{1}, 0.05})[1].status == PairingStatus::paired);
 }
 
 TEST_CASE("The pairing distance is measured to the nearest master node") {

@@ -75,6 +75,42 @@ TEST_CASE("A geometry that goes to and fro within what is tolerated is settled, 
   for (int update = 0; update < 100; ++update, hop *= 0.92) REQUIRE_FALSE(updates.settled(corner.at(1.0), corner.at(1.0 + hop)));
 }
 
+TEST_CASE("Updates that overshoot are relaxed, those that come to rest by themselves are not") {
+  MovingCorner corner;
+  corner.contact.geometry_tolerance = 1e-9;
+  corner.contact.max_geometry_updates = 100;
+  const Eigen::VectorXd start = corner.at(0.0);
+  for (const double slope : {-1.5, -4.0, 0.3}) {
+    GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+    // Paired at x, bodies go to 1 + slope x.
+    double paired = 0.0;
+    double now = 1.0;
+    int count = 1;
+    for (; !updates.settled(corner.at(paired), corner.at(now)) && count < 30; ++count) {
+      const Eigen::VectorXd next = updates.relaxed(corner.at(paired), corner.at(now));
+      if (slope > 0.0) CHECK(next == corner.at(now));
+      paired = next[corner.dofs.dof(corner.block.nodes[0][0], Component::dx)];
+      now = 1.0 + slope * paired;
+    }
+    CHECK(now == Approx(1.0 / (1.0 - slope)).epsilon(1e-8));
+    CHECK(count < (slope > 0.0 ? 20 : 10));
+  }
+}
+
+TEST_CASE("Points keep their facets within a margin that grows with updates that do not settle") {
+  MovingCorner corner;
+  corner.contact.max_geometry_updates = 10;
+  const Eigen::VectorXd start = corner.at(0.0);
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  for (int update = 0; update < 9; ++update) {
+    if (update < 5) CHECK(updates.margin() == 0.0);
+    updates.settled(corner.at(update % 2), corner.at(1 - update % 2));
+  }
+  CHECK(updates.margin() == Approx(0.05));
+  corner.contact.geometry_update = GeometryUpdate::controlled;
+  CHECK(updates.margin() == 0.0);
+}
+
 TEST_CASE("A prescribed number of updates is done, however far the geometry moves") {
   MovingCorner corner;
   corner.contact.geometry_update = GeometryUpdate::controlled;
