@@ -12,6 +12,7 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/locking.hpp"
+#include "solver/fields/variable_names.hpp"
 
 namespace comma::commands {
 
@@ -73,6 +74,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",
                           mesh.cell_name(doubt.cell), zone, doubt.length),
               "free its nodes along the normal, or take them out of the contact (SANS_GROUP_NO)"};
+    case solver::DoubtKind::kept_facet:
+      return {"kept-facet",
+              fmt::format("from one update of the geometry to the next points of zone {} hop between two facets, or off the surface, {} for one: they are left where they were, beside the facet "
+                          "that they face by up to {:.2g} of its size",
+                          zone, mesh.node_name(doubt.node), doubt.share),
+              "smooth the normals (LISSAGE='OUI'), take smaller steps or a finer master"};
     case solver::DoubtKind::restless_geometry:
       return {"restless-geometry",
               fmt::format("updates of the contact geometry move it to and fro without coming to rest, by {:.2g} of the displacement of a step at most, most at node {}: results are "
@@ -194,6 +201,22 @@ void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticP
   context.diagnostics.alarm("no-internal-variables",
                             fmt::format("{}: ETAT_INIT gives displacements without internal variables: hardening and plastic strains begin at zero", call.command),
                             call.factor("ETAT_INIT").span, "give VARI too, or keep VARI_ELGA in the result (ARCHIVAGE, CHAM_EXCLU)");
+}
+
+void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context) {
+  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return;
+  const solver::BehaviourOfCells& now = *problem.behaviours;
+  const std::vector<std::string> none = {"VIDE"};
+  for (std::size_t cell = 0; cell < std::min(before->size(), now.size()); ++cell) {
+    if ((*before)[cell] == now[cell]) continue;
+    const auto had = solver::variable_names((*before)[cell]), has = solver::variable_names(now[cell]);
+    if (had == has || had == none || has == none || had.empty() || has.empty()) continue;
+    context.diagnostics.alarm("other-variables",
+                              fmt::format("{}: the law of cell {} had the internal variables {} and now has {}: they are taken by their numbers", call.command,
+                                          problem.model->mesh->cell_name(static_cast<int>(cell)), fmt::join(had, ", "), fmt::join(has, ", ")),
+                              call.factor("ETAT_INIT").span, "go on with the same law, or give VARI that belong to the new one");
+    return;
+  }
 }
 
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context) {

@@ -95,6 +95,7 @@ class ZonePoints {
     point.facet = hit->facet;
     point.master_shape = hit->projection.weights;
     point.foot = hit->projection.foot;
+    point.kept = hit->kept;
     const bool needs_own = zone_.normal_side != NormalSide::master;
     point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
     point.thickness = thickness_at(zone_, here, point.foot, time_) + half_thickness(zone_, mesh_, point.facet, point.master_shape) +
@@ -140,6 +141,7 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
     point.master_shape = pair.weights;
     point.normal = pair.normal;
     point.foot = pair.foot;
+    point.kept = pair.kept;
     point.thickness = pair.thickness;
     points.push_back(point);
   }

@@ -32,6 +32,7 @@ struct ContactPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap
+  bool kept = false;                                   ///< see ContactPair
   std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
   double offset = 0.0;                                 ///< see shares; thicknesses count in it
   double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master

@@ -19,6 +19,7 @@ enum class DoubtKind : std::uint8_t {
   unshared_friction,  ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having been found
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
+  kept_facet,  ///< points that hopped between two facets are left on one of them
   restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
 };

@@ -78,6 +78,7 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
     if (auto before = kept(point, faced, best.projection.distance)) return before;
   const double slack = faced.margin > 0.0 && faced.facet >= 0 ? faced.margin : 0.0;
   if (best.facet < 0 || is_outside(best.projection, slack)) return std::nullopt;
+  best.kept = is_outside(best.projection, 0.0);
   return best;
 }
 
@@ -87,7 +88,7 @@ std::optional<FacetSearch::Hit> FacetSearch::kept(const Vector3d& point, FacedFa
   const auto places = places_of(faced.facet, points, box);
   const auto found = projected(point, mesh_.cell_types[faced.facet], places);
   if (!found || found->outside > faced.margin || found->distance > least_distance + faced.margin * box.diagonal().norm()) return std::nullopt;
-  return Hit{faced.facet, *found};
+  return Hit{faced.facet, *found, true};
 }
 
 std::span<const Vector3d> FacetSearch::places_of(int facet, std::array<Vector3d, max_facet_nodes>& points, Box& box) const {

@@ -26,6 +26,7 @@ class FacetSearch {
   struct Hit {
     int facet = -1;
     Projection projection;
+    bool kept = false;  ///< another facet is nearer, or it is fallen outside of by more than the zone's tolerance (see FacedFacet)
   };
 
   /// Whether no master node lies within the zone's pairing distance.

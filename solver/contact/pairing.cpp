@@ -40,6 +40,7 @@ class ZonePairing {
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
       result.foot = hit->projection.foot;
+      result.kept = hit->kept;
       const auto own = slave_normals_.find(slave);
       result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
       result.thickness = thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);

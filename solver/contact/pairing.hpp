@@ -33,6 +33,7 @@ struct ContactPair {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();    ///< the place on the facet
   double thickness = 0.0;                            ///< of both sides, taken off the gap (DIST_ESCL, DIST_MAIT)
+  bool kept = false;                                 ///< the facet is not the nearest, or no longer faced, but the one before (FacedFacet)
 };
 
 /// One entry a slave node and zone, zones in order, nodes rising: node-to-facet pairing (R5.03.50, section 3). A slave node

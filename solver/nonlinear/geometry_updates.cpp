@@ -60,8 +60,9 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   return true;
 }
 
-double GeometryUpdates::margin() const {
-  const int done = static_cast<int>(history_.changes.size());
+double GeometryUpdates::margin() const { return margin_of(static_cast<int>(history_.changes.size())); }
+
+double GeometryUpdates::margin_of(int done) const {
   if (contact_.geometry_update != GeometryUpdate::automatic || done < free_updates) return 0.0;
   const int to_go = std::min(updates_to_widest, contact_.max_geometry_updates - 1) - done;
   return widest_margin * std::pow(100.0, -std::max(0, to_go));

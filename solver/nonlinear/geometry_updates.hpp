@@ -27,6 +27,8 @@ class GeometryUpdates {
 
   /// By how much of its size points keep the facet that they faced when surfaces are paired next (FacedFacet): nothing at first, and more and more of it in updates that do not settle.
   double margin() const;
+  /// That of the last pairing.
+  double margin_used() const { return margin_of(static_cast<int>(history_.changes.size()) - 1); }
 
   /// The displacements at which surfaces are to be paired next: those of the last solution, or of updates that do not come nearer to rest the relaxed ones (Aitken's factor
   /// of vectors: Kuettler and Wall, Computational Mechanics 43, 2008, section 3). `paired`, `now`: as settled() was given.
@@ -43,6 +45,7 @@ class GeometryUpdates {
   const Mesh& mesh_;
   const DofMap& dofs_;
   const Eigen::VectorXd& start_;
+  double margin_of(int done) const;
   bool goes_to_and_fro() const;
 
   GeometryHistory history_;
