@@ -60,15 +60,14 @@ solver::Field own_field(const Keywords& occurrence, const solver::Field& source)
 }
 
 // A field that the step lacks is computed first.
-void add_own_field(const Keywords& occurrence, solver::FieldComputation& computation, solver::ResultStep& step, std::size_t index) {
+void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, solver::ResultStep& step, std::size_t index) {
   const std::string& name = occurrence.text("NOM_CHAM");
   const bool computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
   step.fields.insert_or_assign(own_name(occurrence), own_field(occurrence, computed ? computation.compute(name, index) : field_of(occurrence, step)));
 }
 
 void add_fields(const Call& call, ResultConcept& data) {
-  const solver::StaticProblem problem = problem_of_result(call, data);
-  solver::FieldComputation computation(problem, data.result);
+  FieldsOfSteps computation(call, data);
   std::optional<std::vector<int>> cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {

@@ -33,8 +33,7 @@ std::vector<Eigen::Vector3d> positions_at(const Call& call, const solver::Mesh& 
 }
 
 void add_pressures(const Call& call, ResultConcept& data) {
-  const solver::StaticProblem problem = problem_of_result(call, data);
-  solver::FieldComputation computation(problem, data.result);
+  FieldsOfSteps computation(call, data);
   const solver::Mesh& mesh = data.result.mesh();
   require_mesh(call, "MAILLAGE", call.data<MeshConcept>("MAILLAGE").mesh.get(), mesh);
   const auto cells = selected_cells(call, mesh);

@@ -72,9 +72,19 @@ struct ContactConcept : ConceptData {
 };
 
 /// A result and what CALC_CHAMP needs to go on from it; `problem` has no model when the result lies on a mesh alone.
+/// What the first steps of a result were computed from, where a later command has gone on with others (reuse=).
+struct EarlierPhase {
+  int last_order = 0;  ///< of its steps
+  solver::StaticProblem problem;
+};
+
 struct ResultConcept : ConceptData {
   solver::Result result;
-  solver::StaticProblem problem;
+  solver::StaticProblem problem;      ///< of the steps after the earlier phases
+  std::vector<EarlierPhase> earlier;  ///< in order
+
+  /// What a step was computed from.
+  const solver::StaticProblem& problem_of(const solver::ResultStep& step) const;
   std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
   std::optional<Table> modes;         ///< the eigenvalues that CRIT_STAB asked for
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "commands/behaviour_reading.hpp"
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
+#include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -38,16 +40,38 @@ solver::ResultStep& step_at(solver::Result& result, double instant, double reach
   return made;
 }
 
+// A result has one model, one material field and so on for all of its steps.
+void require_one(bool is_same, const Keywords& occurrence, const char* keyword) {
+  if (is_same) return;
+  throw DiagnosticError("one-for-all-steps", fmt::format("CREA_RESU: another {} than that of the steps before: in comma a result has one for all of its steps", keyword),
+                        occurrence.span_of(keyword), "make one result for each");
+}
+
+template <class Part>
+void take_part(const Keywords& occurrence, const char* keyword, const std::shared_ptr<Part>& part, const solver::Mesh* own, const solver::Mesh& mesh,
+               std::shared_ptr<const std::remove_const_t<Part>>& target) {
+  require_mesh(occurrence, keyword, own, mesh);
+  require_one(!target || target == part, occurrence, keyword);
+  target = part;
+}
+
 void take_support(ResultConcept& product, const Keywords& occurrence, const FieldConcept& data) {
   solver::Result& result = product.result;
+  const solver::Mesh& mesh = *data.mesh;
   if (occurrence.has("MODELE")) {
-    product.problem.model = occurrence.data<ModelConcept>("MODELE").model;
+    const auto& model = occurrence.data<ModelConcept>("MODELE").model;
+    take_part(occurrence, "MODELE", model, model->mesh.get(), mesh, product.problem.model);
   } else if (!product.problem.model) {
     product.problem.model = data.model;
   }
-  if (occurrence.has("CHAM_MATER")) product.problem.materials = occurrence.data<MaterialFieldConcept>("CHAM_MATER").field;
-  if (occurrence.has("CARA_ELEM")) product.problem.properties = occurrence.data<PropertiesConcept>("CARA_ELEM").properties;
-  if (!product.problem.properties) product.problem.properties = std::make_shared<const solver::ElementProperties>();
+  if (occurrence.has("CHAM_MATER")) {
+    const auto& materials = occurrence.data<MaterialFieldConcept>("CHAM_MATER");
+    take_part(occurrence, "CHAM_MATER", materials.field, materials.mesh.get(), mesh, product.problem.materials);
+  }
+  if (occurrence.has("CARA_ELEM")) {
+    const auto& properties = occurrence.data<PropertiesConcept>("CARA_ELEM");
+    take_part(occurrence, "CARA_ELEM", properties.properties, properties.model ? properties.model->mesh.get() : nullptr, mesh, product.problem.properties);
+  }
   if (!result.steps.empty() && &result.mesh() != data.mesh.get()) {
     throw DiagnosticError("incompatible-field", "CREA_RESU: the field lies on another mesh than those before it", occurrence.span_of("CHAM_GD"),
                           "make one result for each mesh");
@@ -69,7 +93,11 @@ std::vector<double> instants_of(const Keywords& occurrence) {
 
 // What computations on the result go on from: loads and behaviour.
 void take_state(ResultConcept& product, const Keywords& occurrence) {
-  if (occurrence.has("EXCIT")) take_loads(occurrence, product.problem);
+  if (occurrence.has("EXCIT")) {
+    const auto before = product.problem.loads;
+    take_loads(occurrence, product.problem);
+    require_one(before.empty() || std::ranges::equal(before, product.problem.loads, {}, &solver::AppliedLoad::load, &solver::AppliedLoad::load), occurrence, "EXCIT");
+  }
   if (!occurrence.has("COMPORTEMENT")) return;
   if (!product.problem.model) {
     throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model", occurrence.span_of("COMPORTEMENT"), "give MODELE");
@@ -118,6 +146,7 @@ Product crea_resu(const Call& call, Context&) {
   int order = product->result.steps.empty() ? 1 : product->result.steps.front().order;
   for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, occurrence);
   for (solver::ResultStep& step : product->result.steps) step.order = order++;
+  if (!product->problem.properties) product->problem.properties = std::make_shared<const solver::ElementProperties>();
   if (!call.reuse) return product;
   call.result->data = product;
   return nullptr;

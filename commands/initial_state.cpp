@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "commands/result_reading.hpp"
+#include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
 
@@ -59,19 +60,28 @@ void bring_to_points(const interpreter::Call& call, std::optional<solver::Elemen
   field = solver::brought_to(*call.data<ModelConcept>("MODELE").model, *field, solver::Support::gauss_point, false);
 }
 
+void require_same_mesh(const Keywords& keywords, const solver::Mesh& mesh) {
+  if (keywords.has("EVOL_NOLI")) require_mesh(keywords, "EVOL_NOLI", &keywords.data<ResultConcept>("EVOL_NOLI").result.mesh(), mesh);
+  for (const char* field : {"DEPL", "SIGM", "VARI"})
+    if (keywords.has(field)) require_mesh(keywords, field, keywords.data<FieldConcept>(field).mesh.get(), mesh);
+}
+
 }  // namespace
 
 InitialStateChoice initial_state(const interpreter::Call& call) {
   InitialStateChoice choice;
   if (!call.has("ETAT_INIT")) return choice;
   const Keywords& keywords = call.factor("ETAT_INIT");
+  require_same_mesh(keywords, *call.data<ModelConcept>("MODELE").model->mesh);
   auto state = std::make_shared<solver::InitialState>();
   if (keywords.has("EVOL_NOLI")) {
     const solver::ResultStep& step = step_of(keywords);
     take_held(step, "DEPL", state->displacement);
     take_held(step, "SIEF_ELGA", state->stresses);
     take_held(step, "VARI_ELGA", state->variables);
-    state->loads = keywords.data<ResultConcept>("EVOL_NOLI").problem.loads;
+    const solver::StaticProblem& problem = keywords.data<ResultConcept>("EVOL_NOLI").problem_of(step);
+    state->loads = problem.loads;
+    choice.behaviours = problem.behaviours;
     take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
     choice.instant = step.instant;
     choice.order = step.order;

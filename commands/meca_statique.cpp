@@ -39,10 +39,9 @@ std::vector<double> new_instants(std::vector<double> instants, const solver::Res
 }  // namespace
 
 Product meca_statique(const Call& call, Context& context) {
-  auto product = std::make_shared<ResultConcept>();
+  auto product = call.reuse ? to_go_on_with(call) : std::make_shared<ResultConcept>();
   product->problem = static_problem(call);
   product->result.model = product->problem.model;
-  if (call.reuse) product->result.steps = call.data<ResultConcept>("RESULTAT").result.steps;
   const SolverChoice choice = solver_choice(call);
   const solver::LinearStaticOptions options = {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
   context.console.progress(fmt::format("MECA_STATIQUE {}", call.result->name));

@@ -9,6 +9,7 @@
 #include "commands/field_types.hpp"
 #include "commands/parts_of_model.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/energies.hpp"
@@ -32,6 +33,10 @@ using interpreter::DiagnosticError;
 ResultConcept energy_source(const Call& call) {
   if (call.has("RESULTAT")) return call.data<ResultConcept>("RESULTAT");
   const FieldConcept& data = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
+  if (!std::holds_alternative<solver::NodalField>(data.field)) {
+    throw DiagnosticError("wrong-type", "POST_ELEM: energies are those of displacements, a field at nodes", call.span_of("CHAM_GD"), "give a field DEPL, or RESULTAT");
+  }
+  if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), *data.mesh);
   ResultConcept source;
   source.problem.model = data.model;
   source.problem.properties = std::make_shared<const solver::ElementProperties>();
@@ -44,8 +49,7 @@ ResultConcept energy_source(const Call& call) {
 // Totals over parts, and what percentage of the whole model's energy each has.
 void list_energies(Table& table, const Call& call, const char* keyword, const char* field) {
   const ResultConcept source = energy_source(call);
-  const solver::StaticProblem problem = problem_of_result(call, source);
-  solver::FieldComputation computation(problem, source.result);
+  FieldsOfSteps computation(call, source);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
@@ -78,13 +82,13 @@ std::string name_of_whole(const Call& call) {
 // Means over the volume of each part.
 void list_indicators(Table& table, const Call& call, const std::string& keyword) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
-  const solver::StaticProblem problem = problem_of_result(call, source);
-  solver::FieldComputation computation(problem, source.result);
-  const solver::ElementField volumes = solver::cell_volumes(*problem.model);
+  FieldsOfSteps computation(call, source);
+  const solver::Model& model = *computation.problem().model;
+  const solver::ElementField volumes = solver::cell_volumes(model);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto densities = std::get<solver::ElementField>(computation.compute(keyword + "_ELGA", index));
-    const solver::ElementField integrals = solver::integrate_cells(*problem.model, densities);
+    const solver::ElementField integrals = solver::integrate_cells(model, densities);
     for (const Keywords& occurrence : call.factors(keyword)) {
       for (const Part& part : parts_of(call, occurrence, source.result.mesh())) {
         const std::span<const int> cells(part.cells);
@@ -171,6 +175,11 @@ struct Integrals {
 Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
   const solver::ElementField field = on_elements(source, model);
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+  const auto* on_cells = std::get_if<solver::ElementField>(&source.field);
+  if (summed && (on_cells == nullptr || on_cells->support != solver::Support::cell)) {
+    throw DiagnosticError("wrong-type", "POST_ELEM: what is integrated already has one value a cell, and this field has others", occurrence.span_of("DEJA_INTEGRE"),
+                          "leave out DEJA_INTEGRE");
+  }
   return {summed ? field : solver::integrate_cells(model, field), solver::cell_volumes(model)};
 }
 

@@ -126,8 +126,10 @@ solver::StaticProblem static_problem(const Call& call) {
   return problem;
 }
 
-solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source) {
-  solver::StaticProblem problem = source.problem;
+namespace {
+
+// The problem of a phase, but for what the call gives in its place.
+solver::StaticProblem completed(const Call& call, const ResultConcept& source, solver::StaticProblem problem) {
   if (call.has("MODELE")) {
     problem.model = call.data<ModelConcept>("MODELE").model;
     if (source.result.model || source.result.bare_mesh) require_mesh(call, "MODELE", problem.model->mesh.get(), source.result.mesh());
@@ -140,6 +142,37 @@ solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& s
   const char* missing = problem.model ? "CHAM_MATER" : "MODELE";
   throw interpreter::DiagnosticError("missing-keyword", call.command + ": it is not known which " + (problem.model ? "materials" : "model") + " is meant",
                                      call.span, std::string("give ") + missing);
+}
+
+}  // namespace
+
+solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source) { return completed(call, source, source.problem); }
+
+std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int> last_order) {
+  auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
+  auto& steps = product->result.steps;
+  if (last_order) std::erase_if(steps, [&](const solver::ResultStep& step) { return step.order > *last_order; });
+  if (steps.empty()) return product;
+  const int last = steps.back().order;
+  std::erase_if(product->earlier, [&](const EarlierPhase& phase) { return phase.last_order > last; });
+  if (product->earlier.empty() || product->earlier.back().last_order < last) product->earlier.push_back({last, product->problem_of(steps.back())});
+  return product;
+}
+
+FieldsOfSteps::FieldsOfSteps(const Call& call, const ResultConcept& source) : source_(source) {
+  const auto& steps = source.result.steps;
+  for (const EarlierPhase& phase : source.earlier) {
+    const auto after = std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order > phase.last_order; });
+    phases_.push_back({static_cast<std::size_t>(after - steps.begin()), completed(call, source, phase.problem), nullptr});
+  }
+  phases_.push_back({steps.size(), completed(call, source, source.problem), nullptr});
+}
+
+solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells) {
+  const auto phase = std::ranges::find_if(phases_, [&](const Phase& each) { return step < each.end; });
+  Phase& own = phase == phases_.end() ? phases_.back() : *phase;
+  if (!own.computation) own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result);
+  return own.computation->compute(name, step, cells);
 }
 
 SolverChoice solver_choice(const Call& call) {

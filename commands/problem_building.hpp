@@ -2,10 +2,15 @@
 // linear solver.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "commands/concepts.hpp"
 #include "interpreter/call.hpp"
+#include "solver/fields/field_computation.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
@@ -17,9 +22,33 @@ solver::StaticProblem static_problem(const interpreter::Call& call);
 /// The loads of EXCIT, in place of those of the problem.
 void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& problem);
 
-/// The problem that a result was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws DiagnosticError
+/// The problem that a result (its last phase) was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws DiagnosticError
 /// `missing-keyword` where neither gives a model or materials.
 solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source);
+
+/// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept as an earlier phase.
+std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});
+
+/// Fields of a result's steps, each computed from what its step was computed from, as problem_of_result() has it. Keeps references to its arguments.
+class FieldsOfSteps {
+ public:
+  /// Throws what problem_of_result() does.
+  FieldsOfSteps(const interpreter::Call& call, const ResultConcept& source);
+
+  const solver::StaticProblem& problem() const { return phases_.back().problem; }
+  /// See FieldComputation.
+  solver::Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+
+ private:
+  struct Phase {
+    std::size_t end;  ///< the number of the first step after it
+    solver::StaticProblem problem;
+    std::unique_ptr<solver::FieldComputation> computation;
+  };
+
+  const ResultConcept& source_;
+  std::vector<Phase> phases_;
+};
 
 struct SolverChoice {
   std::optional<solver::LinearMethod> method;  ///< empty: the file does not say, comma takes the fastest that is safe

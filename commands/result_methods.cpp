@@ -1,4 +1,5 @@
 // What a command file may ask a result for (U1.03.02).
+#include <algorithm>
 #include <functional>
 
 #include "commands/concepts.hpp"
@@ -66,6 +67,11 @@ std::shared_ptr<Dict> fields(const solver::Result& result) {
 }
 
 }  // namespace
+
+const solver::StaticProblem& ResultConcept::problem_of(const solver::ResultStep& step) const {
+  const auto phase = std::ranges::find_if(earlier, [&](const EarlierPhase& each) { return step.order <= each.last_order; });
+  return phase == earlier.end() ? problem : phase->problem;
+}
 
 Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (name == "getTable") {

@@ -119,13 +119,14 @@ solver::LineSearch line_search(const Call& call) {
   return options;
 }
 
-void read_newton(const Keywords& newton, solver::NewtonOptions& options) {
+void read_newton(const Keywords& newton, const solver::Mesh& mesh, solver::NewtonOptions& options) {
   options.tangent = tangent_policy(newton);
   if (!newton.has("PREDICTION")) return;
   if (newton.text("PREDICTION") == "EXTRAPOLE") options.guess = solver::StepGuess::extrapolate;
   if (newton.text("PREDICTION") != "DEPL_CALCULE") return;
   const auto& handle = newton.concept_of("EVOL_NOLI");
   const auto& guessed = interpreter::data_of<ResultConcept>(handle, "EVOL_NOLI");
+  require_mesh(newton, "EVOL_NOLI", &guessed.result.mesh(), mesh);
   options.guessed = std::shared_ptr<const solver::Result>(handle->data, &guessed.result);
 }
 
@@ -150,7 +151,7 @@ void read_reference(const Keywords& convergence, solver::NewtonOptions& options)
 
 solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh) {
   solver::NewtonOptions options;
-  if (call.has("NEWTON")) read_newton(call.factor("NEWTON"), options);
+  if (call.has("NEWTON")) read_newton(call.factor("NEWTON"), mesh, options);
   options.extrapolates_flow = call.text("METHODE") == "IMPLEX";
   if (call.has("PILOTAGE")) options.path = path_control(call, mesh);
   if (call.has("RECH_LINEAIRE")) options.line_search = line_search(call);
@@ -180,9 +181,7 @@ std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateCho
     throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from an initial state", call.span,
                           "give ETAT_INIT=_F(EVOL_NOLI=" + call.result->name + ")");
   }
-  auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
-  if (initial.order) std::erase_if(product->result.steps, [&](const solver::ResultStep& step) { return step.order > *initial.order; });
-  return product;
+  return to_go_on_with(call, initial.order);
 }
 
 // Whether all steps converge or not.
@@ -227,11 +226,13 @@ Product stat_non_line(const Call& call, Context& context) {
   warn_of_repeated_loads(call, context);
   warn_of_initial_strains(call, product->problem, context);
   warn_of_lost_variables(call, product->problem, context);
+  warn_of_other_laws(call, initial.behaviours.get(), product->problem, context);
   const solver::Counters before = context.counters;
   const Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
-  const auto after_step = [&, number = 0](solver::Result& result) mutable {
+  // What goes on with steps that are there has no initial one.
+  const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
     if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
     ++number;
     archive.update(result);

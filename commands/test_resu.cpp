@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
@@ -117,18 +119,33 @@ int local_point(const Keywords& test, const ElementField& field, int cell, const
   return static_cast<int>(found - nodes.begin());
 }
 
+// Which points of cells a test over values (TYPE_TEST) takes in: all, or those of POINT, or at the nodes that it names.
+std::function<bool(int cell, int point)> points_tested(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
+  if (test.given("POINT")) return [wanted = test.integer("POINT")](int, int point) { return point + 1 == wanted; };
+  const std::string keyword = place_keyword(test, node_places);
+  if (!test.given(keyword)) return [](int, int) { return true; };
+  if (field.support != solver::Support::element_node) {
+    throw DiagnosticError("unknown-node", "the field has no values at nodes", test.span_of(keyword), "name cells, or a field at the nodes of elements (..._ELNO)");
+  }
+  const auto nodes = selected_nodes(test, mesh, node_places);
+  const std::set<int> wanted(nodes.begin(), nodes.end());
+  return [wanted, &mesh](int cell, int point) { return wanted.contains(mesh.cell(cell)[static_cast<std::size_t>(point)]); };
+}
+
 double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
   check_subpoint(test);
   const auto components = components_tested(test, field.components);
   auto cells = selected_cells(test, mesh, cell_places);
   if (test.given("TYPE_TEST")) {
-    if (cells.empty()) {
+    if (cells.empty() && !names_a_place(test, cell_places)) {
       cells.resize(static_cast<std::size_t>(mesh.cell_count()));
       std::iota(cells.begin(), cells.end(), 0);
     }
     Values values;
+    const auto is_tested = points_tested(test, field, mesh);
     for (const int cell : cells) {
       for (int point = 0; point < field.points(cell); ++point) {
+        if (!is_tested(cell, point)) continue;
         for (const int component : components) {
           if (const double value = field.at(cell, point, component); !std::isnan(value)) values.push_back(value);
         }
@@ -149,9 +166,11 @@ double field_value(const Keywords& test, const solver::Field& field, const solve
   return element_value(test, std::get<ElementField>(field), mesh);
 }
 
-// Fields and parameters hold reals; one that is tested as an integer is one.
+// Fields and parameters hold reals; one that is tested as an integer is one, unless it is none.
 TestedValue as_reference(const Keywords& test, double value) {
-  if (test.given("VALE_CALC_I") || test.given("VALE_REFE_I")) return static_cast<std::int64_t>(std::llround(value));
+  constexpr double rounding = 1e-9;
+  const bool is_integer = std::abs(value - std::round(value)) <= rounding * std::max(1.0, std::abs(value));
+  if (is_integer && (test.given("VALE_CALC_I") || test.given("VALE_REFE_I"))) return static_cast<std::int64_t>(std::llround(value));
   return value;
 }
 
@@ -190,10 +209,11 @@ void report(const Keywords& test, const std::string& label, const TestedValue& v
 // The multipliers of AFFE_CHAR_MECA stand among the values of DEPL: a test of all of them at once takes them in (ssnp140a).
 Values multipliers_in(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
   if (!test.given("TYPE_TEST") || test.given("NOM_CMP") || names_a_place(test) || test.text("NOM_CHAM") != "DEPL") return {};
-  if (!data.problem.model || !data.problem.materials) return {};
-  solver::FieldComputation computation(data.problem, data.result);
+  const solver::StaticProblem& problem = data.problem_of(step);
+  if (!problem.model || !problem.materials) return {};
+  solver::FieldComputation computation(problem, data.result);
   const solver::Field reactions = computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
-  return solver::relation_multipliers(solver::DofMap(*data.problem.model), data.problem.loads, std::get<NodalField>(reactions));
+  return solver::relation_multipliers(solver::DofMap(*problem.model), problem.loads, std::get<NodalField>(reactions));
 }
 
 TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
