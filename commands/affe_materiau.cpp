@@ -22,12 +22,13 @@ struct VariableName {
   const char* name;
   Parameter variable;
   const char* field;
+  const char* component;  ///< of the field; EPSA has several
 };
 
 constexpr VariableName variables[] = {
-    {"TEMP", Parameter::temperature, "TEMP"}, {"SECH", Parameter::drying, "TEMP"},     {"HYDR", Parameter::hydration, "HYDR_ELNO"},
-    {"NEUT1", Parameter::neutral_1, "NEUT"},  {"NEUT2", Parameter::neutral_2, "NEUT"}, {"NEUT3", Parameter::neutral_3, "NEUT"},
-    {"EPSA", Parameter::strain_xx, "EPSA_ELNO"}};
+    {"TEMP", Parameter::temperature, "TEMP", "TEMP"}, {"SECH", Parameter::drying, "TEMP", "TEMP"},    {"HYDR", Parameter::hydration, "HYDR_ELNO", "HYDR"},
+    {"NEUT1", Parameter::neutral_1, "NEUT", "X1"},    {"NEUT2", Parameter::neutral_2, "NEUT", "X1"},  {"NEUT3", Parameter::neutral_3, "NEUT", "X1"},
+    {"EPSA", Parameter::strain_xx, "EPSA_ELNO", nullptr}};
 
 std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
   std::vector<solver::VariableSnapshot> found;
@@ -88,6 +89,19 @@ void check_even_through_thickness(const solver::CommandVariable& variable, const
   }
 }
 
+// Leaves of each field the component that is the variable, by its name or that which its quantity has.
+void keep_component(const char* name, const Keywords& assignment, solver::CommandVariable& variable) {
+  for (solver::VariableSnapshot& snapshot : variable.snapshots) {
+    const int own = component_in(*snapshot.field, assignment.text("NOM_VARC").c_str());
+    const int component = own >= 0 ? own : component_in(*snapshot.field, name);
+    if (component < 0) {
+      throw DiagnosticError("unknown-component", fmt::format("AFFE_VARC: a field of {} has {}, and this one has not", assignment.text("NOM_VARC"), name),
+                            assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"), fmt::format("it has {}", fmt::join(solver::components_of(*snapshot.field), ", ")));
+    }
+    if (solver::components_of(*snapshot.field).size() > 1) snapshot.field = std::make_shared<const solver::Field>(solver::with_components(*snapshot.field, {&component, 1}));
+  }
+}
+
 solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
   const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
   solver::CommandVariable variable;
@@ -122,6 +136,8 @@ Product affe_materiau(const Call& call, Context&) {
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     solver::CommandVariable variable = command_variable(assignment, mesh);
     check_even_through_thickness(variable, assignment);
+    const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
+    if (name->component != nullptr) keep_component(name->component, assignment, variable);
     if (assignment.text("NOM_VARC") == "EPSA") {
       add_strains(variable, assignment, field->variables);
     } else {

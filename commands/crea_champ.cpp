@@ -8,6 +8,7 @@
 #include "commands/field_types.hpp"
 #include "commands/input_field_reading.hpp"
 #include "commands/result_reading.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/normals.hpp"
@@ -214,7 +215,10 @@ FieldPtr brought(const Call& call, const FieldType& type) {
   const FieldConcept& from = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
   auto product = std::make_shared<FieldConcept>();
   take_support(*product, from);
-  if (call.has("MODELE")) product->model = call.data<ModelConcept>("MODELE").model;
+  if (call.has("MODELE")) {
+    product->model = call.data<ModelConcept>("MODELE").model;
+    require_mesh(call, "MODELE", product->model->mesh.get(), *product->mesh);
+  }
   try {
     if (type.place == FieldPlace::node) {
       product->field = solver::brought_to_nodes(*product->mesh, product->model.get(), from.field);

@@ -35,6 +35,10 @@ void add_list(Table& table, const Keywords& list) {
   const int column = table.add_column(name);
   const auto cells = cells_of(list);
   const auto rows = list.integers("NUME_LIGN");
+  constexpr std::int64_t most_rows = 1'000'000;
+  if (!rows.empty() && *std::ranges::max_element(rows) > most_rows) {
+    throw DiagnosticError("out-of-bounds", fmt::format("CREA_TABLE: a table has {} rows at most", most_rows), list.span_of("NUME_LIGN"));
+  }
   if (!rows.empty() && rows.size() != cells.size()) {
     throw DiagnosticError("wrong-count", fmt::format("CREA_TABLE: {} rows stand against {} values", rows.size(), cells.size()),
                           list.span_of("NUME_LIGN"));

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "commands/commands.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/half_thickness.hpp"
@@ -76,7 +77,9 @@ void take_half_thickness(const Keywords& keywords, const solver::Model& model, s
   if (!keywords.given("CARA_ELEM")) {
     throw DiagnosticError("missing-keyword", std::string("DEFI_CONTACT: ") + keyword + " needs to know the sections", keywords.span_of(keyword), "give CARA_ELEM");
   }
-  const auto& properties = *keywords.data<PropertiesConcept>("CARA_ELEM").properties;
+  const auto& given = keywords.data<PropertiesConcept>("CARA_ELEM");
+  if (given.model) require_mesh(keywords, "CARA_ELEM", given.model->mesh.get(), *model.mesh);
+  const auto& properties = *given.properties;
   for (const auto* cells : {&zone.master_cells, &zone.slave_cells}) {
     if (beams) zone.half_thickness.merge(solver::beam_radii(model, properties, *cells));
     if (plates) zone.half_thickness.merge(solver::plate_half_thicknesses(model, properties, *cells));
@@ -315,6 +318,9 @@ Product defi_contact(const Call& call, Context&) {
   product->model = call.data<ModelConcept>("MODELE").model;
   const solver::Model& model = *product->model;
   if (call.text("FORMULATION") == "LIAISON_UNIL") {
+    if (call.text("FROTTEMENT") == "COULOMB") {
+      throw DiagnosticError("excluded-keyword", "DEFI_CONTACT: unilateral conditions know no friction", call.span_of("FROTTEMENT"), "take FORMULATION='DISCRETE' or 'CONTINUE'");
+    }
     std::vector<solver::UnilateralCondition> conditions;
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));
     product->conditions = std::move(conditions);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/parts_of_model.hpp"
+#include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/energies.hpp"
@@ -115,6 +116,7 @@ void list_norms(Table& table, const Call& call) {
   for (const Keywords& occurrence : call.factors("NORME")) {
     for (const FieldSource& source : field_sources(occurrence)) {
       if (source.model == nullptr && !call.has("MODELE")) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
+      if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), source.mesh);
       add_norms(table, call, occurrence, source, call.has("MODELE") ? *call.data<ModelConcept>("MODELE").model : *source.model);
     }
   }

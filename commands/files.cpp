@@ -1,5 +1,6 @@
 #include "commands/files.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
@@ -86,12 +87,22 @@ fs::path Files::included(const std::string& name, const interpreter::Span& where
   throw interpreter::DiagnosticError("missing-file", "there is no file " + name + " beside the command file", where);
 }
 
+bool Files::is_read(const fs::path& path) const {
+  std::error_code absent;
+  const auto same = [&](const fs::path& other) { return fs::equivalent(path, other, absent); };
+  return std::ranges::any_of(units_, [&](const auto& entry) { return same(entry.first); }) ||
+         std::ranges::any_of(exported_, [&](const ExportFile& file) { return file.input && same(file.path); });
+}
+
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.output) return file.path;
   }
-  const std::string middle = unit == default_unit ? "." : "." + std::to_string(unit) + ".";
-  return output_folder_ / (command_file_.stem().string() + middle + extension);
+  const auto named = [&](const std::string& middle) { return output_folder_ / (command_file_.stem().string() + middle + extension); };
+  const std::string numbered = "." + std::to_string(unit) + ".";
+  if (unit != default_unit) return named(numbered);
+  const fs::path plain = named(".");
+  return is_read(plain) ? named(numbered) : plain;
 }
 
 }  // namespace comma::commands

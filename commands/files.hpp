@@ -40,10 +40,11 @@ class Files {
   std::filesystem::path included(const std::string& name, const interpreter::Span& where) const;
 
   /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,
-  /// `<stem>.<unit>.<extension>` for another.
+  /// `<stem>.<unit>.<extension>` for another, or where the file has been read.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
  private:
+  bool is_read(const std::filesystem::path& path) const;
   std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;
 
   std::filesystem::path command_file_;

@@ -11,6 +11,7 @@
 #include "commands/concepts.hpp"
 #include "commands/functions.hpp"
 #include "commands/load_building.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/slender_forces.hpp"
@@ -281,6 +282,9 @@ Amount component_of_turning(const std::array<Amount, 3>& given, const std::vecto
   return {0.0, [given, angles, component](const solver::Point& at, double time) { return component_of_turned(given, axes_at(angles, at, time).col(component)).at(at, time); }};
 }
 
+/// Cosines of angles are known to this.
+constexpr double rounding_of_axes = 1e-12;
+
 void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, const LoadedModel& target, NodeForces& forces) {
   const std::vector<Amount> angles = angles_of(force);
   for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
@@ -294,8 +298,14 @@ void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, con
     for (std::size_t i = 0; i < 3; ++i) {
       const auto component = force_keywords[first + i].component;
       const Amount amount = component_of_turning(given, angles, static_cast<Eigen::Index>(i));
-      for (const int node : nodes) {
-        if (target.dofs.dof(node, component) >= 0) forces[{node, component}] = amount;
+      const auto carried = [&](int node) { return target.dofs.dof(node, component) >= 0; };
+      for (const int node : nodes)
+        if (carried(node)) forces[{node, component}] = amount;
+      const double largest = std::max({std::abs(given[0].value), std::abs(given[1].value), std::abs(given[2].value)});
+      if (std::abs(amount.value) > rounding_of_axes * largest && std::ranges::none_of(nodes, carried)) {
+        throw DiagnosticError("unknown-component",
+                              fmt::format("FORCE_NODALE: turned by ANGL_NAUT the force has {:.3g} along {}, which none of these nodes carries", amount.value, solver::name_of(component)),
+                              force.span, "the elements of the model around them have no such component");
       }
     }
   }
@@ -325,6 +335,7 @@ void add_force_vector(const Keywords& call, const LoadedModel& target, solver::L
   if (field == nullptr) {
     throw DiagnosticError("wrong-concept-type", "VECT_ASSE wants a field on nodes", call.span_of("VECT_ASSE"));
   }
+  require_mesh(call, "VECT_ASSE", call.data<FieldConcept>("VECT_ASSE").mesh.get(), target.mesh);
   for (std::size_t c = 0; c < field->components.size(); ++c) {
     const auto component = component_named(call, "VECT_ASSE", field->components[c]);
     for (int node = 0; node < target.mesh.node_count(); ++node) {

@@ -61,6 +61,15 @@ double weight(solver::Scale scale, double lower, double upper, double at) {
   return std::log(at / lower) / std::log(upper / lower);
 }
 
+/// The value at a share of the way from one value to the next, on their scale.
+double between(solver::Scale scale, double low, double high, double share) {
+  if (scale == solver::Scale::linear) return low + share * (high - low);
+  if (!(low > 0.0 && high > 0.0)) {
+    throw solver::Error("out-of-function", fmt::format("values are interpolated on a logarithmic scale between {} and {}, which are not both positive", low, high));
+  }
+  return low * std::pow(high / low, share);
+}
+
 }  // namespace
 
 Value list_of(std::span<const double> values) { return Value::list(std::vector<Value>(values.begin(), values.end())); }
@@ -138,7 +147,7 @@ double SurfaceConcept::evaluate(std::span<const double> at) const {
   if (share == 0.0) return (*rows_[upper - 1])(at[1]);
   if (share == 1.0) return (*rows_[upper])(at[1]);
   const double low = (*rows_[upper - 1])(at[1]), high = (*rows_[upper])(at[1]);
-  return low + share * (high - low);
+  return between(edges_.y_scale, low, high, share);
 }
 
 solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {

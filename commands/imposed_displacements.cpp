@@ -69,15 +69,32 @@ void impose_holds(const Keywords& keywords, const std::vector<int>& nodes, const
   if (holds("ROTATION")) hold(nodes, rotations, target, origin, load);
 }
 
-// Imposes the motion along a direction of each node.
+// Imposes the motion that `keyword` names along a direction of each node. Nodes of no element are passed over, unless they all are.
 template <class Direction>
-void impose_along(const std::vector<int>& nodes, Motion motion, const Amount& amount, const solver::Origin& origin, solver::Load& load,
+void impose_along(const Keywords& keywords, const char* keyword, const std::vector<int>& nodes, Motion motion, const solver::Origin& origin, solver::Load& load,
                   const LoadedModel& target, Direction direction) {
+  constexpr double rounding_of_direction = 1e-9;
+  const Amount amount = amount_of(keywords, keyword);
+  bool any = false;
   for (const int node : nodes) {
     auto relation = solver::along(node, motion, direction(node), amount.value, amount.function, origin);
-    std::erase_if(relation.terms, [&](const auto& term) { return target.dofs.dof(term.node, term.component) < 0; });
-    if (!relation.terms.empty()) load.relations.push_back(std::move(relation));
+    double missing = 0.0;
+    std::erase_if(relation.terms, [&](const auto& term) {
+      const bool lacks = target.dofs.dof(term.node, term.component) < 0;
+      if (lacks) missing = std::max(missing, std::abs(term.coefficient));
+      return lacks;
+    });
+    if (relation.terms.empty()) continue;
+    if (missing > rounding_of_direction) {
+      throw DiagnosticError("unknown-component", fmt::format("{}: its direction at {} leads out of what the node can do", keyword, target.mesh.node_name(node)),
+                            keywords.at(keyword).name_span, "give a direction in the plane of a plane model");
+    }
+    any = true;
+    load.relations.push_back(std::move(relation));
   }
+  if (any || nodes.empty()) return;
+  throw DiagnosticError("unknown-component", fmt::format("{}: none of these nodes moves that way", keyword), keywords.at(keyword).name_span,
+                        "the elements of the model around them have no such component");
 }
 
 // DX ... DRZ in the axes (rows) that each node has of its own.
@@ -87,8 +104,8 @@ void impose_in_axes(const Keywords& keywords, const std::vector<int>& nodes, con
   for (std::size_t i = 0; i < displacement_keywords.size(); ++i) {
     if (!keywords.given(displacement_keywords[i].keyword)) continue;
     const auto row = static_cast<Eigen::Index>(i % 3);
-    impose_along(nodes, i < 3 ? Motion::translation : Motion::rotation, amount_of(keywords, displacement_keywords[i].keyword), origin, load,
-                 target, [&](int node) -> Eigen::Vector3d { return axes(node).row(row).transpose(); });
+    impose_along(keywords, displacement_keywords[i].keyword, nodes, i < 3 ? Motion::translation : Motion::rotation, origin, load, target,
+                 [&](int node) -> Eigen::Vector3d { return axes(node).row(row).transpose(); });
   }
 }
 
@@ -116,14 +133,14 @@ void add_face_displacements(const Keywords& keywords, const LoadedModel& target,
   if (!along_normal) return;
   const auto normals = solver::mean_normals(target.mesh, selected_cells(keywords, target.mesh));
   const auto normal = [&](int node) { return normals.at(node); };
-  if (keywords.given("DNOR")) impose_along(nodes, Motion::translation, amount_of(keywords, "DNOR"), origin, load, target, normal);
-  if (keywords.given("DRNOR")) impose_along(nodes, Motion::rotation, amount_of(keywords, "DRNOR"), origin, load, target, normal);
+  if (keywords.given("DNOR")) impose_along(keywords, "DNOR", nodes, Motion::translation, origin, load, target, normal);
+  if (keywords.given("DRNOR")) impose_along(keywords, "DRNOR", nodes, Motion::rotation, origin, load, target, normal);
   if (!keywords.given("DTAN")) return;
   if (target.mesh.dimension != 2) {
     throw DiagnosticError("unsupported", "FACE_IMPO/DTAN: a face in space has two tangents", keywords.at("DTAN").name_span,
                           "impose DX, DY, DZ, or LIAISON_OBLIQUE");
   }
-  impose_along(nodes, Motion::translation, amount_of(keywords, "DTAN"), origin, load, target,
+  impose_along(keywords, "DTAN", nodes, Motion::translation, origin, load, target,
                [&](int node) { return solver::plane_tangent(normals.at(node)); });
 }
 
@@ -133,7 +150,7 @@ void add_edge_displacements(const Keywords& keywords, const LoadedModel& target,
   impose_components(keywords, nodes, target, origin, load);
   if (!keywords.given("DTAN")) return;
   const auto tangents = solver::mean_tangents(target.mesh, selected_cells(keywords, target.mesh));
-  impose_along(nodes, Motion::translation, amount_of(keywords, "DTAN"), origin, load, target, [&](int node) { return tangents.at(node); });
+  impose_along(keywords, "DTAN", nodes, Motion::translation, origin, load, target, [&](int node) { return tangents.at(node); });
 }
 
 void add_displacements_of_field(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {

@@ -107,6 +107,14 @@ const solver::Field& watched(const Keywords& keywords, const solver::Field& held
   return made = by_variable_names(keywords, held, behaviours);
 }
 
+// Where a place of the wrong kind alone is named nothing would be observed.
+void check_place(const Keywords& keywords, const solver::Field& field) {
+  const bool at_nodes = std::holds_alternative<solver::NodalField>(field);
+  if (at_nodes || !names_a_place(keywords, places_of_nodes) || names_a_place(keywords, cell_places)) return;
+  throw DiagnosticError("wrong-place", fmt::format("OBSERVATION: {} has its values on cells, and none are named", keywords.text("NOM_CHAM")), keywords.span,
+                        "name cells by GROUP_MA or MAILLE");
+}
+
 }  // namespace
 
 Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours) : mesh_(mesh), behaviours_(behaviours) {
@@ -141,6 +149,7 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
   solver::Field made;
   const solver::Field& field = watched(keywords, field_of(keywords, step), behaviours_, made);
+  check_place(keywords, field);
   const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");
   const bool by_formula = keywords.text("EVAL_CMP") == "FORMULE";

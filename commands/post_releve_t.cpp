@@ -319,8 +319,16 @@ void check_line(const Keywords& action) {
                         "give GROUP_NO, or take MOYENNE_ARITH");
 }
 
+// Resultants are extracted.
+void check_resultant(const Keywords& action) {
+  const auto operations = action.texts("OPERATION");
+  if (!action.has("RESULTANTE") || std::ranges::all_of(operations, [](const std::string& word) { return word == "EXTRACTION"; })) return;
+  throw DiagnosticError("excluded-keyword", "POST_RELEVE_T: RESULTANTE goes with OPERATION='EXTRACTION' alone", action.span_of("RESULTANTE"), "name the components by NOM_CMP");
+}
+
 void act(Table& table, const Keywords& action, Context& context) {
   check_line(action);
+  check_resultant(action);
   warn_of_missing_instants(action, context);
   for (const FieldSource& source : field_sources(action)) {
     if (action.text("MOYE_NOEUD") == "NON") {

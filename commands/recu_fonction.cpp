@@ -37,7 +37,11 @@ void warn_of_more_nodes(const Call& call, Context& context) {
 }
 
 int node_of(const Call& call, const solver::Mesh& mesh) {
-  if (call.given("GROUP_NO") || call.given("NOEUD")) return group_nodes(call, mesh).front();
+  if (call.given("GROUP_NO") || call.given("NOEUD")) {
+    const auto nodes = group_nodes(call, mesh);
+    if (nodes.empty()) throw DiagnosticError("empty-group", "RECU_FONCTION: the group holds no node", call.span_of(call.given("GROUP_NO") ? "GROUP_NO" : "NOEUD"));
+    return nodes.front();
+  }
   throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span, "give GROUP_NO");
 }
 

@@ -93,7 +93,10 @@ Side side_of(const Keywords& keywords, const LoadedModel& target, const std::str
   side.nodes = remaining_nodes(keywords, target.mesh, names);
   side.cells = selected_cells(keywords, target.mesh, names);
   if (keywords.given("SOMMET")) {
-    const auto corners = solver::nodes_of_cells(target.mesh, side.cells, solver::NodeRole::corner);
+    // Of nodes that are named themselves those are corners that are corners of any cell.
+    std::vector<int> cells = side.cells;
+    for (int cell = 0; side.cells.empty() && cell < target.mesh.cell_count(); ++cell) cells.push_back(cell);
+    const auto corners = solver::nodes_of_cells(target.mesh, cells, solver::NodeRole::corner);
     std::erase_if(side.nodes, [&](int node) { return !std::ranges::binary_search(corners, node); });
   }
   const auto components = keywords.texts("DDL_" + number);

@@ -1,7 +1,9 @@
 #include "solver/fields/mass_inertia.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,23 @@
 namespace comma::solver {
 
 namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// What a node of a discrete element can do: translations 0 to 2, rotations 3 to 5.
+std::vector<int> motions_of(Formulation formulation) {
+  if (formulation == Formulation::spring_2d) return {0, 1};
+  if (formulation == Formulation::spring_rotation_2d) return {0, 1, 5};
+  if (formulation == Formulation::spring_rotation_3d) return {0, 1, 2, 3, 4, 5};
+  return {0, 1, 2};
+}
+
+/// Of a place, by the translation and the rotation of a rigid body about the origin.
+Matrix6 rigid_motion(const Point& at) {
+  Matrix6 motion = Matrix6::Identity();
+  motion.topRightCorner<3, 3>() << 0, at[2], -at[1], -at[2], 0, at[0], at[1], -at[0], 0;
+  return motion;
+}
 
 /// Integrals of density times 1, x and x x^T.
 class Moments {
@@ -32,7 +51,7 @@ class Moments {
         if (!input_.model.is_skin(cell)) add_plate(cell);
         return;
       default:
-        return;
+        return add_discrete(cell);
     }
   }
 
@@ -118,6 +137,31 @@ class Moments {
       const Eigen::Vector3d x = places * shape + found->second.offset * normal.normalized();
       add_mass(mass, x, x * x.transpose());
     }
+  }
+
+  /// The mass matrix of a discrete element under the motions of a rigid body about the origin: mass, first moments and inertia.
+  void add_discrete(int cell) {
+    const auto found = input_.properties.masses.find(cell);
+    if (found == input_.properties.masses.end()) return;
+    const Mesh& mesh = *input_.model.mesh;
+    const auto nodes = mesh.cell(cell);
+    const std::vector<int> motions = motions_of(input_.model.formulations[cell]);
+    const auto k = static_cast<Eigen::Index>(motions.size());
+    Matrix6 whole = Matrix6::Zero();
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      for (std::size_t b = 0; b < nodes.size(); ++b) {
+        Matrix6 block = Matrix6::Zero();
+        block(motions, motions) = found->second.block(static_cast<Eigen::Index>(a) * k, static_cast<Eigen::Index>(b) * k, k, k);
+        // In the plane what would move across it is as heavy.
+        if (std::ranges::find(motions, 2) == motions.end()) block(2, 2) = block(0, 0);
+        whole += rigid_motion(mesh.nodes[nodes[a]]).transpose() * block * rigid_motion(mesh.nodes[nodes[b]]);
+      }
+    }
+    const Eigen::Matrix3d turned = whole.topRightCorner<3, 3>();
+    const Eigen::Matrix3d inertia = whole.bottomRightCorner<3, 3>();
+    mass_ += whole.topLeftCorner<3, 3>().trace() / 3.0;
+    first_ += 0.5 * Eigen::Vector3d(turned(1, 2) - turned(2, 1), turned(2, 0) - turned(0, 2), turned(0, 1) - turned(1, 0));
+    second_ += 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
   }
 
   void add_mass(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& square) {

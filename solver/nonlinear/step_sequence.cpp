@@ -58,10 +58,11 @@ double StepSequence::target() const {
 }
 
 bool StepSequence::refine(const CollisionSteps& around) {
-  if (target() - now_ <= around.length * (1.0 + coincident_instants)) return false;
+  const double before = target();
+  if (before - now_ <= around.length * (1.0 + coincident_instants)) return false;
   around_ = around;
   fine_until_ = now_ + around.duration;
-  return true;
+  return target() < before;
 }
 
 void StepSequence::accept(int iterations, std::span<const double> changes) {

@@ -111,3 +111,30 @@ TEST_CASE("a slanted plate with an offset: its middle surface", "[fields]") {
     CHECK(normal.dot(result.inertia * normal) == Approx(mass * (16 + 25) * share));
   }
 }
+
+TEST_CASE("discrete masses: a point with an offset and a tensor, a segment with half of it at each end, a point in the plane", "[fields]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{1, 2, 3}, {0, 0, 0}, {4, 0, 0}, {0, 5, 0}};
+  mesh->add_cell(CellType::poi1, std::array{0});
+  mesh->add_cell(CellType::seg2, std::array{1, 2});
+  mesh->add_cell(CellType::poi1, std::array{3});
+  const std::vector kinds = {Formulation::spring_rotation_3d, Formulation::spring_3d, Formulation::spring_2d};
+  const Eigen::Matrix3d tensor = Eigen::Vector3d(0.3, 0.4, 0.5).asDiagonal();
+  const std::vector<DiscreteInertia> inertias = {{.mass = 5.0, .tensor = tensor, .offset = {0, 0, 2}}, {.mass = 6.0}, {.mass = 7.0}};
+  const std::vector<Eigen::Vector3d> centres = {{1, 2, 5}, {2, 0, 0}, {0, 5, 0}};
+  const std::vector<Eigen::Matrix3d> about_centres = {tensor, Eigen::Vector3d(0, 24, 24).asDiagonal(), Eigen::Matrix3d::Zero()};
+  for (int cell = 0; cell < 3; ++cell) {
+    const auto k = static_cast<std::size_t>(cell);
+    ElementProperties properties;
+    for (int each = 0; each < 3; ++each) {
+      const Formulation kind = kinds[static_cast<std::size_t>(each)];
+      const std::vector<double> ones(static_cast<std::size_t>(discrete_components(kind)), 1.0);
+      properties.discrete[each] = diagonal_stiffness(*mesh, each, kind, ones, DiscreteFrame::global);
+    }
+    properties.masses[cell] = rigid_mass(*mesh, cell, kinds[k], inertias[k], DiscreteFrame::global);
+    const MassInertia result = of(Body(mesh, kinds, dense(1), properties));
+    CHECK(result.mass == Approx(inertias[k].mass).epsilon(1e-12));
+    CHECK((result.centre - centres[k]).norm() < 1e-12);
+    CHECK((result.inertia - about_centres[k]).norm() < 1e-10);
+  }
+}
