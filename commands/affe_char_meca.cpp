@@ -14,12 +14,12 @@ Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load)
 
 }  // namespace
 
-Product affe_char_meca(const Call& call, Context&) {
+Product affe_char_meca(const Call& call, Context& context) {
   const LoadedModel target(*call.data<ModelConcept>("MODELE").model);
   auto load = std::make_shared<solver::Load>();
   if (call.text("DOUBLE_LAGRANGE") == "NON") load->multipliers_per_relation = 1;
   for (const Keywords& imposed : call.factors("DDL_IMPO")) add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
-  for (const Keywords& imposed : call.factors("FACE_IMPO")) add_face_displacements(imposed, target, *load);
+  for (const Keywords& imposed : call.factors("FACE_IMPO")) add_face_displacements(imposed, target, *load, context.diagnostics);
   for (const Keywords& imposed : call.factors("ARETE_IMPO")) add_edge_displacements(imposed, target, *load);
   for (const Keywords& imposed : call.factors("CHAMNO_IMPO")) add_displacements_of_field(imposed, target, *load);
   for (const Keywords& imposed : call.factors("DDL_POUTRE")) add_beam_displacements(imposed, target, *load);

@@ -2,10 +2,13 @@
 #include <array>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "commands/commands.hpp"
 #include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/contact/face_rule.hpp"
 #include "solver/contact/half_thickness.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/mesh/orientation.hpp"
@@ -311,9 +314,28 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   return definition;
 }
 
+// With fewer points than nodes a face leaves its multipliers undetermined.
+void warn_of_few_points(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
+  if (definition.formulation != solver::ContactFormulation::mixed) return;
+  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    if (zone.mixed.local_average) continue;
+    for (const int cell : zone.slave_cells) {
+      const auto points = solver::face_rule(mesh.cell_types[cell], zone.mixed.rule, zone.mixed.rule_order).size();
+      if (points >= mesh.cell(cell).size()) continue;
+      context.diagnostics.alarm("few-points",
+                                fmt::format("DEFI_CONTACT: {} points on slave face {} do not determine the multipliers of its {} nodes: pressures at nodes (LAGS_C) may be arbitrary, forces "
+                                            "and stresses are not",
+                                            points, mesh.cell_name(cell), mesh.cell(cell).size()),
+                                call.factors("ZONE")[k].span, "take a higher ORDRE_INT, or INTEGRATION='AUTO'");
+      return;
+    }
+  }
+}
+
 }  // namespace
 
-Product defi_contact(const Call& call, Context&) {
+Product defi_contact(const Call& call, Context& context) {
   auto product = std::make_shared<ContactConcept>();
   product->model = call.data<ModelConcept>("MODELE").model;
   const solver::Model& model = *product->model;
@@ -325,7 +347,9 @@ Product defi_contact(const Call& call, Context&) {
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));
     product->conditions = std::move(conditions);
   } else {
-    product->conditions = contact(call, model);
+    solver::ContactDefinition definition = contact(call, model);
+    warn_of_few_points(call, definition, *model.mesh, context);
+    product->conditions = std::move(definition);
   }
   return product;
 }

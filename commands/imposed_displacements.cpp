@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <span>
 
+#include "commands/angles.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -124,7 +128,28 @@ void add_imposed_displacements(const Keywords& keywords, const std::string& name
   impose_holds(keywords, nodes, target, origin, load);
 }
 
-void add_face_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
+namespace {
+
+// One condition along the mean normal leaves the other directions free at a node where faces meet at an angle.
+void warn_of_edges(const Keywords& keywords, const solver::Mesh& mesh, const std::map<int, Eigen::Vector3d>& means, interpreter::Diagnostics& alarms) {
+  constexpr double telling_angle = 10.0;  // degrees
+  for (const int cell : selected_cells(keywords, mesh)) {
+    const auto own = solver::mean_normals(mesh, std::span(&cell, 1));
+    for (const auto& [node, normal] : own) {
+      const double turned = std::acos(std::clamp(normal.dot(means.at(node)), -1.0, 1.0)) / degree;
+      if (turned <= telling_angle) continue;
+      alarms.alarm("faces-meet",
+                   fmt::format("FACE_IMPO: at {} the mean normal is {:.0f} degrees off that of face {}: the node is held along it alone and moves across it", mesh.node_name(node), turned,
+                               mesh.cell_name(cell)),
+                   keywords.span, "write one occurrence for each side, or hold the components");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void add_face_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load, interpreter::Diagnostics& alarms) {
   const auto origin = origin_of(keywords, "FACE_IMPO");
   const auto nodes = remaining_nodes(keywords, target.mesh);
   impose_components(keywords, nodes, target, origin, load);
@@ -133,6 +158,7 @@ void add_face_displacements(const Keywords& keywords, const LoadedModel& target,
   if (!along_normal) return;
   const auto normals = solver::mean_normals(target.mesh, selected_cells(keywords, target.mesh));
   const auto normal = [&](int node) { return normals.at(node); };
+  warn_of_edges(keywords, target.mesh, normals, alarms);
   if (keywords.given("DNOR")) impose_along(keywords, "DNOR", nodes, Motion::translation, origin, load, target, normal);
   if (keywords.given("DRNOR")) impose_along(keywords, "DRNOR", nodes, Motion::rotation, origin, load, target, normal);
   if (!keywords.given("DTAN")) return;

@@ -67,7 +67,8 @@ Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees);
 /// is an alarm and not an error (AFFE_CHAR_CINE passes over it). The others have keywords of their own.
 void add_imposed_displacements(const interpreter::Keywords& keywords, const std::string& name, const LoadedModel& target,
                                solver::Load& load, interpreter::Diagnostics* alarms = nullptr);
-void add_face_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
+/// Alarm `faces-meet` where the mean normal at a node is far from that of a face.
+void add_face_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load, interpreter::Diagnostics& alarms);
 void add_edge_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 void add_beam_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);
 void add_oblique_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);

@@ -14,6 +14,14 @@ std::string joined(const std::vector<std::string>& names, std::size_t first = 0)
   return fmt::format("{}", fmt::join(names.begin() + static_cast<std::ptrdiff_t>(first), names.end(), ", "));
 }
 
+/// The first of them, where there are too many to read.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t readable = 16;
+  constexpr std::ptrdiff_t shown = 12;
+  if (names.size() <= readable) return joined(names);
+  return fmt::format("{} ...", fmt::join(names.begin(), names.begin() + shown, ", "));
+}
+
 /// One rule against what is given.
 class RuleCheck {
  public:
@@ -59,7 +67,7 @@ class RuleCheck {
 
   void at_least_one() {
     if (!present_.empty()) return;
-    diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, joined(rule_.keywords)), span_);
+    diagnostics_.error("missing-one-of", fmt::format("{} needs one of {}", label_, some_of(rule_.keywords)), span_);
   }
 
   void at_most_one() {

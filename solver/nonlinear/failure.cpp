@@ -78,8 +78,11 @@ void throw_active_set_limit(int limit, bool by_gradients) {
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
 }
 
-void throw_condensed_limit(int limit, double friction) {
+void throw_condensed_limit(int limit, double friction, bool has_negative_weight) {
   const std::string message = fmt::format("the contact status did not settle within {} iterations on the contact rows", limit);
+  if (has_negative_weight)
+    throw Error("contact-cycling", message + "; a point of negative weight pulls where it is closed, and no set of statuses need hold",
+                "take another order of Gauss's rule: on triangles that of ORDRE_INT=3 has such points, those of 2 and 4 have not");
   constexpr double strong_friction = 1.0;
   if (friction < strong_friction)
     throw Error("contact-cycling", message, "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)");

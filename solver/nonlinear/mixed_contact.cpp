@@ -483,7 +483,10 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   problem_.expected.resize(0);
   rubs_by_shears_ = solution.by_shears;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
-    if (schur_->is_exact()) throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_));
+    if (schur_->is_exact()) {
+      const bool negative = std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
+      throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_), negative);
+    }
     state_ = earlier;
     return std::nullopt;
   }
