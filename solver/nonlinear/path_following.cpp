@@ -21,6 +21,11 @@ using Eigen::VectorXd;
 constexpr double no_influence = 1e-12;
 /// Intensities that differ by less than this share are one.
 constexpr double same_intensity = 1e-12;
+/// Increments whose lengths differ by less than this share are equally long: a converged step leaves residuals of some 1e-6 of the loads.
+constexpr double same_length = 1e-5;
+
+/// Of one or two.
+double other_of(const std::vector<double>& choice, double taken) { return choice.front() == taken ? choice.back() : choice.front(); }
 
 }  // namespace
 
@@ -66,19 +71,34 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   ended_ = false;
   if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
   if (control_.measure == PathMeasure::strain) strains_ = std::make_unique<StrainControl>(problem_, dofs_, assembler_, control_.cells, start_);
-  const double wanted = duration / control_.scale;
+  const VectorXd reduced = q;
+  passed_over_nearest_ = false;
+  try {
+    return iterate(false, duration / control_.scale, loads, q, u);
+  } catch (const Error& error) {
+    if (!passed_over_nearest_ || (error.code() != "no-convergence" && error.code() != "integration-failure")) throw;
+  }
+  q = reduced;
+  u = start_;
+  intensity_ = accepted_;
+  tell("the step has failed and starts again with the intensity that is nearest from one iteration to the next");
+  return iterate(true, duration / control_.scale, loads, q, u);
+}
+
+int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, VectorXd& q, VectorXd& u) {
   std::vector<IterationReport> history;
   for (int iteration = 1; iteration <= std::max(1, options_.max_iterations); ++iteration) {
     ++counters_.newton_iterations;
     Correction change = correction(iteration, loads, q, u);
-    if (options_.line_search && iteration > 1) shorten(time, wanted, loads, u, change);
-    intensity_ = chosen(time, candidates(wanted, change, u), change, loads, u);
+    taking_ = iteration == 1 ? Taking::first : stays ? Taking::nearest : Taking::best;
+    if (options_.line_search && iteration > 1) shorten(wanted, loads, u, change);
+    intensity_ = chosen(candidates(wanted, change, u), change, loads, u);
     u += change.constant + intensity_ * change.linear;
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
     const auto measure = criterion_.measure(largest_component(residual_), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
-    history.push_back(report(time, iteration, measure));
+    history.push_back(report(iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
       ended_ = intensity_ <= control_.least || intensity_ >= control_.most;
@@ -87,7 +107,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
     if (!std::isfinite(measure.absolute)) break;
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
-  throw_no_convergence(time, history, options_, tangent_.is_constant());
+  throw_no_convergence(time_, history, options_, tangent_.is_constant());
 }
 
 void PathFollowing::accept_step(const VectorXd& u) {
@@ -95,10 +115,14 @@ void PathFollowing::accept_step(const VectorXd& u) {
   accepted_ = intensity_;
   criterion_.accept(load_);
   ++steps_;
+  tell(fmt::format("driven loads have the intensity {:.8g}{}", intensity_, ended_ ? ", the bound: the computation ends" : ""));
+}
+
+void PathFollowing::tell(const std::string& text) const {
   if (!observer_) return;
   IterationReport event;
   event.instant = time_;
-  event.event = fmt::format("driven loads have the intensity {:.8g}{}", intensity_, ended_ ? ", the bound: the computation ends" : "");
+  event.event = text;
   observer_(event);
 }
 
@@ -118,7 +142,7 @@ PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenL
 }
 
 /// Takes the share of the correction at which the residual does no more work on it; each share has an intensity of its own.
-void PathFollowing::shorten(double time, double wanted, const DrivenLoads& loads, const VectorXd& u, Correction& change) {
+void PathFollowing::shorten(double wanted, const DrivenLoads& loads, const VectorXd& u, Correction& change) {
   if (!loads.driven_offset.isZero(0.0))
     throw Error("unsupported", "a line search along the path needs driven loads that are forces, not imposed displacements", "leave out RECH_LINEAIRE");
   const Correction whole = change;
@@ -128,7 +152,7 @@ void PathFollowing::shorten(double time, double wanted, const DrivenLoads& loads
   };
   const auto work = [&](double share) {
     change = {share * whole.constant, share * whole.linear};
-    intensity_ = chosen(time, candidates(wanted, change, u), change, loads, u);
+    intensity_ = chosen(candidates(wanted, change, u), change, loads, u);
     evaluate(intensity_, loads, u + change.constant + intensity_ * change.linear);
     return direction().dot(residual_);
   };
@@ -186,8 +210,7 @@ double PathFollowing::bounded(double intensity) const {
   return control_.stops_at_bound ? std::clamp(intensity, control_.least, control_.most) : intensity;
 }
 
-/// The best of the intensities found that the user admits.
-double PathFollowing::chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+std::vector<double> PathFollowing::admitted(const std::vector<double>& found) const {
   std::vector<double> admitted;
   for (const double each : found) {
     const double margin = same_intensity * std::max(std::abs(each), std::abs(accepted_));
@@ -196,30 +219,62 @@ double PathFollowing::chosen(double time, const std::vector<double>& found, cons
   }
   if (admitted.empty())
     throw Error("no-convergence",
-                fmt::format("at t = {:.6g} {} gives the increment that the path is to have{}", time,
+                fmt::format("at t = {:.6g} {} gives the increment that the path is to have{}", time_,
                             found.empty() ? "no intensity of the driven loads" : "no admitted intensity of the driven loads",
                             found.empty() ? "" : fmt::format(" ({:.6g}{} would)", found.front(), found.size() > 1 ? fmt::format(" or {:.6g}", found.back()) : "")),
                 "take shorter steps, or a larger COEF_MULT, or control another displacement");
-  const VectorXd before = u - start_ + change.constant;
-  // The better, the smaller.
-  const auto cost = [&](double intensity) {
-    const VectorXd increment = motions(before + intensity * change.linear);
-    if (control_.choice == PathChoice::smallest_angle && last_step_.size() && !last_step_.isZero(0.0))
-      return -increment.dot(last_step_) / std::max(increment.norm(), std::numeric_limits<double>::min());
-    if (control_.choice != PathChoice::smallest_residual) return increment.norm();
-    return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
-  };
-  double best = admitted.back();
-  double least = cost(best);
-  for (std::size_t i = 0; i + 1 < admitted.size(); ++i) {
-    const double own = cost(admitted[i]);
+  return admitted;
+}
+
+/// The one of the intensities found that the user admits and asks for, or that iterations which are to stay near reach first.
+double PathFollowing::chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+  const std::vector<double> choice = admitted(found);
+  const double nearest = *std::ranges::min_element(choice, {}, [&](double each) { return std::abs(each - intensity_); });
+  if (taking_ == Taking::nearest) return nearest;
+  double taken = best_of(choice, change, loads, u);
+  if (turns_back_by_rounding(choice, change, loads, u, taken)) taken = other_of(choice, taken);
+  if (takes_other_) taken = other_of(choice, taken);
+  if (taking_ == Taking::best && taken != nearest) passed_over_nearest_ = true;
+  return taken;
+}
+
+/// The smaller, the better.
+double PathFollowing::cost(double intensity, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+  if (control_.choice == PathChoice::smallest_residual) return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
+  if (control_.choice == PathChoice::smallest_increment || !knows_direction()) return increment(intensity, change, u).norm();
+  return -advance(intensity, change, u);
+}
+
+VectorXd PathFollowing::increment(double intensity, const Correction& change, const VectorXd& u) const {
+  return motions(u - start_ + change.constant + intensity * change.linear);
+}
+
+bool PathFollowing::knows_direction() const { return last_step_.size() && !last_step_.isZero(0.0); }
+
+/// How far the increment goes on in the direction of the last step, in units of the last step, for one of length 1.
+double PathFollowing::advance(double intensity, const Correction& change, const VectorXd& u) const {
+  const VectorXd own = increment(intensity, change, u);
+  return own.dot(last_step_) / std::max(own.norm(), std::numeric_limits<double>::min());
+}
+
+double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+  double best = choice.back();
+  double least = cost(best, change, loads, u);
+  for (std::size_t i = 0; i + 1 < choice.size(); ++i) {
+    const double own = cost(choice[i], change, loads, u);
     if (own < least * (least > 0.0 ? 1.0 - same_intensity : 1.0 + same_intensity)) {
-      best = admitted[i];
+      best = choice[i];
       least = own;
     }
   }
-  if (takes_other_ && admitted.size() == 2) return admitted[admitted[0] == best ? 1 : 0];
   return best;
+}
+
+/// From where the body is in balance an increment and its opposite are equally long but for what the last step has left: it goes on.
+bool PathFollowing::turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const VectorXd& u, double best) {
+  if (control_.choice != PathChoice::smallest_increment || taking_ != Taking::first || choice.size() != 2 || !knows_direction()) return false;
+  const double other = other_of(choice, best);
+  return cost(other, change, loads, u) < (1.0 + same_length) * cost(best, change, loads, u) && advance(other, change, u) > 0.0 && advance(best, change, u) < 0.0;
 }
 
 /// Where the body cannot be, no residual is larger.
@@ -240,9 +295,9 @@ void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const V
   load_ = load_size(forces, internal, variable_forces_);
 }
 
-IterationReport PathFollowing::report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const {
+IterationReport PathFollowing::report(int iteration, const ConvergenceCriterion::Measure& measure) const {
   IterationReport line;
-  line.instant = time;
+  line.instant = time_;
   line.iteration = iteration;
   line.relative_residual = measure.relative;
   line.absolute_residual = measure.absolute;

@@ -1,6 +1,7 @@
 // Newton's iterations of one step whose load intensity is an unknown (R5.03.80).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ struct DrivenLoads {
 
 /// An iteration solves K d = R + intensity F for the correction d, which is d0 + intensity d1 with two right-hand sides and one factor; the
 /// measure of the whole increment then gives the intensity (Batoz and Dhatt, International Journal for Numerical Methods in Engineering
-/// 14, 1979; Crisfield, Computers and Structures 13, 1981). Without contact and unilateral conditions.
+/// 14, 1979; Crisfield, Computers and Structures 13, 1981). Where it leaves two, and iterations that choose between them in the user's way go to and fro without
+/// converging, the step begins again: the first iteration chooses, and the others stay with the one that is nearest. Without contact and unilateral conditions.
 class PathFollowing {
  public:
   /// Keeps references to its arguments. Throws Error `unknown-dof` where a controlled node lacks a component.
@@ -58,19 +60,31 @@ class PathFollowing {
     Eigen::VectorXd linear;
   };
 
+  /// Which of the intensities an iteration takes.
+  enum class Taking : std::uint8_t { first, best, nearest };
+
   void number_controlled();
+  int iterate(bool stays, double wanted, const DrivenLoads& loads, Eigen::VectorXd& q, Eigen::VectorXd& u);
   Correction correction(int iteration, const DrivenLoads& loads, const Eigen::VectorXd& q, const Eigen::VectorXd& u);
-  void shorten(double time, double wanted, const DrivenLoads& loads, const Eigen::VectorXd& u, Correction& change);
+  void shorten(double wanted, const DrivenLoads& loads, const Eigen::VectorXd& u, Correction& change);
   std::vector<double> candidates(double wanted, const Correction& change, const Eigen::VectorXd& u) const;
   std::vector<double> by_displacement(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
   std::vector<double> by_arc_length(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
   Eigen::VectorXd controlled(const Eigen::VectorXd& u) const;
   Eigen::VectorXd motions(Eigen::VectorXd u) const;
-  double chosen(double time, const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  std::vector<double> admitted(const std::vector<double>& found) const;
+  double cost(double intensity, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  Eigen::VectorXd increment(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
+  bool knows_direction() const;
+  double advance(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
+  bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u, double best);
+  double best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
   double bounded(double intensity) const;
   double residual_or_infinity(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
   void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
-  IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure) const;
+  void tell(const std::string& text) const;
+  IterationReport report(int iteration, const ConvergenceCriterion::Measure& measure) const;
 
   const StaticProblem& problem_;
   const Mesh& mesh_;
@@ -99,6 +113,8 @@ class PathFollowing {
   int steps_ = 0;
   bool ended_ = false;
   bool takes_other_ = false;
+  Taking taking_ = Taking::first;
+  bool passed_over_nearest_ = false;  ///< in an iteration after the first of this step
 };
 
 }  // namespace comma::solver

@@ -170,3 +170,29 @@ TEST_CASE("Path following goes on where the load hardly does: plastic flow of a 
   const double now = Metal::yield + Metal::young * 0.1 / (Metal::young - 0.1) * variables.at(0, 0, variables.component("V1"));
   CHECK(intensity(metal.scene, 20) == Approx(2.0 / std::sqrt(3.0) * now).epsilon(1e-4));
 }
+
+TEST_CASE("Path following from rest into plastic flow: the smaller increment of two, and no way back by rounding") {
+  Metal metal(100.0);
+  metal.options.path->measure = PathMeasure::elastic_prediction;
+  metal.options.path->scale = 20.0;  // the prediction of each step goes 1/20 beyond the yield surface
+  metal.scene.solve(3, metal.options);
+  const auto& variables = std::get<ElementField>(metal.scene.result.steps.back().fields.at("VARI_ELGA"));
+  CHECK(intensity(metal.scene, 1) > Metal::yield);
+  CHECK(intensity(metal.scene, 3) > intensity(metal.scene, 1));
+  CHECK(variables.at(0, 0, variables.component("V1")) > 0.0);
+
+  Metal along(100.0);
+  const int node = along.block.nodes[1][1];
+  along.options.path->measure = PathMeasure::arc_length;
+  along.options.path->nodes = {node};
+  along.options.path->components = {Component::dx, Component::dy};
+  along.options.path->scale = 250.0;  // 0.004 a step: yield at 0.005
+  along.scene.solve(20, along.options);
+  for (std::size_t step = 1; step <= 20; ++step) {
+    const int now = static_cast<int>(step);
+    const double dx = along.scene.displacement(node, Component::dx, now) - along.scene.displacement(node, Component::dx, now - 1);
+    const double dy = along.scene.displacement(node, Component::dy, now) - along.scene.displacement(node, Component::dy, now - 1);
+    CHECK(std::hypot(dx, dy) == Approx(0.004).epsilon(1e-9));
+    CHECK(intensity(along.scene, step) > intensity(along.scene, step - 1));
+  }
+}
