@@ -56,10 +56,23 @@ Property property(const Keywords& law, const std::string& keyword, double otherw
   return law.at(keyword).value.is_concept() ? varying(law, keyword) : Property(law.real(keyword));
 }
 
+// E and NU of bulk and shear modulus, which the speeds of waves may give.
+void take_bulk_and_shear(const Keywords& law, solver::IsotropicElasticity& elasticity) {
+  const double density = law.has("CELE_P") ? law.real("RHO") : 0.0;
+  const double shear = law.has("K") ? law.real("MU") : density * std::pow(law.real("CELE_S"), 2);
+  const double bulk = law.has("K") ? law.real("K") : density * std::pow(law.real("CELE_P"), 2) - 4.0 / 3.0 * shear;
+  if (!(shear > 0.0 && bulk > 0.0))
+    throw DiagnosticError("out-of-bounds", "DEFI_MATERIAU/ELAS: such waves have no elastic material", law.span_of("CELE_P"),
+                          "RHO is positive, and CELE_P larger than CELE_S times the square root of 4/3");
+  elasticity.young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+  elasticity.poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
+}
+
 solver::IsotropicElasticity isotropic(const Keywords& law) {
   solver::IsotropicElasticity elasticity;
   elasticity.young = property(law, "E");
   elasticity.poisson = property(law, "NU");
+  if (law.has("K") || law.has("CELE_P")) take_bulk_and_shear(law, elasticity);
   elasticity.density = property(law, "RHO");
   elasticity.expansion = property(law, "ALPHA");
   elasticity.drying_shrinkage = property(law, "K_DESSIC");

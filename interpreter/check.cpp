@@ -195,15 +195,20 @@ class LevelCheck {
     return names;
   }
 
-  /// The one compulsory keyword that is not there; empty when there is none, or more.
+  /// The one compulsory keyword, of the level or of a block that stands as long as nothing else is given, that is not there; empty when there is none, or more.
   std::string only_missing() const {
-    std::string only;
-    for (const KeywordPage& keyword : level_.keywords) {
-      if (!keyword.required || is_given(keyword.name) || guessed(keyword.name)) continue;
-      if (!only.empty()) return "";
-      only = keyword.name;
-    }
-    return only;
+    Scope given = scope_;
+    for (const Pending& pending : pending_) given.values[pending.name] = seen_by_conditions(*pending.argument->value);
+    std::vector<std::string> names;
+    add_missing(level_, given, names);
+    return names.size() == 1 ? names.front() : "";
+  }
+
+  void add_missing(const LevelPage& level, const Scope& given, std::vector<std::string>& names) const {
+    for (const KeywordPage& keyword : level.keywords)
+      if (keyword.required && !is_given(keyword.name) && !guessed(keyword.name)) names.push_back(keyword.name);
+    for (const BlockPage& block : level.blocks)
+      if (holds(*block.condition, given) == Truth::yes) add_missing(block.inside, given, names);
   }
 
   bool is_given(const std::string& name) const { return std::ranges::find(pending_, name, &Pending::name) != pending_.end(); }
