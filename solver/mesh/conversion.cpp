@@ -60,6 +60,21 @@ CellType target_of(CellType type, Conversion conversion) {
   return type;
 }
 
+using Triangle = std::array<std::size_t, 3>;
+
+/// The triangles of a quadrangle, by its own nodes; none of another cell.
+std::span<const Triangle> triangles_in(CellType type) {
+  static constexpr std::array<Triangle, 2> of_quad4 = {{{0, 1, 2}, {0, 2, 3}}};
+  static constexpr std::array<Triangle, 6> of_quad8 = {{{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}}};
+  static constexpr std::array<Triangle, 8> of_quad9 = {{{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
+  switch (type) {
+    case quad4: return of_quad4;
+    case quad8: return of_quad8;
+    case quad9: return of_quad9;
+    default: return {};
+  }
+}
+
 /// Nodes between others, made once for all cells that share them.
 class MiddleNodes {
  public:
@@ -233,25 +248,27 @@ Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
   std::vector<std::vector<int>> nodes;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
   NewNames names(result.cell_names, "M");
-  std::map<int, int> second;  // the other triangle of a quadrangle
+  std::map<int, std::vector<int>> others;  // the other triangles of a quadrangle
   for (const int cell : cells) {
-    const CellType type = mesh.cell_types[cell];
-    if (type == quad8 || type == quad9) throw Error("unsupported", fmt::format("cell {} has {} nodes, and comma cuts QUAD4 into triangles", mesh.cell_name(cell), node_count(type)));
-    if (type != quad4) continue;
-    const std::vector<int> corners = nodes[cell];
-    nodes[cell] = {corners[0], corners[1], corners[2]};
+    const auto pieces = triangles_in(mesh.cell_types[cell]);
+    if (pieces.empty()) continue;
+    const std::vector<int> whole = nodes[cell];
+    const auto piece = [&](std::size_t i) { return std::vector{whole[pieces[i][0]], whole[pieces[i][1]], whole[pieces[i][2]]}; };
+    nodes[cell] = piece(0);
     types[cell] = tria3;
-    second[cell] = static_cast<int>(types.size());
-    nodes.push_back({corners[0], corners[2], corners[3]});
-    types.push_back(tria3);
-    names.add();
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+      others[cell].push_back(static_cast<int>(types.size()));
+      nodes.push_back(piece(i));
+      types.push_back(tria3);
+      names.add();
+    }
   }
-  if (second.empty()) throw Error("no-cell", "none of the cells is a QUAD4");
+  if (others.empty()) throw Error("no-cell", "none of the cells is a quadrangle");
   replace_cells(result, types, nodes);
   for (auto& [name, members] : result.cell_groups) {
     const std::vector<int> before = members;
     for (const int member : before)
-      if (const auto other = second.find(member); other != second.end()) members.push_back(other->second);
+      if (const auto other = others.find(member); other != others.end()) members.insert(members.end(), other->second.begin(), other->second.end());
   }
   return result;
 }

@@ -24,8 +24,8 @@ enum class Conversion {
 /// the cells can be converted.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
 
-/// Cuts QUAD4 along the diagonal from the first node to the third, each into two TRIA3 that stand in its groups. Throws Error `no-cell` if there are none, `unsupported` for a
-/// quadrangle with more nodes.
+/// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third; QUAD8 into four at the corners and two between the mid-edge
+/// nodes, along the diagonal from the fifth to the seventh; QUAD9 into eight around its middle. Throws Error `no-cell` if there are none.
 Mesh with_triangles(const Mesh& mesh, std::span<const int> cells);
 
 /// Doubles cells, on the same nodes, into a new cell group. Throws Error `group-exists`.

@@ -160,4 +160,15 @@ TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]"
   // Only the first is cut.
   CHECK(with_triangles(pair_of_faces(), first_cell).cell_group("BOTH").size() == 3);
   CHECK_THROWS_AS(with_triangles(single(CellType::tria3), first_cell), Error);
+  for (const auto& [type, pieces] : {std::pair(CellType::quad8, 6), std::pair(CellType::quad9, 8)}) {
+    const Mesh whole = single(type);
+    const Mesh cut = with_triangles(whole, first_cell);
+    REQUIRE(cut.cell_count() == pieces);
+    double size = 0.0;
+    for (int cell = 0; cell < pieces; ++cell) {
+      CHECK(signed_size(cut, cell) * signed_size(whole, 0) > 0.0);
+      size += signed_size(cut, cell);
+    }
+    CHECK(size == Approx(signed_size(whole, 0)));
+  }
 }
