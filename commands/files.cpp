@@ -33,6 +33,7 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }
+  if (const auto own = written_.find(unit); own != written_.end() && fs::is_regular_file(own->second)) return own->second;
   const fs::path file = found(unit, extensions);
   const int known = units_.emplace(file, unit).first->second;
   if (known == unit) return file;
@@ -95,14 +96,12 @@ bool Files::is_read(const fs::path& path) const {
 }
 
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
-  for (const ExportFile& file : exported_) {
-    if (file.unit == unit && file.output) return file.path;
-  }
+  const auto exported = std::ranges::find_if(exported_, [&](const ExportFile& file) { return file.unit == unit && file.output; });
+  if (exported != exported_.end()) return written_[unit] = exported->path;
   const auto named = [&](const std::string& middle) { return output_folder_ / (command_file_.stem().string() + middle + extension); };
   const std::string numbered = "." + std::to_string(unit) + ".";
-  if (unit != default_unit) return named(numbered);
-  const fs::path plain = named(".");
-  return is_read(plain) ? named(numbered) : plain;
+  const bool plain = unit == default_unit && !is_read(named("."));
+  return written_[unit] = named(plain ? "." : numbered);
 }
 
 }  // namespace comma::commands

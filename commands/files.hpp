@@ -28,7 +28,7 @@ class Files {
  public:
   Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
 
-  /// The input file of a unit: the .export's, else a file beside the command file with its stem and the unit or one of the extensions,
+  /// The input file of a unit: the .export's, else what has been written under that unit, else a file beside the command file with its stem and the unit or one of the extensions,
   /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
   /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for, or where the file stands for another unit already.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
@@ -50,7 +50,8 @@ class Files {
   std::filesystem::path command_file_;
   std::vector<ExportFile> exported_;
   std::filesystem::path output_folder_;
-  mutable std::map<std::filesystem::path, int> units_;  ///< of files that were found by their names
+  mutable std::map<std::filesystem::path, int> units_;    ///< of files that were found by their names
+  mutable std::map<int, std::filesystem::path> written_;  ///< by unit
 };
 
 }  // namespace comma::commands

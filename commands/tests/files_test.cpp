@@ -37,6 +37,16 @@ TEST_CASE("A mesh is found by the stem, then by the stem without its letter, the
   CHECK(files.input(20, {"mmed", "med"}) == own);
 }
 
+TEST_CASE("What was written under a unit is what is read under it") {
+  const Folder folder, elsewhere;
+  folder.file("a.med");
+  const Files files(folder.path / "a.comm", {}, elsewhere.path);
+  const auto written = files.output(80, "rmed", 80);
+  CHECK(files.input(20, {"med"}) == folder.path / "a.med");
+  std::ofstream(written) << "";
+  CHECK(files.input(80, {"med"}) == written);
+}
+
 TEST_CASE("An .export names files by unit, and outputs land in the current folder") {
   const Folder folder;
   folder.file("a.comm");
