@@ -1,7 +1,9 @@
 #include "solver/materials/behaviour/hyperelastic.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "solver/error.hpp"
 #include "solver/materials/behaviour/large_strain.hpp"
 
 namespace comma::solver {
@@ -37,6 +39,25 @@ HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, cons
   response.tangent = 4.0 * (slope1 * dd1 + 2.0 * material.c20 * d1 * d1.transpose() + material.c01 * dd2) +
                      material.bulk * (2.0 * jacobian - 1.0) * jacobian * inverse * inverse.transpose() + pressure * change_of_inverse;
   return response;
+}
+
+Eigen::Matrix3d gradient_in_plane_stress(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient) {
+  constexpr int most_iterations = 100;
+  constexpr double settled = 1e-15;  // of the square of the thickness: rounding leaves as much
+  Eigen::Matrix3d gradient = displacement_gradient;
+  gradient(2, 2) = 0.0;
+  const double area = deformation_gradient(gradient).determinant();
+  double square = 1.0 / (area * area);  // of the thickness, which keeps the volume at first
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    gradient(2, 2) = std::sqrt(square) - 1.0;
+    const HyperelasticResponse response = hyperelastic_response(material, gradient);
+    const double change = -2.0 * response.stress[2] / response.tangent(2, 2);
+    if (std::abs(change) <= settled * square) return gradient;
+    const double before = square;
+    square = std::clamp(square + change, 0.25 * square, 4.0 * square);
+    if (square == before) return gradient;
+  }
+  throw Error("integration-failure", "rubber in plane stress finds no thickness", "take smaller steps");
 }
 
 double hyperelastic_energy(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient) {

@@ -15,6 +15,9 @@ struct HyperelasticResponse {
 /// II = J^(-4/3) (tr(C)^2 - tr(C^2)) / 2. Throws Error `integration-failure` where det F <= 0.
 HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient);
 
+/// The same displacement gradient with the change of thickness H_zz at which nothing acts across the plane (x, y). Throws Error `integration-failure` where there is none.
+Eigen::Matrix3d gradient_in_plane_stress(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient);
+
 /// That energy. Throws as above.
 double hyperelastic_energy(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient);
 

@@ -72,7 +72,6 @@ Vector6d green_strain(const Eigen::Matrix3d& h) {
 
 PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(behaviour), in_plane_(in_plane) {
   if (behaviour.relation == Relation::hyperelastic) {
-    if (in_plane) throw Error("unsupported", "rubber is not known in plane stress", "take plane strain or a solid");
     if (behaviour.kinematics != Kinematics::green_lagrange)
       throw Error("unsupported", "rubber has large strains on the initial geometry", "take DEFORMATION='GREEN_LAGRANGE'");
   }
@@ -240,7 +239,7 @@ PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint
 /// In plane stress the thickness takes part, which the second stress decides itself: a few rounds settle it.
 Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const {
   const Vector6d on_initial_thickness = second_stress_of(gradient, reported);
-  if (!in_plane_) return on_initial_thickness;
+  if (!in_plane_ || behaviour_.relation == Relation::hyperelastic) return on_initial_thickness;
   constexpr int rounds = 30;
   Vector6d stress = on_initial_thickness;
   for (int round = 0; round < rounds; ++round)
@@ -263,7 +262,7 @@ Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, b
 }
 
 double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constants) const {
-  if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, at.gradient);
+  if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, in_plane_ ? gradient_in_plane_stress(*constants.hyperelasticity, at.gradient) : at.gradient);
   if (behaviour_.kinematics == Kinematics::multiplicative) {
     const double j = deformation_gradient(at.gradient).determinant();
     const double rest = free_volume(at.inelastic[0]);
@@ -293,8 +292,14 @@ PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) 
 
 PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now) const {
   if (!input.inelastic.isZero(0.0)) throw Error("unsupported", "rubber takes up no strain of the command variables");
-  const HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, input.gradient);
-  return {result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
+  const Eigen::Matrix3d gradient = in_plane_ ? gradient_in_plane_stress(*now.hyperelasticity, input.gradient) : input.gradient;
+  HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, gradient);
+  if (in_plane_) {
+    constexpr int across = 2;
+    result.stress[across] = 0.0;
+    result.tangent -= (result.tangent.col(across) * result.tangent.row(across) / result.tangent(across, across)).eval();
+  }
+  return {result.stress, result.tangent, cauchy_stress(gradient, result.stress), result.stress, {}};
 }
 
 PointResponse PointLaw::respond(const PointInput& input) const { return respond_with(input, input.constants); }

@@ -43,8 +43,8 @@ struct PointResponse {
 
 class PointLaw {
  public:
-  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the multiplicative split and rubber with
-  /// plane stress, the split with kinematic hardening, rubber with other strains than Green and Lagrange's.
+  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the multiplicative split with
+  /// plane stress or with kinematic hardening, rubber with other strains than Green and Lagrange's.
   PointLaw(const CellBehaviour& behaviour, bool in_plane);
 
   /// Large strains have their forces on the deformed, small ones on the initial geometry.

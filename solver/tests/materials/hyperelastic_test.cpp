@@ -5,6 +5,7 @@
 #include "solver/error.hpp"
 #include "solver/materials/behaviour/hyperelastic.hpp"
 #include "solver/materials/behaviour/large_strain.hpp"
+#include "solver/materials/behaviour/point_law.hpp"
 
 using namespace comma::solver;
 using Eigen::Matrix3d;
@@ -66,6 +67,48 @@ TEST_CASE("rubber at rest has the moduli of small strains") {
   const IsotropicModuli moduli = small_strain_moduli(rubber);
   const Matrix6d tangent = hyperelastic_response(rubber, Matrix3d::Zero()).tangent;
   CHECK((tangent - solid_stiffness(moduli)).cwiseAbs().maxCoeff() < 1e-13 * rubber.bulk);
+}
+
+TEST_CASE("rubber in plane stress: nothing acts across, pulled one way it is the bar of three dimensions, and the tangent is the stress's") {
+  const PointLaw law({Kinematics::green_lagrange, Relation::hyperelastic}, true);
+  PlasticPoint constants;
+  constants.hyperelasticity = &rubber;
+  const PointPast past;
+  const Vector6d none = Vector6d::Zero();
+  const auto at = [&](const Matrix3d& h) { return law.respond({h, none, constants, past}); };
+  const auto in_plane = [](double amplitude) {
+    Matrix3d h = rough(amplitude);
+    h.row(2).setZero();
+    h.col(2).setZero();
+    return h;
+  };
+  for (const double amplitude : {0.15, 0.3}) {
+    const Matrix3d h = in_plane(amplitude);
+    const PointResponse response = at(h);
+    CHECK(std::abs(hyperelastic_response(rubber, gradient_in_plane_stress(rubber, h)).stress[2]) < 1e-13 * rubber.bulk);
+    CHECK(std::abs(response.reported[2]) == 0.0);
+    constexpr double step = 1e-5;
+    for (const auto& [row, column] : {std::pair(0, 0), std::pair(0, 1), std::pair(1, 0), std::pair(1, 1)}) {
+      Matrix3d direction = Matrix3d::Zero();
+      direction(row, column) = step;
+      const Vector6d strain = strain_of(h + direction) - strain_of(h - direction);
+      const Vector6d change = at(h + direction).stress - at(h - direction).stress;
+      CHECK((change - response.tangent * strain).cwiseAbs().maxCoeff() < 1e-7 * step * 100.0 * rubber.bulk);
+      CHECK(hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h + direction)) - hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h - direction)) ==
+            Approx(response.stress.dot(strain)).margin(1e-7 * step * rubber.bulk));
+    }
+  }
+  Matrix3d bar = Matrix3d::Zero();
+  bar(0, 0) = 1.0;
+  bar(1, 1) = 1.0 / std::sqrt(2.0) - 1.0;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const PointResponse response = at(bar);
+    bar(1, 1) = std::sqrt((1.0 + bar(1, 1)) * (1.0 + bar(1, 1)) - 2.0 * response.stress[1] / response.tangent(1, 1)) - 1.0;
+  }
+  // As thick as it is wide.
+  CHECK(gradient_in_plane_stress(rubber, bar)(2, 2) == Approx(bar(1, 1)).epsilon(1e-12));
+  bar(0, 0) = -2.0;
+  CHECK_THROWS_AS(at(bar), Error);
 }
 
 }  // namespace hyperelastic_test
