@@ -30,18 +30,44 @@ void check_points(const Model& model, const ElementField& field, int cell, std::
                                                 model.mesh->cell_name(cell), expected));
 }
 
+/// What the material knows at the points of a field.
+class MaterialAtPoints {
+ public:
+  MaterialAtPoints(const FieldInput& input, const ElementField& field) : input_(input), field_(field), points_(input.model) {}
+
+  bool covers(int cell) const { return points_.covers(cell); }
+
+  MaterialPoint at(int cell, int g) {
+    const auto& samples = points_.samples(cell);
+    check_points(input_.model, field_, cell, samples.size());
+    return points_.material_point(cell, input_.state, samples[g], points_.locate(cell, samples[g]).at, g);
+  }
+
+ private:
+  const FieldInput& input_;
+  const ElementField& field_;
+  ContinuumPoints points_;
+};
+
 }  // namespace
 
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses) {
-  ContinuumPoints points(input.model);
   const TensorReader stress(stresses, stress_components);
+  MaterialAtPoints points(input, stresses);
   return scalar_field(stresses, stress, [&](int cell, int g) {
-    const auto& samples = points.samples(cell);
-    check_points(input.model, stresses, cell, samples.size());
-    const ContinuumPoint point = points.locate(cell, samples[g]);
-    const MaterialPoint at = points.material_point(cell, input.state, samples[g], point.at, g);
     const Vector6d value = stress.at(cell, g);
-    return 0.5 * value.dot(solid_compliance(material_of(input, cell), at) * value);
+    return 0.5 * value.dot(solid_compliance(material_of(input, cell), points.at(cell, g)) * value);
+  });
+}
+
+ElementField strain_energy_density(const FieldInput& input, const ElementField& strains) {
+  const TensorReader strain(strains, strain_components);
+  MaterialAtPoints points(input, strains);
+  return scalar_field(strains, strain, [&](int cell, int g) {
+    if (!points.covers(cell)) return absent;
+    Vector6d value = strain.at(cell, g);
+    value.tail<3>() *= 2.0;
+    return 0.5 * value.dot(solid_stiffness(material_of(input, cell), points.at(cell, g)) * value);
   });
 }
 

@@ -13,6 +13,9 @@ namespace comma::solver {
 /// ENEL_ELGA: 1/2 stress : compliance : stress per volume at Gauss points (TOTALE).
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses);
 
+/// The same from elastic strains (EPME or EPMG at Gauss points): 1/2 strain : stiffness : strain for an initial volume.
+ElementField strain_energy_density(const FieldInput& input, const ElementField& strains);
+
 /// ETOT_ELGA: the work of the stresses per volume since the unstressed state, by the trapezoidal rule: `previous` plus
 /// 1/2 (stress + stress before) : (strain - strain before). Strains are EPSI at Gauss points. The fields of the step
 /// before are null at the first one.

@@ -297,15 +297,25 @@ void FieldComputation::require_small_strains(std::string_view name) const {
 }
 
 Field FieldComputation::elastic_energy(std::size_t step) {
-  if (!assembler_.has_memory()) {
-    require_small_strains("ENEL_ELGA");
-    return elastic_energy_density(input(), element_field("SIEF_ELGA", step));
-  }
-  const auto& stresses = std::get<ElementField>(remembered("SIEF_ELGA", step));
-  const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
+  const ElementField& stresses = element_field("SIEF_ELGA", step);
   Field energies = elastic_energy_density(input(), stresses);
+  if (const std::vector<int> cells = cells_in_green_strains(); !cells.empty()) {
+    const Field of_strains = strain_energy_density(input(), element_field("EPMG_ELGA", step));
+    put_piece(energies, {&of_strains, {}, {}, 1.0, false}, &cells);
+  }
+  if (!assembler_.has_memory()) return energies;
+  const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
   put_piece(energies, {&of_memory, {}, {}, 1.0, false});
   return energies;
+}
+
+std::vector<int> FieldComputation::cells_in_green_strains() const {
+  std::vector<int> cells;
+  if (!problem_.behaviours) return cells;
+  const ContinuumPoints continuum(*problem_.model);
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
+    if (continuum.covers(cell) && (*problem_.behaviours)[static_cast<std::size_t>(cell)].kinematics == Kinematics::green_lagrange) cells.push_back(cell);
+  return cells;
 }
 
 // Of continua from their stresses; of springs, bars and beams from their displacements.

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "solver/elements/assembler.hpp"
 #include "solver/fields/continuum_points.hpp"
@@ -65,6 +66,7 @@ class FieldComputation {
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
   void require_small_strains(std::string_view name) const;
+  std::vector<int> cells_in_green_strains() const;
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);
