@@ -181,8 +181,9 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   if (!refusal.empty()) hint = refusal;
   const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
                                               : fmt::format("'{}' is not part of the command language", word);
+  if (reported_names_.contains(word)) return Value::unknown();
   if (!recovering()) raise(ErrorKind::name, message, std::move(hint));
-  if (!reported_names_.insert(word).second) return Value::unknown();
+  reported_names_.insert(word);
   const char* code = like_a_command ? "unknown-command" : refusal.empty() ? "unknown-name" : "not-supported";
   report({Severity::error, code, like_a_command ? fmt::format("there is no command {}", word) : message,
           std::move(hint), span_of(name)});

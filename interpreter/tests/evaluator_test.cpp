@@ -14,6 +14,7 @@ TEST_CASE("A mistake is told once, with its code and its place", "[evaluator]") 
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"MA = LIRE_MALLAGE()\nMO = AFFE_MODELE(MAILLAGE=MA)\nx = MA.f() + MA[1]\n", "unknown-command 1:6"},
       {"x = alpha + 1\ny = alpha * x\nprint(alpha, y)\n", "unknown-name 1:5"},
+      {"x = alpha + 1\ntry:\n    y = alpha * x\nexcept ValueError:\n    pass\n", "unknown-name 1:5"},
       {"x = 1 / 0\ny = x + 1\n", "zero-division 1:5"},
       {"x = 'a' + 1\nif x == 3:\n    y = 1\nprint(y)\n", "type-error 1:5"},
       {"x = [1, 2]\ny = x[5]\nfor i in y:\n    z = i\nprint(z)\n", "index-error 2:5"},
