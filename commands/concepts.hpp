@@ -28,6 +28,11 @@ using interpreter::Value;
 
 struct MeshConcept : ConceptData {
   std::shared_ptr<solver::Mesh> mesh;
+
+  /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name, its number of members and, of cells, their largest dimension (U1.03.02); getGroupsOfNodes(), getGroupsOfCells(): names;
+  /// hasGroupOfNodes(), hasGroupOfCells(); getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
+  /// getCoordinates(), which has getValues() and toNumpy().
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
 struct ModelConcept : ConceptData {
@@ -90,6 +95,7 @@ struct ResultConcept : ConceptData {
 
   /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one value a step: LIST_VARI_ACCES()
   /// and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the parameters); LIST_CHAMPS(): the orders that have each field.
+  /// getIndexes(), getNumberOfIndexes(), getFirstIndex(), getLastIndex(); getTime(index), getLastTime(); getFieldsNames(); getField(name, index), or getField(name, value=..., para="INST").
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
@@ -100,6 +106,10 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const solver::Model> model;
   /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
+
+  /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
+  /// sous_point, numbers from 1 (U1.03.02); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
 struct TableConcept : ConceptData {

@@ -90,6 +90,30 @@ struct ColumnObject : HostObject {
   std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(table->rows.size()); }
 };
 
+/// What CREA_TABLE makes the table of again: a list a column, with the numbers of its rows where some are empty.
+Value keywords_of(const Table& table) {
+  std::vector<Value> lists;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    std::vector<Value> values, rows;
+    std::string list = "LISTE_I";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      const Cell& cell = table.rows[r][c];
+      if (std::holds_alternative<std::monostate>(cell)) continue;
+      if (std::holds_alternative<double>(cell) && list == "LISTE_I") list = "LISTE_R";
+      if (std::holds_alternative<std::string>(cell)) list = "LISTE_K";
+      values.push_back(value_of(cell));
+      rows.emplace_back(static_cast<std::int64_t>(r + 1));
+    }
+    if (values.empty()) continue;
+    std::vector<std::pair<std::string, Value>> entries = {{"PARA", Value(table.columns[c])}};
+    if (rows.size() < table.rows.size()) entries.emplace_back("NUME_LIGN", Value::list(std::move(rows)));
+    if (list == "LISTE_K") entries.emplace_back("TYPE_K", Value("K24"));
+    entries.emplace_back(list, Value::list(std::move(values)));
+    lists.push_back(Value::dict(std::move(entries)));
+  }
+  return Value::dict({{"LISTE", Value::list(std::move(lists))}});
+}
+
 struct TableObject : HostObject {
   explicit TableObject(const Table& of) : table(std::make_shared<const Table>(of)) {}
   std::shared_ptr<const Table> table;
@@ -103,11 +127,12 @@ struct TableObject : HostObject {
     if (name == "values") return method("values", [whole = table] { return columns_of(*whole); });
     if (name == "para") return Value::list({table->columns.begin(), table->columns.end()});
     if (name == "rows") return rows();
+    if (name == "dict_CREA_TABLE") return method("dict_CREA_TABLE", [whole = table] { return keywords_of(*whole); });
     return std::nullopt;
   }
   std::vector<std::string> attribute_names() const override {
     std::vector<std::string> names = table->columns;
-    names.insert(names.end(), {"values", "para", "rows"});
+    names.insert(names.end(), {"values", "para", "rows", "dict_CREA_TABLE"});
     return names;
   }
 

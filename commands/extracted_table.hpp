@@ -7,7 +7,7 @@
 namespace comma::commands {
 
 /// An object with the columns as attributes (T.INST.values() is a list) or items (T["INST"]; T["INST", "DX"] is the table of the two), values()
-/// (lists by column), para (the column names), rows (dicts without empty cells) and a length, its number of rows; printed as IMPR_TABLE does. A column compared with a value
+/// (lists by column), para (the column names), rows (dicts without empty cells), dict_CREA_TABLE() (what CREA_TABLE takes to make the table again) and a length, its number of rows; printed as IMPR_TABLE does. A column compared with a value
 /// (T.INST > 0.5) gives the table of the rows that pass; & and | join two such tables.
 interpreter::Value extracted_table(const Table& table);
 

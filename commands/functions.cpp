@@ -78,6 +78,11 @@ Value FunctionConcept::method(std::string_view name, const std::vector<Value>& a
   if (table() != nullptr && arguments.empty() && keywords.empty()) {
     if (name == "Absc") return list_of(table()->x);
     if (name == "Ordo") return list_of(table()->y);
+    if (name == "getValues") {
+      std::vector<double> values = table()->x;
+      values.insert(values.end(), table()->y.begin(), table()->y.end());
+      return list_of(values);
+    }
     if (name == "Valeurs") return Value::list({list_of(table()->x), list_of(table()->y)});
   }
   return ConceptData::method(name, arguments, keywords);

@@ -19,7 +19,7 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
-  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02).
+  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   /// The table behind it, or null when it has none.

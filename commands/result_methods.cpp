@@ -1,8 +1,12 @@
 // What a command file may ask a result for (U1.03.02).
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
+
 #include "commands/concepts.hpp"
+#include "commands/method_arguments.hpp"
 #include "commands/result_tables.hpp"
 #include "interpreter/dict.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -66,6 +70,61 @@ std::shared_ptr<Dict> fields(const solver::Result& result) {
   return lists;
 }
 
+/// The step of an order number, or of an instant.
+const solver::ResultStep& step_at(const solver::Result& result, const MethodArguments& given) {
+  const std::string parameter = given.text("para", "NUME_ORDRE");
+  if (!given.has("value") || (parameter != "NUME_ORDRE" && parameter != "INST")) throw DiagnosticError("type-error", "a step is named by its number or its instant", {}, "write RESULT.getField(\"DEPL\", 1), or value=1.0, para=\"INST\"");
+  const double value = given.real("value"), precision = given.real("prec", 1e-6);
+  const bool absolute = parameter == "NUME_ORDRE" || given.text("crit", "RELATIF") == "ABSOLU";
+  for (const solver::ResultStep& step : result.steps) {
+    const double own = parameter == "INST" ? step.instant : static_cast<double>(step.order);
+    if (std::abs(own - value) <= (parameter == "INST" ? precision * (absolute ? 1.0 : std::abs(value)) : 0.0)) return step;
+  }
+  throw DiagnosticError("unknown-step", fmt::format("the result has no step {}={}", parameter, value));
+}
+
+Value field_handle(const ResultConcept& data, const MethodArguments& given) {
+  const std::string name = given.text("name");
+  const solver::ResultStep& step = step_at(data.result, given);
+  const auto found = step.fields.find(name);
+  if (found == step.fields.end()) throw DiagnosticError("unknown-field", fmt::format("the step INST={} of the result holds no {}", step.instant, name), {}, "compute it by CALC_CHAMP before");
+  auto field = std::make_shared<FieldConcept>();
+  field->field = found->second;
+  field->model = data.result.model;
+  field->mesh = data.result.model ? data.result.model->mesh : data.result.bare_mesh;
+  auto handle = std::make_shared<interpreter::Concept>();
+  handle->name = name;
+  handle->type = std::holds_alternative<solver::NodalField>(field->field) ? "cham_no_sdaster" : "cham_elem";
+  handle->id = interpreter::detached_concept;
+  handle->data = std::move(field);
+  return Value(std::move(handle));
+}
+
+const solver::ResultStep& end_of(const solver::Result& result, bool last) {
+  if (result.steps.empty()) throw DiagnosticError("unknown-step", "the result has no step");
+  return last ? result.steps.back() : result.steps.front();
+}
+
+struct ResultMethod {
+  std::vector<std::string> parameters;
+  Value (*code)(const ResultConcept&, const MethodArguments&);
+};
+
+const std::map<std::string, ResultMethod, std::less<>>& step_methods() {
+  using Arguments = MethodArguments;
+  static const auto order = [](const solver::ResultStep& step) { return Value(static_cast<std::int64_t>(step.order)); };
+  static const std::map<std::string, ResultMethod, std::less<>> table = {
+      {"getIndexes", {{}, [](const ResultConcept& data, const Arguments&) { return of_steps(data.result, order); }}},
+      {"getNumberOfIndexes", {{}, [](const ResultConcept& data, const Arguments&) { return Value(static_cast<std::int64_t>(data.result.steps.size())); }}},
+      {"getFirstIndex", {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, false)); }}},
+      {"getLastIndex", {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, true)); }}},
+      {"getLastTime", {{}, [](const ResultConcept& data, const Arguments&) { return Value(end_of(data.result, true).instant); }}},
+      {"getTime", {{"value"}, [](const ResultConcept& data, const Arguments& given) { return Value(step_at(data.result, given).instant); }}},
+      {"getFieldsNames", {{}, [](const ResultConcept& data, const Arguments&) { return Value::list(fields(data.result)->keys()); }}},
+      {"getField", {{"name", "value", "para", "crit", "prec"}, field_handle}}};
+  return table;
+}
+
 }  // namespace
 
 const solver::StaticProblem& ResultConcept::problem_of(const solver::ResultStep& step) const {
@@ -78,6 +137,7 @@ Value ResultConcept::method(std::string_view name, const std::vector<Value>& arg
     if (arguments.size() == 1 && arguments.front().is_text() && keywords.empty()) return table_handle(*this, arguments.front().as_text());
     throw DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
   }
+  if (const auto found = step_methods().find(name); found != step_methods().end()) return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
   static const std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)> lists = {
       {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", access_parameters}, {"LIST_CHAMPS", fields}};
   const auto list = lists.find(name);
