@@ -28,6 +28,8 @@ constexpr std::pair<std::string_view, solver::Relation> relations[] = {
     {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
     {"DIS_CONTACT", solver::Relation::contact_spring},
     {"DIS_CHOC", solver::Relation::contact_spring},
+    {"DIS_BILI_ELAS", solver::Relation::bilinear_spring},
+    {"DIS_ECRO_CINE", solver::Relation::hardening_spring},
 };
 constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"PETIT", solver::Kinematics::small},

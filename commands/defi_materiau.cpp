@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "commands/commands.hpp"
@@ -192,6 +193,32 @@ solver::ContactSpring contact_spring(const Keywords& law) {
   return {law.real("RIGI_NOR"), law.real("RIGI_TAN"), law.real("COULOMB"), law.real("DIST_1"), law.real("DIST_2"), law.real("JEU")};
 }
 
+void add_bilinear_springs(const Keywords& law, solver::Material& material) {
+  static constexpr std::array<const char*, 3> axes = {"DX", "DY", "DZ"};
+  material.knows_bilinear_springs = true;
+  material.springs.bilinear = {};
+  for (std::size_t c = 0; c < axes.size(); ++c) {
+    const std::string axis = axes[c];
+    if (law.has("FPRE_" + axis)) material.springs.bilinear[c] = solver::BilinearSpring{property(law, "KDEB_" + axis), property(law, "KFIN_" + axis), law.real("FPRE_" + axis)};
+  }
+}
+
+void add_hardening_springs(const Keywords& law, solver::Material& material) {
+  static constexpr std::array<const char*, 6> axes = {"DX", "DY", "DZ", "RX", "RY", "RZ"};
+  material.knows_hardening_springs = true;
+  material.springs.hardening = {};
+  for (std::size_t c = 0; c < axes.size(); ++c) {
+    const std::string axis = axes[c];
+    if (!law.has("LIMY_" + axis)) continue;
+    solver::HardeningSpring spring{law.real("LIMY_" + axis), law.real("KCIN_" + axis), 0.0, 0.0};
+    if (law.has("PUIS_" + axis)) {
+      spring.power = law.real("PUIS_" + axis);
+      spring.limit = law.real("LIMU_" + axis);
+    }
+    material.springs.hardening[c] = spring;
+  }
+}
+
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
@@ -206,6 +233,8 @@ Product defi_materiau(const Call& call, Context&) {
   if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
   add_plasticity(call, material->plasticity);
   if (call.has("DIS_CONTACT")) material->contact_spring = contact_spring(call.factor("DIS_CONTACT"));
+  if (call.has("DIS_BILI_ELAS")) add_bilinear_springs(call.factor("DIS_BILI_ELAS"), *material);
+  if (call.has("DIS_ECRO_CINE")) add_hardening_springs(call.factor("DIS_ECRO_CINE"), *material);
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
   if (!call.reuse) return product;

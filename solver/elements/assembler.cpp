@@ -43,15 +43,20 @@ CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
   return groups;
 }
 
+bool is_of_springs(Relation relation) {
+  return relation == Relation::contact_spring || relation == Relation::bilinear_spring || relation == Relation::hardening_spring;
+}
+
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   const bool is_discrete = discrete_components(formulation) > 0;
-  if (input.behaviour_of(cells.front()).relation == Relation::contact_spring && !is_discrete)
-    throw Error("unsupported", fmt::format("cell {}: the law of contact and friction is one of discrete elements", input.model.mesh->cell_name(cells.front())),
-                "give RELATION='DIS_CONTACT' or 'DIS_CHOC' to the groups of discrete elements alone");
+  if (is_of_springs(input.behaviour_of(cells.front()).relation) && !is_discrete)
+    throw Error("unsupported", fmt::format("cell {}: laws of springs, and of contact and friction inside them, are for discrete elements", input.model.mesh->cell_name(cells.front())),
+                "give RELATION='DIS_...' to the groups of discrete elements alone");
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
   const Relation relation = input.behaviour_of(cells.front()).relation;
   if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
+  if (is_of_springs(relation)) return make_discrete_law_block(input, std::move(cells));
   const bool flows = relation != Relation::elastic;
   if (flows && (formulation == Formulation::bar || formulation == Formulation::bar_2d)) return make_inelastic_bar_block(input, std::move(cells));
   if (flows)

@@ -24,4 +24,9 @@ const DiscreteStiffness& discrete_stiffness(const BlockInput& input, int cell);
 /// Throws Error `missing-material`, `missing-properties`, `wrong-size`, `unsupported`.
 std::unique_ptr<ElementBlock> make_discrete_contact_block(const BlockInput& input, std::vector<int> cells);
 
+/// Discrete elements whose components have a law each (Relation::bilinear_spring, Relation::hardening_spring), in small displacements; the others keep the stiffness of the element, which must
+/// be diagonal in own axes. Internal variables: of each translation 0 where no force acts, 1 on the first slope, 2 on the second; or of each component its plastic displacement.
+/// Throws Error `missing-material`, `missing-properties`, `wrong-size`, `invalid-material`, `unsupported`.
+std::unique_ptr<ElementBlock> make_discrete_law_block(const BlockInput& input, std::vector<int> cells);
+
 }  // namespace comma::solver

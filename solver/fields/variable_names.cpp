@@ -42,7 +42,9 @@ std::vector<std::string> names_of_relation(const CellBehaviour& behaviour) {
       add_tensor(names, "XCIN");
       return names;
     }
-    case Relation::contact_spring: break;
+    case Relation::contact_spring:
+    case Relation::bilinear_spring:
+    case Relation::hardening_spring: break;
   }
   return {};
 }

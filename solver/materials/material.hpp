@@ -12,6 +12,7 @@
 #include "solver/materials/contact_spring.hpp"
 #include "solver/materials/plasticity.hpp"
 #include "solver/materials/property.hpp"
+#include "solver/materials/spring_law.hpp"
 
 namespace comma::solver {
 
@@ -61,6 +62,9 @@ struct Material {
   std::optional<Elasticity> elasticity;
   Plasticity plasticity{};
   std::optional<ContactSpring> contact_spring;  ///< of discrete elements
+  SpringLaws springs;                           ///< of discrete elements
+  bool knows_bilinear_springs = false;
+  bool knows_hardening_springs = false;
 };
 
 /// The material of each cell; null where none is given.

@@ -26,6 +26,8 @@ enum class Relation : std::uint8_t {
   mixed_linear,           ///< both, the isotropic part linear (R5.03.16)
   mixed_traction,         ///< both, the isotropic part from a traction curve
   contact_spring,         ///< contact and friction inside a discrete element (R5.03.17)
+  bilinear_spring,        ///< a discrete element whose components are elastic with two slopes (R5.03.17)
+  hardening_spring,       ///< a discrete element whose components flow, with kinematic hardening (R5.03.17)
 };
 
 struct CellBehaviour {

@@ -182,7 +182,9 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
   }
   switch (relation) {
     case Relation::elastic:
-    case Relation::contact_spring: return point;
+    case Relation::contact_spring:
+    case Relation::bilinear_spring:
+    case Relation::hardening_spring: return point;
     case Relation::hyperelastic:
       if (!plasticity.hyperelasticity) throw_missing("ELAS_HYPER");
       point.hyperelasticity = &*plasticity.hyperelasticity;
