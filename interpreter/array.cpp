@@ -213,6 +213,15 @@ Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter)
   return make_array(std::move(result), shape, compares || (x.integers && y.integers && op != Operator::divide));
 }
 
+Value transposed(const ArrayObject& array) {
+  if (array.shape.size() == 1) return make_array(array.data, array.shape, array.integers);
+  const std::size_t rows = array.shape[0], columns = array.shape[1];
+  std::vector<double> data(array.data.size());
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = 0; j < columns; ++j) data[j * rows + i] = array.data[i * columns + j];
+  return make_array(std::move(data), {columns, rows}, array.integers);
+}
+
 Value array_subscript(const ArrayObject& array, const Value& index) {
   Selected selected = select(array, index);
   if (selected.shape.empty()) return array.item(selected.places[0]);

@@ -33,6 +33,9 @@ Value make_array(std::vector<double> data, std::vector<std::size_t> shape, bool 
 /// Element by element, a number standing for an array of it. Comparisons give arrays of 0 and 1.
 Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter);
 
+/// Rows as columns; a vector is its own.
+Value transposed(const ArrayObject& array);
+
 /// a[i], a[i, j], a[i:j], a[:, j].
 Value array_subscript(const ArrayObject& array, const Value& index);
 void array_store(ArrayObject& array, const Value& index, const Value& value);

@@ -216,15 +216,36 @@ Value flatten(Evaluator&, const Value& self, const CallArguments&) {
   return make_array(source->data, {source->data.size()}, source->integers);
 }
 
-Value transpose(Evaluator&, const Value& self, const CallArguments&) {
-  const auto* source = self.as_object<ArrayObject>();
-  if (source->shape.size() == 1) return make_array(source->data, source->shape, source->integers);
-  const std::size_t rows = source->shape[0], columns = source->shape[1];
-  std::vector<double> data(source->data.size());
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t j = 0; j < columns; ++j) data[j * rows + i] = source->data[i * columns + j];
+Value transpose(Evaluator&, const Value& self, const CallArguments&) { return transposed(*self.as_object<ArrayObject>()); }
+
+Value transpose_of(Evaluator& evaluator, const CallArguments& arguments) {
+  expect_arguments("transpose", arguments, 1, 1);
+  Value holder;
+  return transposed(array_of(evaluator, arguments[0], holder));
+}
+
+/// Arrays one after the other, or their rows.
+Value concatenate(Evaluator& evaluator, const CallArguments& arguments) {
+  expect_arguments("concatenate", arguments, 1, 1);
+  if (!arguments[0].is_sequence() || arguments[0].items().empty()) raise(ErrorKind::value, "need at least one array to concatenate");
+  std::vector<double> data;
+  std::vector<std::size_t> shape;
+  bool integers = true;
+  for (const Value& part : arguments[0].items()) {
+    Value holder;
+    const ArrayObject& source = array_of(evaluator, part, holder);
+    if (shape.empty()) {
+      shape = source.shape;
+      shape.front() = 0;
+    }
+    if (source.shape.size() != shape.size() || source.shape.back() != (shape.size() == 2 ? shape.back() : source.shape.back()))
+      raise(ErrorKind::value, "all the input array dimensions except for the concatenation axis must match exactly");
+    shape.front() += source.shape.front();
+    evaluator.meter().allocate(source.data.size() * sizeof(double));
+    data.insert(data.end(), source.data.begin(), source.data.end());
+    integers = integers && source.integers;
   }
-  return make_array(std::move(data), {columns, rows}, source->integers);
+  return make_array(std::move(data), std::move(shape), integers);
 }
 
 constexpr std::array array_function_table = {
@@ -242,6 +263,8 @@ constexpr std::array array_function_table = {
     FunctionRow{"amin", array_min},
     FunctionRow{"argmax", argmax},
     FunctionRow{"argmin", argmin},
+    FunctionRow{"transpose", transpose_of},
+    FunctionRow{"concatenate", concatenate},
     FunctionRow{"dot", dot},
     FunctionRow{"cross", cross},
     FunctionRow{"norm", norm},

@@ -31,6 +31,16 @@ TEST_CASE("Arrays are sliced by rows and columns", "[numpy]") {
   CHECK(printed("np.array([[1, 2, 3]]).shape") == "(1, 3)");
 }
 
+TEST_CASE("Arrays are turned round and put one after the other", "[numpy]") {
+  CHECK(printed("np.array([[1, 2], [3, 4], [5, 6]]).T.tolist()") == "[[1, 3, 5], [2, 4, 6]]");
+  CHECK(printed("np.transpose([[1., 2.]]).shape, np.array([1, 2]).T.tolist()") == "(2, 1) [1, 2]");
+  CHECK(printed("np.concatenate((np.array([1, 2]), [3.5])).tolist()") == "[1.0, 2.0, 3.5]");
+  CHECK(printed("np.concatenate([[[1, 2]], [[3, 4], [5, 6]]]).tolist()") == "[[1, 2], [3, 4], [5, 6]]");
+  const Run run("import numpy as np\nx = np.concatenate([[[1, 2]], [3]])\n");
+  REQUIRE(run.diagnostics.items().size() == 1);
+  CHECK(run.diagnostics.items()[0].code == "value-error");
+}
+
 TEST_CASE("Ranges and reductions agree with their definitions", "[numpy]") {
   CHECK(printed("np.linspace(0, 1, 5).tolist()") == "[0.0, 0.25, 0.5, 0.75, 1.0]");
   CHECK(printed("np.arange(0, 1, 0.25).tolist()") == "[0.0, 0.25, 0.5, 0.75]");
