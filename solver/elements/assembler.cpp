@@ -169,8 +169,9 @@ CellMaterial elastic_material(const BlockInput& input, int cell) {
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
   const auto* isotropic = std::get_if<IsotropicElasticity>(elastic_material(input, cell).elasticity);
   if (isotropic == nullptr) {
-    throw Error("unsupported", fmt::format("the bar, beam or plate on cell {} has an anisotropic material, but needs an isotropic one",
-                                           input.model.mesh->cell_name(cell)));
+    const bool is_continuum = continuum_dimension(input.model.formulations[static_cast<std::size_t>(cell)]) > 0;
+    throw Error("unsupported", fmt::format("the {} on cell {} has an anisotropic material, but needs an isotropic one", is_continuum ? "element" : "bar, beam or plate", input.model.mesh->cell_name(cell)),
+                is_continuum ? "in continua without pressure as an unknown anisotropic elasticity goes with DEFORMATION='PETIT', and with 'GREEN_LAGRANGE' but for plane stress" : "");
   }
   return *isotropic;
 }
