@@ -113,6 +113,7 @@ solver::CommandVariable command_variable(const Keywords& assignment, const solve
     return variable;
   }
   variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name->field);
+  if (assignment.has("FONC_INST")) variable.instant = time_function(assignment.concept_of("FONC_INST"), assignment.span_of("FONC_INST"));
   variable.left = extension_named(assignment.text("PROL_GAUCHE"));
   variable.right = extension_named(assignment.text("PROL_DROITE"));
   return variable;

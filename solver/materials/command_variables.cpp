@@ -68,7 +68,7 @@ VariableState::VariableState(const Mesh& mesh, std::span<const CommandVariable> 
     check(mesh, variable);
     gives_strains_ = gives_strains_ || std::ranges::find(strain_parameters, variable.variable) != strain_parameters.end();
     const int index = static_cast<int>(entries_.size());
-    entries_.push_back({variable.variable, variable.reference, at_time(variable, time)});
+    entries_.push_back({variable.variable, variable.reference, at_time(variable, variable.instant ? variable.instant(time) : time)});
     std::vector<int>& entry_of_cell = entry_of_cell_[static_cast<std::size_t>(variable.variable)];
     entry_of_cell.resize(mesh.cell_types.size(), -1);
     if (variable.cells.empty()) std::fill(entry_of_cell.begin(), entry_of_cell.end(), index);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,7 @@ struct CommandVariable {
   std::vector<VariableSnapshot> snapshots;  ///< rising instants
   Extension left = Extension::excluded;     ///< before the first snapshot
   Extension right = Extension::excluded;
+  std::function<double(double)> instant = {};  ///< of the snapshots, at a time of the computation; empty: that time
 };
 
 /// The command variables of a body at one instant.

@@ -43,6 +43,16 @@ TEST_CASE("command variables are linear in time and place", "[materials]") {
   CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == Approx(400.0));
 }
 
+TEST_CASE("a command variable may run through its instants at a pace of its own", "[materials]") {
+  const Mesh mesh = two_bars();
+  std::vector variables = {heating()};
+  variables[0].instant = [](double time) { return 10.0 - 0.5 * time; };
+  CHECK(temperature(mesh, VariableState(mesh, variables, 20.0), 0, 0.5) == Approx(50.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 1, 0.0) == Approx(400.0));
+  CHECK(VariableState(mesh, variables, 20.0).time() == 20.0);
+  CHECK_THROWS_AS(VariableState(mesh, variables, 21.0), Error);
+}
+
 TEST_CASE("outside its instants a command variable is refused unless it is extended", "[materials]") {
   const Mesh mesh = two_bars();
   std::vector variables = {heating()};
