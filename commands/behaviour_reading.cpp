@@ -26,6 +26,7 @@ constexpr std::pair<std::string_view, solver::Relation> relations[] = {
     {"VMIS_CINE_LINE", solver::Relation::kinematic_linear},
     {"VMIS_ECMI_LINE", solver::Relation::mixed_linear},
     {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
+    {"VMIS_ASYM_LINE", solver::Relation::asymmetric_linear},
     {"DIS_CONTACT", solver::Relation::contact_spring},
     {"DIS_CHOC", solver::Relation::contact_spring},
     {"DIS_BILI_ELAS", solver::Relation::bilinear_spring},

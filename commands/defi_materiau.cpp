@@ -181,6 +181,10 @@ solver::IsotropicElasticity small_strain_elasticity(const Keywords& law) {
 void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
   for (const char* keyword : {"ECRO_LINE", "ECRO_LINE_FO"})
     if (call.has(keyword)) plasticity.linear = linear_hardening(call.factor(keyword));
+  if (call.has("ECRO_ASYM_LINE")) {
+    const Keywords& law = call.factor("ECRO_ASYM_LINE");
+    plasticity.asymmetric = solver::AsymmetricHardening{{property(law, "DT_SIGM_EPSI"), property(law, "SY_T")}, {property(law, "DC_SIGM_EPSI"), property(law, "SY_C")}};
+  }
   if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
   if (call.has("ECRO_PUIS")) plasticity.power = power_hardening(call.factor("ECRO_PUIS"));
   if (call.has("ECRO_NL")) plasticity.nonlinear = nonlinear_hardening(call.factor("ECRO_NL"));

@@ -36,6 +36,7 @@ struct BarState {
   double stress = 0.0;
   double back_stress = 0.0;
   double p = 0.0;
+  double p_compression = 0.0;  ///< where compression hardens by itself
   double flow = 0.0;  ///< by which p grew in the step that led here
   bool flowing = false;
   PlasticModuli moduli;
@@ -63,16 +64,19 @@ BarResponse integrate(const BarState& past, const BarMaterial& now, double strai
   const double hardness = young + 1.5 * now.plastic.kinematic;
   const double relative = state.stress - 1.5 * state.back_stress;
   const double size = std::abs(relative);
-  const auto flow_tangent = [&] { return young - young * young / (hardness + hardening(now.plastic.curve, state.p).second); };
-  if (!(size > hardening(now.plastic.curve, past.p).first * (1.0 + bar_rounding_share))) {
+  const bool is_apart = relative < 0.0 && !std::holds_alternative<NoYield>(now.plastic.compression);
+  const HardeningCurve& curve = is_apart ? now.plastic.compression : now.plastic.curve;
+  double& p = is_apart ? state.p_compression : state.p;
+  const auto flow_tangent = [&] { return young - young * young / (hardness + hardening(curve, p).second); };
+  if (!(size > hardening(curve, p).first * (1.0 + bar_rounding_share))) {
     // Nothing moves yet: what flowed in the last step is taken to flow on.
     state.flowing = past.flowing && increment == 0.0;
     if (state.flowing) response.tangent = flow_tangent();
     return response;
   }
-  const double flow = std::copysign(plastic_increment(now.plastic.curve, size, hardness, past.p), relative);
+  const double flow = std::copysign(plastic_increment(curve, size, hardness, p), relative);
   state.flow = std::abs(flow);
-  state.p = past.p + state.flow;
+  p += state.flow;
   state.flowing = true;
   state.stress -= young * flow;
   state.back_stress += now.plastic.kinematic * flow;
@@ -141,7 +145,7 @@ class InelasticBar final : public ElementBlock {
   }
   bool has_memory() const override { return true; }
   void extrapolate(std::optional<double> duration) override {
-    if (duration && (behaviour_.relation == Relation::kinematic_linear || is_mixed()))
+    if (duration && (behaviour_.relation == Relation::kinematic_linear || is_mixed() || is_asymmetric()))
       throw Error("unsupported", "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS of bars alone", "take METHODE='NEWTON'");
     extrapolation_ = duration;
   }
@@ -153,6 +157,7 @@ class InelasticBar final : public ElementBlock {
 
   int variable_count() const override {
     if (behaviour_.relation == Relation::kinematic_linear) return back_stress_size + 1;
+    if (is_asymmetric()) return 4;
     return is_mixed() ? 2 + back_stress_size : 2;
   }
   void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -160,7 +165,8 @@ class InelasticBar final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element) {
       const BarState reached = respond(element, u, state).state;
       const auto of_element = out.subspan(static_cast<std::size_t>(element * variable_count()));
-      of_element[place_of_flow()] = reached.flowing ? 1.0 : 0.0;
+      of_element[place_of_flow(reached.stress)] = reached.flowing ? 1.0 : 0.0;
+      if (is_asymmetric()) of_element[2] = reached.p_compression;
       if (behaviour_.relation != Relation::kinematic_linear) of_element[0] = reached.p;
       if (behaviour_.relation == Relation::kinematic_linear || is_mixed()) of_element[place_of_back_stress()] = reached.back_stress;
     }
@@ -189,7 +195,8 @@ class InelasticBar final : public ElementBlock {
       if (!reported.empty()) past.stress = reported[index] / members_[index].area;
       if (variables.empty()) continue;
       const auto of_element = variables.subspan(index * static_cast<std::size_t>(variable_count()));
-      past.flowing = of_element[place_of_flow()] > 0.5;
+      past.flowing = of_element[place_of_flow(past.stress)] > 0.5;
+      if (is_asymmetric()) past.p_compression = of_element[2];
       if (behaviour_.relation != Relation::kinematic_linear) past.p = of_element[0];
       if (behaviour_.relation == Relation::kinematic_linear || is_mixed()) past.back_stress = of_element[place_of_back_stress()];
     }
@@ -212,7 +219,11 @@ class InelasticBar final : public ElementBlock {
   };
 
   bool is_mixed() const { return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction; }
-  std::size_t place_of_flow() const { return behaviour_.relation == Relation::kinematic_linear ? back_stress_size : 1; }
+  bool is_asymmetric() const { return behaviour_.relation == Relation::asymmetric_linear; }
+  std::size_t place_of_flow(double stress) const {
+    if (is_asymmetric()) return stress < 0.0 ? 3 : 1;
+    return behaviour_.relation == Relation::kinematic_linear ? back_stress_size : 1;
+  }
   std::size_t place_of_back_stress() const { return is_mixed() ? 2 : 0; }
 
   Member member(const BlockInput& input, int cell) const {

@@ -42,6 +42,7 @@ std::vector<std::string> names_of_relation(const CellBehaviour& behaviour) {
       add_tensor(names, "XCIN");
       return names;
     }
+    case Relation::asymmetric_linear:
     case Relation::contact_spring:
     case Relation::bilinear_spring:
     case Relation::hardening_spring: break;

@@ -15,6 +15,12 @@ struct LinearHardening {
   Property yield{};
 };
 
+/// Yield stresses and slopes of their own in tension and in compression, which harden apart from each other (R5.03.09).
+struct AsymmetricHardening {
+  LinearHardening tension;
+  LinearHardening compression;
+};
+
 /// Stress over total strain in simple traction, the yield point first (R5.03.02); one curve, or one for each of some rising
 /// temperatures, between which and beyond which (`left`, `right`) R(p) follows.
 struct TractionHardening {
@@ -57,6 +63,7 @@ struct Hyperelasticity {
 /// What is given of a material; a relation takes what it needs.
 struct Plasticity {
   std::optional<LinearHardening> linear;
+  std::optional<AsymmetricHardening> asymmetric;
   std::optional<TractionHardening> traction;
   std::optional<PowerHardening> power;
   std::optional<NonlinearHardening> nonlinear;

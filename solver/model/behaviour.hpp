@@ -25,6 +25,7 @@ enum class Relation : std::uint8_t {
   kinematic_linear,       ///< von Mises, the centre of the yield surface moving with the plastic strain
   mixed_linear,           ///< both, the isotropic part linear (R5.03.16)
   mixed_traction,         ///< both, the isotropic part from a traction curve
+  asymmetric_linear,      ///< of bars: isotropic hardening, linear, one for tension and one for compression (R5.03.09)
   contact_spring,         ///< contact and friction inside a discrete element (R5.03.17)
   bilinear_spring,        ///< a discrete element whose components are elastic with two slopes (R5.03.17)
   hardening_spring,       ///< a discrete element whose components flow, with kinematic hardening (R5.03.17)

@@ -140,6 +140,7 @@ const char* keyword_of(Relation relation) {
     case Relation::mixed_traction: return "TRACTION";
     case Relation::isotropic_power: return "ECRO_PUIS";
     case Relation::isotropic_nonlinear: return "ECRO_NL";
+    case Relation::asymmetric_linear: return "ECRO_ASYM_LINE";
     default: return "ECRO_LINE or ECRO_LINE_FO";
   }
 }
@@ -210,6 +211,11 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
       point.curve = std::move(curve);
       return point;
     }
+    case Relation::asymmetric_linear:
+      if (!plasticity.asymmetric) throw_missing(keyword_of(relation));
+      point.curve = linear_curve(plasticity.asymmetric->tension, elastic.young, 0.0, at);
+      point.compression = linear_curve(plasticity.asymmetric->compression, elastic.young, 0.0, at);
+      return point;
     case Relation::isotropic_power: {
       if (!plasticity.power) throw_missing(keyword_of(relation));
       const PowerHardening& law = *plasticity.power;

@@ -44,6 +44,7 @@ struct PlasticModuli {
 struct PlasticPoint : PlasticModuli {
   HardeningCurve curve;
   const Hyperelasticity* hyperelasticity = nullptr;  ///< of rubber
+  HardeningCurve compression = NoYield{};            ///< where it is another one than `curve`, that of tension
 };
 
 /// Whether a relation finds the same at all points and times.

@@ -71,6 +71,7 @@ Vector6d green_strain(const Eigen::Matrix3d& h) {
 }  // namespace
 
 PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(behaviour), in_plane_(in_plane) {
+  if (behaviour.relation == Relation::asymmetric_linear) throw Error("unsupported", "hardening apart in tension and in compression is a law of bars", "give RELATION='VMIS_ASYM_LINE' to groups of bars alone");
   if (behaviour.relation == Relation::hyperelastic) {
     if (behaviour.kinematics != Kinematics::green_lagrange)
       throw Error("unsupported", "rubber has large strains on the initial geometry", "take DEFORMATION='GREEN_LAGRANGE'");
