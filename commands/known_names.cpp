@@ -70,7 +70,8 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
   if (quantity == "SIEF" || quantity == "SIGM") {
     return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ"};
   }
-  if (quantity == "EPSI") return std::vector<std::string>{"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+  static constexpr std::array<std::string_view, 5> strains = {"EPSI", "EPME", "EPSG", "EPMG", "EPSP"};
+  if (std::ranges::find(strains, quantity) != strains.end()) return std::vector<std::string>{"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
   if (quantity == "VARI") return std::vector<std::string>{"V", "VARI"};
   return std::nullopt;
 }
