@@ -66,9 +66,6 @@ solver::NodalFunction at_nodes(const History& history, int cell, std::span<const
   };
 }
 
-// What a pressure acts on.
-bool is_surface(const LoadedModel& target, int cell) { return target.model.is_skin(cell) || solver::is_plate(target.model.formulations[cell]); }
-
 bool bears(const LoadedModel& target, const ForceField& kind, int cell) {
   const int body = solver::continuum_dimension(target.model.formulations[cell]);
   const int own = solver::dimension(target.mesh.cell_types[cell]);

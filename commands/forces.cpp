@@ -151,16 +151,6 @@ Amount component_of_turned(const std::array<Amount, 3>& given, const Eigen::Vect
   return sum;
 }
 
-bool is_plate(const LoadedModel& target, int cell) {
-  return solver::is_plate(target.model.formulations[cell]) && !target.model.is_skin(cell);
-}
-
-// What a pressure acts on.
-bool is_surface(const LoadedModel& target, int cell) {
-  if (solver::is_plate(target.model.formulations[cell])) return is_plate(target, cell);
-  return target.model.is_skin(cell);
-}
-
 solver::PlateLevel level_of(const Keywords& occurrence) {
   const std::string plane = occurrence.text("PLAN");
   if (plane == "SUP") return solver::PlateLevel::upper;

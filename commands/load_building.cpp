@@ -49,6 +49,13 @@ Component component_named(const Keywords& keywords, const std::string& keyword, 
                         "a displacement has DX, DY, DZ, DRX, DRY, DRZ, and PRES, GONF where the volume hardly changes");
 }
 
+bool is_plate(const LoadedModel& target, int cell) { return solver::is_plate(target.model.formulations[cell]) && !target.model.is_skin(cell); }
+
+bool is_surface(const LoadedModel& target, int cell) {
+  if (solver::is_plate(target.model.formulations[cell])) return is_plate(target, cell);
+  return target.model.is_skin(cell);
+}
+
 std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,
                           const solver::DofMap& dofs) {
   std::vector<int> found;

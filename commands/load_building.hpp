@@ -67,6 +67,11 @@ Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees);
 /// is an alarm and not an error (AFFE_CHAR_CINE passes over it). The others have keywords of their own.
 void add_imposed_displacements(const interpreter::Keywords& keywords, const std::string& name, const LoadedModel& target,
                                solver::Load& load, interpreter::Diagnostics* alarms = nullptr);
+/// Whether the cell is a plate, not an edge of one.
+bool is_plate(const LoadedModel& target, int cell);
+/// Whether pressures act on the cell: skin of a body, or a plate.
+bool is_surface(const LoadedModel& target, int cell);
+
 /// Alarm `faces-meet` where the mean normal at a node is far from that of a face.
 void add_face_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load, interpreter::Diagnostics& alarms);
 void add_edge_displacements(const interpreter::Keywords& keywords, const LoadedModel& target, solver::Load& load);

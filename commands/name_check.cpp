@@ -101,7 +101,7 @@ class NameCheck {
       : node_(node), graph_(graph), catalogue_(catalogue), diagnostics_(diagnostics) {}
 
   bool run() {
-    collect_own_names(node_.call);
+    if (const std::string& name = node_.call.command; name == "DEFI_GROUP" || name == "CREA_MAILLAGE") collect_own_names(node_.call);
     // Loads and contact speak of displacements.
     const std::string& command = node_.call.command;
     const bool of_displacements = command == "DEFI_CONTACT" || command.starts_with("AFFE_CHAR_MECA");
