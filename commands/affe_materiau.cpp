@@ -30,6 +30,10 @@ constexpr VariableName variables[] = {
     {"NEUT1", Parameter::neutral_1, "NEUT", "X1"},    {"NEUT2", Parameter::neutral_2, "NEUT", "X1"},  {"NEUT3", Parameter::neutral_3, "NEUT", "X1"},
     {"EPSA", Parameter::strain_xx, "EPSA_ELNO", nullptr}};
 
+const VariableName& named_variable(const Keywords& assignment) {
+  return *std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
+}
+
 std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
   std::vector<solver::VariableSnapshot> found;
   for (const solver::ResultStep& step : assignment.data<ResultConcept>("EVOL").result.steps) {
@@ -103,16 +107,16 @@ void keep_component(const char* name, const Keywords& assignment, solver::Comman
 }
 
 solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
-  const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
+  const VariableName& name = named_variable(assignment);
   solver::CommandVariable variable;
-  variable.variable = name->variable;
+  variable.variable = name.variable;
   if (names_a_place(assignment)) variable.cells = selected_cells(assignment, mesh);
   if (assignment.has("VALE_REF")) variable.reference = assignment.real("VALE_REF");
   if (assignment.has("CHAM_GD")) {
     variable.snapshots.push_back({0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
     return variable;
   }
-  variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name->field);
+  variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name.field);
   if (assignment.has("FONC_INST")) variable.instant = time_function(assignment.concept_of("FONC_INST"), assignment.span_of("FONC_INST"));
   variable.left = extension_named(assignment.text("PROL_GAUCHE"));
   variable.right = extension_named(assignment.text("PROL_DROITE"));
@@ -137,8 +141,7 @@ Product affe_materiau(const Call& call, Context&) {
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     solver::CommandVariable variable = command_variable(assignment, mesh);
     check_even_through_thickness(variable, assignment);
-    const auto* name = std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
-    if (name->component != nullptr) keep_component(name->component, assignment, variable);
+    if (const char* component = named_variable(assignment).component) keep_component(component, assignment, variable);
     if (assignment.text("NOM_VARC") == "EPSA") {
       add_strains(variable, assignment, field->variables);
     } else {

@@ -76,13 +76,13 @@ struct ContactConcept : ConceptData {
   std::variant<solver::ContactDefinition, std::vector<solver::UnilateralCondition>> conditions;
 };
 
-/// A result and what CALC_CHAMP needs to go on from it; `problem` has no model when the result lies on a mesh alone.
 /// What the first steps of a result were computed from, where a later command has gone on with others (reuse=).
 struct EarlierPhase {
   int last_order = 0;  ///< of its steps
   solver::StaticProblem problem;
 };
 
+/// A result and what CALC_CHAMP needs to go on from it; `problem` has no model when the result lies on a mesh alone.
 struct ResultConcept : ConceptData {
   solver::Result result;
   solver::StaticProblem problem;      ///< of the steps after the earlier phases

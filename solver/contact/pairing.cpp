@@ -68,6 +68,13 @@ class ZonePairing {
 
 }  // namespace
 
+FacedFacets faced_facets(const std::vector<ContactPair>& pairs, double margin) {
+  FacedFacets faced{{}, margin};
+  for (const ContactPair& pair : pairs)
+    if (pair.status != PairingStatus::excluded) faced.facets.push_back(pair.facet);
+  return faced;
+}
+
 std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time, const FacedFacets& before) {
   std::vector<ContactPair> pairs;
   std::size_t asked = 0;

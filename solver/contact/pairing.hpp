@@ -45,4 +45,7 @@ struct ContactPair {
 std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time = 0.0,
                                        const FacedFacets& before = {});
 
+/// What the nodes of these pairs face, to be kept within the margin when surfaces are paired again.
+FacedFacets faced_facets(const std::vector<ContactPair>& pairs, double margin);
+
 }  // namespace comma::solver

@@ -20,6 +20,8 @@ constexpr std::size_t patience = 10;
 constexpr int free_updates = 5;
 constexpr int updates_to_widest = 11;
 constexpr double widest_margin = 0.05;
+/// A margin beyond which points that were kept are told of.
+constexpr double telling_margin = 1e-3;
 /// Of a correction of the geometry at least this share is made.
 constexpr double least_relaxation = 0.05;
 /// Displacements of a step below this share of the whole ones are rounding.
@@ -86,6 +88,17 @@ bool GeometryUpdates::goes_to_and_fro() const {
   const auto recent = changes.end() - static_cast<std::ptrdiff_t>(patience);
   const auto [least, most] = std::minmax_element(recent, changes.end());
   return *most <= contact_.restless_tolerance && *least > 0.5 * *std::min_element(changes.begin(), recent);
+}
+
+void GeometryUpdates::note_doubts(const std::vector<ContactPair>& pairs, const std::vector<ContactPoint>& points, ContactDoubts& doubts) const {
+  if (restless_ > std::sqrt(contact_.geometry_tolerance)) doubts.note({.kind = DoubtKind::restless_geometry, .share = restless_, .node = worst_});
+  const double margin = margin_of(static_cast<int>(history_.changes.size()) - 1);
+  if (margin < telling_margin) return;
+  const auto note = [&](int zone, int node) { doubts.note({.kind = DoubtKind::kept_facet, .zone = zone, .share = margin, .node = node}); };
+  for (const ContactPair& pair : pairs)
+    if (pair.kept) note(pair.zone, pair.slave);
+  for (const ContactPoint& point : points)
+    if (point.kept) note(point.zone, point.node >= 0 ? point.node : mesh_.cell(point.cell)[0]);
 }
 
 void GeometryUpdates::note_cycle(const std::vector<ContactPair>& pairs) {

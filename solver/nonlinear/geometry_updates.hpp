@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "solver/contact/contact_points.hpp"
+#include "solver/contact/doubts.hpp"
 #include "solver/contact/pairing.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -20,15 +22,16 @@ class GeometryUpdates {
   /// to and fro (see restless()).
   bool settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
 
+  /// Of a geometry that is settled: that it moves to and fro by more than the user asks for (of Newton's method: than the root of what is aimed at), or that points that hop
+  /// between two facets have been left on one of them by more than what hardly shows. `pairs`, `points`: the last ones, whichever there are.
+  void note_doubts(const std::vector<ContactPair>& pairs, const std::vector<ContactPoint>& points, ContactDoubts& doubts) const;
+
   /// By how much of the largest displacement of the step a geometry that is settled goes on moving to and fro, within what is tolerated of it: points that hop between
   /// two facets, or a penalty whose rounding moves them. 0: it is at rest.
   double restless() const { return restless_; }
-  int restless_node() const { return worst_; }
 
   /// By how much of its size points keep the facet that they faced when surfaces are paired next (FacedFacet): nothing at first, and more and more of it in updates that do not settle.
   double margin() const;
-  /// That of the last pairing.
-  double margin_used() const { return margin_of(static_cast<int>(history_.changes.size()) - 1); }
 
   /// The displacements at which surfaces are to be paired next: those of the last solution, or of updates that do not come nearer to rest the relaxed ones (Aitken's factor
   /// of vectors: Kuettler and Wall, Computational Mechanics 43, 2008, section 3). `paired`, `now`: as settled() was given.

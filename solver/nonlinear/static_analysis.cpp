@@ -515,32 +515,13 @@ class StaticAnalysis {
       }
       const bool settled = !geometry || geometry->settled(now_.reference, now_.state.u);
       if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) {
-        if (geometry) note_restless_geometry(*geometry);
-        if (geometry) note_kept_facets(*geometry);
+        if (geometry) geometry->note_doubts(now_.pairs, mixed_ ? mixed_->points() : std::vector<ContactPoint>(), doubts_);
         return iterations;
       }
       if (!geometry) continue;
       geometry->note_cycle(now_.pairs);
       geometry->require_more(time);
     }
-  }
-
-  /// Where it moves by more than the user asks for: of Newton's method, the root of what is aimed at.
-  void note_restless_geometry(const GeometryUpdates& updates) {
-    if (updates.restless() <= std::sqrt(problem_.contact->geometry_tolerance)) return;
-    doubts_.note({.kind = DoubtKind::restless_geometry, .share = updates.restless(), .node = updates.restless_node()});
-  }
-
-  /// Where points that hop between two facets have been left on one of them by more than what hardly shows.
-  void note_kept_facets(const GeometryUpdates& updates) {
-    constexpr double telling_margin = 1e-3;
-    if (updates.margin_used() < telling_margin) return;
-    const auto note = [&](int zone, int node) { doubts_.note({.kind = DoubtKind::kept_facet, .zone = zone, .share = updates.margin_used(), .node = node}); };
-    for (const ContactPair& pair : now_.pairs)
-      if (pair.kept) note(pair.zone, pair.slave);
-    if (!mixed_) return;
-    for (const ContactPoint& point : mixed_->points())
-      if (point.kept) note(point.zone, point.node >= 0 ? point.node : mesh_.cell(point.cell)[0]);
   }
 
   void resize_multipliers(const ConditionSet& next) {
@@ -573,10 +554,7 @@ class StaticAnalysis {
     if (mixed_) {
       mixed_->pair(places, time, margin);
     } else {
-      FacedFacets before{{}, margin};
-      for (const ContactPair& pair : now_.pairs)
-        if (pair.status != PairingStatus::excluded) before.facets.push_back(pair.facet);
-      now_.pairs = pair_surfaces(*problem_.contact, mesh_, places, time, before);
+      now_.pairs = pair_surfaces(*problem_.contact, mesh_, places, time, faced_facets(now_.pairs, margin));
       ++counters_.pairings;
     }
   }
