@@ -11,6 +11,7 @@
 #include "solver/contact/nodal_step.hpp"
 #include "solver/contact/relaxation.hpp"
 #include "solver/contact/shared_friction.hpp"
+#include "solver/contact/smoothed_contact.hpp"
 #include "solver/linear/dense_solve.hpp"
 #include "solver/linear/largest_component.hpp"
 
@@ -66,7 +67,7 @@ class CondensedSolver {
   }
 
   /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
-  /// then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at last with friction that grows from none.
+  /// then from laws that are smooth at first; then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at last with friction that grows from none.
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
@@ -80,6 +81,10 @@ class CondensedSolver {
     if (!solved) {
       restart(multipliers);
       solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
+    }
+    if (!solved) {
+      restart(multipliers);
+      solved = follow_smoothed(solution.iterations);
     }
     if (!solved) {
       restart(multipliers);
@@ -113,6 +118,14 @@ class CondensedSolver {
       solved = descend(solution.iterations);
     }
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution.forces = forces_;
+    return solution;
+  }
+
+  /// From nowhere in particular, by laws that are smooth at first.
+  CondensedSolution smooth(Augmentations augmentations) {
+    CondensedSolution solution;
+    solution.verdict = follow_smoothed(solution.iterations, augmentations) ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
     return solution;
   }
@@ -178,10 +191,22 @@ class CondensedSolver {
     return solved && reached == 1.0;
   }
 
-  ContactLaw law_of(const CondensedPoint& point) const {
-    ContactLaw law = point.law;
+  ContactLaw law_of(std::size_t p) const {
+    ContactLaw law = problem_.points[p].law;
     law.friction *= friction_share_;
+    if (pressures_by_bodies_ && !law.penalised) law.augmentation = bodies_[p].normal;
+    if (shears_by_bodies_ && !law.friction_penalised) law.friction_augmentation = bodies_[p].along;
     return law;
+  }
+
+  /// Laws that are smooth at first need no statuses. On nodes augmentations are not in the solution, and those of the bodies lead there.
+  bool follow_smoothed(int& iterations, Augmentations augmentations = Augmentations::of_law) {
+    if (problem_.components == 1 || !smooth_condensed(schur_, problem_, state_, jumps_, bodies_, augmentations)) return false;
+    pressures_by_bodies_ = is_nodal_;
+    shears_by_bodies_ = is_nodal_ || augmentations == Augmentations::of_pressures;
+    const bool solved = settle(Rubbing::by_law, iterations);
+    pressures_by_bodies_ = shears_by_bodies_ = false;
+    return solved;
   }
 
   bool relax() {
@@ -284,7 +309,7 @@ class CondensedSolver {
 
   ContactLawValue law_at(std::size_t p) const {
     const CondensedPoint& point = problem_.points[p];
-    return contact_law(law_of(point), state_.statuses[p], multiplier_at(point), jump_at(point));
+    return contact_law(law_of(p), state_.statuses[p], multiplier_at(point), jump_at(point));
   }
 
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -447,23 +472,26 @@ class CondensedSolver {
     Eigen::VectorXd residual, weight;
     Eigen::VectorXd share_weight;  ///< by which a share is known to its own rounding
     Eigen::VectorXd open;          ///< augmentation of open points, a pressure over a length, or 0
+    Eigen::VectorXd rounding;      ///< what the rounding of pressures and shears makes of the residual
   };
 
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate() {
     forces_.setZero();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(state_.multipliers.size());
-    LawBalance law{none, none, none, none};
+    LawBalance law{none, none, none, none, none};
     for (std::size_t p = 0; p < problem_.points.size(); ++p) {
       const CondensedPoint& point = problem_.points[p];
       const ContactLawValue value = law_at(p);
+      const Vector3d rounding = law_rounding(p);
       for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
       for (int i = 0; i < point.node_count; ++i)
         for (int c = 0; c < problem_.components; ++c) {
           const int index = multiplier_index(point.nodes[i], c);
+          law.rounding[index] += point.weight * std::abs(point.shape[i]) * rounding[c];
           law.residual[index] += point.weight * point.shape[i] * value.residual[c];
           law.weight[index] += point.weight * std::abs(point.shape[i]);
-          if (c == 0 && state_.statuses[p] == ContactStatus::open) law.open[index] = point.law.augmentation;
+          if (c == 0 && state_.statuses[p] == ContactStatus::open) law.open[index] = law_of(p).augmentation;
           if (c > 0 && point.share_augmentation > 0.0 && state_.statuses[p] != ContactStatus::sticking)
             law.share_weight[index] += point.weight * std::abs(point.shape[i]) / point.share_augmentation;
         }
@@ -477,8 +505,21 @@ class CondensedSolver {
     if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = remainder_ = std::numeric_limits<double>::infinity();
   }
 
+  /// Of lengths that are differences of pressures or shears over an augmentation, which may be small beside the stiffness of the bodies.
+  Vector3d law_rounding(std::size_t p) const {
+    const CondensedPoint& point = problem_.points[p];
+    Vector3d sums = Vector3d::Zero();
+    for (int i = 0; i < point.node_count; ++i)
+      for (int c = 0; c < problem_.components; ++c) sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
+    const ContactLaw law = law_of(p);
+    const bool is_open = state_.statuses[p] == ContactStatus::open, sticks = state_.statuses[p] == ContactStatus::sticking;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double along = sticks ? 0.0 : epsilon / law.friction_augmentation;
+    return {is_open ? epsilon / law.augmentation * sums[0] : 0.0, along * sums[1], along * sums[2]};
+  }
+
   void measure(const LawBalance& law, const Eigen::VectorXd& balanced) {
-    residual_ = 0.0;
+    residual_ = law_rounding_ = 0.0;
     double squares = 0.0;
     const auto count = [&](double left, double counts) {
       residual_ = std::max(residual_, left);
@@ -489,6 +530,7 @@ class CondensedSolver {
     const double flexibility = pressure > 0.0 ? scale_ / pressure : 0.0;
     for (Index i = 0; i < law.residual.size(); ++i) {
       if (multiplier_unknowns_[i] < 0 || !(law.weight[i] > 0.0)) continue;
+      law_rounding_ = std::max(law_rounding_, law.rounding[i] / law.weight[i]);
       const double weight = law.weight[i] + (scale_ > 0.0 ? law.share_weight[i] / scale_ : 0.0);
       // The pressure of an open point is worth what the bodies give way under it, not what a small augmentation would.
       count(std::abs(law.residual[i]) / weight, law.open[i] > 0.0 ? std::min(1.0, law.open[i] * flexibility) : 1.0);
@@ -524,17 +566,19 @@ class CondensedSolver {
   }
 
   /// Where corrections bring no more.
-  bool is_rounding() const { return residual_ <= std::max(stagnation_tolerance * scale_, jump_rounding_share * largest_response()); }
+  bool is_rounding() const { return residual_ <= std::max({stagnation_tolerance * scale_, jump_rounding_share * largest_response(), law_rounding_}); }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.
-  bool is_meant(const CondensedPoint& point, ContactStatus now, ContactStatus wanted) const {
+  bool is_meant(std::size_t p, ContactStatus now, ContactStatus wanted) const {
+    const CondensedPoint& point = problem_.points[p];
+    const ContactLaw law = law_of(p);
     const Vector3d multiplier = multiplier_at(point);
     const Vector3d jump = jump_at(point);
-    const double pressure = (point.law.penalised ? 0.0 : multiplier[0]) - point.law.augmentation * jump[0];
-    if (now == ContactStatus::open) return pressure > status_tolerance * point.law.augmentation * scale_;
+    const double pressure = (law.penalised ? 0.0 : multiplier[0]) - law.augmentation * jump[0];
+    if (now == ContactStatus::open) return pressure > status_tolerance * law.augmentation * scale_;
     if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
-    const double beyond = std::abs(shear_beyond_limit(law_of(point), multiplier, jump));
-    return beyond > status_tolerance * point.law.friction * pressure_scale_;
+    const double beyond = std::abs(shear_beyond_limit(law, multiplier, jump));
+    return beyond > status_tolerance * problem_.points[p].law.friction * pressure_scale_;
   }
 
   ContactStatus wanted_status(std::size_t p) const {
@@ -542,8 +586,8 @@ class CondensedSolver {
     const ContactStatus now = state_.statuses[p];
     if (point.rows == 0) return ContactStatus::open;
     const bool stays_closed = point.bilateral && now != ContactStatus::open;
-    const ContactStatus wanted = restricted(contact_status(law_of(point), stays_closed, multiplier_at(point), jump_at(point)), point);
-    return wanted == now || is_meant(point, now, wanted) ? wanted : now;
+    const ContactStatus wanted = restricted(contact_status(law_of(p), stays_closed, multiplier_at(point), jump_at(point)), point);
+    return wanted == now || is_meant(p, now, wanted) ? wanted : now;
   }
 
   bool update_statuses() {
@@ -577,6 +621,7 @@ class CondensedSolver {
   int unknowns_ = 0;
   double residual_ = 0.0;
   double remainder_ = 0.0;  ///< what is left of all equations, by the root of squares (a length)
+  double law_rounding_ = 0.0;
   double last_residual_ = 0.0;
   double scale_ = 0.0;
   double pressure_scale_ = 0.0;
@@ -586,6 +631,8 @@ class CondensedSolver {
   bool is_lost_ = false;   ///< a linear system was not solved
   Rubbing rubbing_ = Rubbing::by_law;
   double friction_share_ = 1.0;
+  bool pressures_by_bodies_ = false, shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
+  std::vector<PointStiffness> bodies_;
   std::set<std::vector<ContactStatus>> visited_;
 };
 
@@ -618,7 +665,9 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
   if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
   if (has_shared_friction(problem))
     return solve_shared_friction(problem, state, {[&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).run(); },
-                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).refine(); }});
+                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).refine(); },
+                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).smooth(Augmentations::of_law); },
+                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSolver(schur, each, at).smooth(Augmentations::of_pressures); }});
   return CondensedSolver(schur, problem, state).run();
 }
 

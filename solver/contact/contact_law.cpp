@@ -94,9 +94,7 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
   value.residual_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
-}  // namespace
-
-ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
   ContactLawValue value;
   if (status != ContactStatus::open) {
     value.traction[0] = trial_pressure(law, multiplier, jump);
@@ -119,6 +117,28 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
   return value;
 }
 
+}  // namespace
+
+Vector3d live_part(const ContactLaw& law, Vector3d value) {
+  value.tail<2>() -= law.dead.dot(value.tail<2>()) * law.dead;
+  return value;
+}
+
+void leave_out_dead(const ContactLaw& law, const Vector3d& multiplier, ContactLawValue& value) {
+  if (law.dead.isZero()) return;
+  const Matrix2d dead = law.dead * law.dead.transpose(), live = Matrix2d::Identity() - dead;
+  for (Eigen::Matrix3d* derivative : {&value.traction_by_multiplier, &value.traction_by_jump, &value.residual_by_multiplier, &value.residual_by_jump})
+    derivative->rightCols<2>() *= live;
+  value.residual.tail<2>() -= dead * multiplier.tail<2>() / law.friction_augmentation;
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() -= dead / law.friction_augmentation;
+}
+
+ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+  ContactLawValue value = live_law(law, status, live_part(law, multiplier), live_part(law, jump));
+  leave_out_dead(law, multiplier, value);
+  return value;
+}
+
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d& multiplier, const Vector3d& jump) {
   const double pressure = trial_pressure(law, multiplier, jump);
   if (!closed && !(pressure > 0.0)) return ContactStatus::open;
@@ -127,7 +147,7 @@ ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d&
 }
 
 double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return trial_shear(law, multiplier, jump).norm() - law.friction * pressure_that_limits(law, multiplier, jump);
+  return trial_shear(law, live_part(law, multiplier), live_part(law, jump)).norm() - law.friction * pressure_that_limits(law, multiplier, jump);
 }
 
 }  // namespace comma::solver

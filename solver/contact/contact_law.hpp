@@ -14,6 +14,8 @@ struct ContactLaw {
   double friction = 0.0;                   ///< Coulomb's coefficient
   double friction_augmentation = 100.0;    ///< of the shear by the slip
   bool friction_penalised = false;         ///< the shear is `friction_augmentation` times the slip while it sticks
+  /// A unit vector along the tangents, or zero: what cannot slip along it, whatever the shear, takes none.
+  Eigen::Vector2d dead = Eigen::Vector2d::Zero();
   /// Positive: a shear is a share of the limit of friction, in units of `friction` times this pressure: what the law gives at this pressure
   /// times the present one over it. 0: shears are themselves.
   double share_pressure = 0.0;
@@ -44,6 +46,11 @@ struct ContactLawValue {
 /// multiplier without the augmentation. By shares (see share_pressure), which R5.03.52 takes for multipliers of friction, the residual of shears
 /// counts by the pressure.
 ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
+/// A multiplier or a jump without what lies along the dead direction of the law.
+Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
+/// Makes of a law of live parts that of the whole: multipliers along the dead direction vanish.
+void leave_out_dead(const ContactLaw& law, const Eigen::Vector3d& multiplier, ContactLawValue& value);
 
 /// The status that the law gives a point. `closed` points stay so.
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);

@@ -40,19 +40,17 @@ class SharedFriction {
     if (pressure_ > 0.0 && solve_by_shares(state, solution)) return counted(start, state, solution);
     state = start;
     find_pressure(state);
-    solution = solve_by_shears(state);
-    pressure_ = largest_pressure(given_, state);
-    if (!(pressure_ > 0.0) || solution.verdict != CondensedVerdict::solved) return counted(start, state, solution);
-    const CondensedState by_shears = state;
-    CondensedSolution shared;
-    if (solve_by_shares(state, shared)) {
-      solution = shared;
-    } else if (lets_creep()) {
-      solution.verdict = CondensedVerdict::too_many_iterations;
-    } else {
-      state = by_shears;
-      solution.by_shears = true;
+    take(Shears::as_they_are);
+    solution = solve_once(state, methods_.refine);
+    if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return counted(start, state, solution);
+    if (solve_smooth_shares(start, state, solution)) return counted(start, state, solution);
+    if (solution.verdict != CondensedVerdict::solved) {
+      state = start;
+      solution = solve_by_shears(state);
+      if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return counted(start, state, solution);
     }
+    if (lets_creep()) solution.verdict = CondensedVerdict::too_many_iterations;
+    solution.by_shears = solution.verdict == CondensedVerdict::solved;
     return counted(start, state, solution);
   }
 
@@ -88,12 +86,38 @@ class SharedFriction {
     pressure_ = largest_pressure(given_, state);
   }
 
-  /// With the augmentation of shares, and with that of pressures, which a penalty has large.
+  /// Whether shares of the limit follow from a solution by shears, which stays otherwise.
+  bool shares_follow(CondensedState& state, CondensedSolution& solution) {
+    pressure_ = largest_pressure(given_, state);
+    if (!(pressure_ > 0.0)) return true;
+    CondensedState shared_state = state;
+    CondensedSolution shared;
+    if (!solve_by_shares(shared_state, shared)) return false;
+    state = shared_state;
+    solution = shared;
+    return true;
+  }
+
+  /// By shares at once, without a solution to begin from.
+  bool solve_smooth_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
+    if (!(pressure_ > 0.0)) return false;
+    take(Shears::by_shares);
+    CondensedState shared_state = start;
+    const CondensedSolution shared = solve_once(shared_state, methods_.smooth);
+    if (shared.verdict != CondensedVerdict::solved) return false;
+    scale_shears(shared_state, [this](double pressure) { return pressure / pressure_; });
+    state = shared_state;
+    solution = shared;
+    return true;
+  }
+
+  /// With shears that are augmented as the bodies ask for, with the augmentation of shares, and with that of pressures, which a penalty has large.
   CondensedSolution solve_by_shears(CondensedState& state) {
     const CondensedState start = state;
     take(Shears::as_they_are);
-    CondensedSolution solution = solve_once(state, methods_.refine);
+    CondensedSolution solution = solve_once(state, methods_.stand_in);
     if (solution.verdict == CondensedVerdict::solved) return solution;
+    state = start;
     if (!lets_creep()) {
       state = start;
       solution = methods_.solve(given_, state);

@@ -12,6 +12,8 @@ struct CondensedMethods {
   using Method = std::function<CondensedSolution(const CondensedProblem& problem, CondensedState& state)>;
   Method solve;
   Method refine;
+  Method smooth;
+  Method stand_in;
 };
 
 /// Whether points have a share_augmentation.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/contact/dead_directions.hpp"
 #include "solver/contact/extent.hpp"
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
@@ -114,7 +115,8 @@ void MixedContact::number_patches(int zone) {
 }
 
 void MixedContact::pair(Positions positions, double time, double margin) {
-  const std::vector<Vector3d> start = positions_at(reference_, mesh_, dofs_);
+  const bool is_initial = definition_.geometry_update == GeometryUpdate::none;
+  const std::vector<Vector3d> start = is_initial ? std::vector<Vector3d>(positions.begin(), positions.end()) : positions_at(reference_, mesh_, dofs_);
   follows_ = largest_slide(definition_, mesh_, positions, start) > (follows_ ? short_slide : far_slide);
   FacedFacets before{{}, margin};
   if (margin > 0.0)
@@ -217,6 +219,21 @@ double MixedContact::initial_gap(const ContactPoint& point) const {
   return point.normal.dot(apart) - point.thickness;
 }
 
+void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
+  reference_ = u;
+  step_begins_ = true;
+  problem_.expected = state_.multipliers + duration * rates_;
+  start_ = state_.multipliers;
+  if (rows_.rows() > 0) count_slips();
+}
+
+/// From where the step began.
+void MixedContact::count_slips() {
+  const Eigen::VectorXd before = rows_ * reference_;
+  for (const CondensedPoint& point : problem_.points)
+    for (int c = 1; c < point.components && point.first_row >= 0; ++c) base_[point.first_row + c] = -before[point.first_row + c];
+}
+
 /// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
 void MixedContact::build_rows() {
   problem_.points.clear();
@@ -237,11 +254,10 @@ void MixedContact::build_rows() {
   rows_.resize(static_cast<Index>(base.size()), dofs_.size());
   rows_.setFromTriplets(entries.begin(), entries.end());
   base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
-  const Eigen::VectorXd before = rows_ * reference_;
-  for (const CondensedPoint& point : problem_.points)
-    for (int c = 1; c < point.rows; ++c) base_[point.first_row + c] = -before[point.first_row + c];
+  count_slips();
   reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
   settle_blocked_points();
+  find_dead_directions(reduced_rows_, problem_.points);
   share_friction();
 }
 

@@ -36,16 +36,11 @@ class MixedContact {
                TangentSystem& tangent, Counters& counters, std::vector<int> support);
 
   /// A step of that duration begins at u: slips are counted from there, and multipliers are expected to go on as in the step before.
-  void start_step(const Eigen::VectorXd& u, double duration) {
-    reference_ = u;
-    step_begins_ = true;
-    problem_.expected = state_.multipliers + duration * rates_;
-    start_ = state_.multipliers;
-  }
+  void start_step(const Eigen::VectorXd& u, double duration);
   void accept_step(double duration) { rates_ = (state_.multipliers - start_) / duration; }
-  /// Pressures and statuses as they are before a step, and back to them when it fails; points must be faced anew then.
-  void remember() { remembered_ = {state_, started_}; }
-  void restore() { std::tie(state_, started_) = remembered_; }
+  /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced anew then.
+  void remember() { remembered_ = {state_, stiffening_, friction_stiffening_, started_}; }
+  void restore() { std::tie(state_, stiffening_, friction_stiffening_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
   /// Whether places of some zone face each other as they did when the step began.
@@ -125,6 +120,7 @@ class MixedContact {
   void add_natural_augmentation();
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
+  void count_slips();
   void settle_blocked_points();
   bool is_faced_again() const;
   void hold_back_points();
@@ -165,7 +161,7 @@ class MixedContact {
   bool started_ = false;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   bool follows_ = false;  ///< what faces each other in the plane follows the bodies through the step, which slide far
-  std::pair<CondensedState, bool> remembered_;
+  std::tuple<CondensedState, std::vector<double>, std::vector<double>, bool> remembered_;
   std::size_t spring_count_ = 0;
   RowMatrix rows_;                 ///< R, over all degrees of freedom
   RowMatrix reduced_rows_;         ///< A

@@ -547,8 +547,9 @@ class StaticAnalysis {
   void pair(double time, GeometryUpdates* updates) {
     now_.paired = true;
     if (!problem_.contact) return;
-    const bool stays = problem_.contact->geometry_update == GeometryUpdate::none && now_.reference.size() > 0;
-    if (!stays) now_.reference = updates ? updates->relaxed(now_.reference, now_.state.u) : now_.state.u;
+    // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11).
+    if (problem_.contact->geometry_update == GeometryUpdate::none) now_.reference = Eigen::VectorXd::Zero(now_.state.u.size());
+    else now_.reference = updates ? updates->relaxed(now_.reference, now_.state.u) : now_.state.u;
     const double margin = updates ? updates->margin() : 0.0;
     const std::vector<Vector3d> places = positions_at(now_.reference, mesh_, dofs_);
     if (mixed_) {

@@ -60,6 +60,8 @@ TEST_CASE("Tangents of the contact law are its derivatives") {
         law.friction_augmentation = 700.0;
         law.friction_penalised = friction_penalised;
         check_tangents(law, status);
+        law.dead = Eigen::Vector2d(0.6, 0.8);
+        check_tangents(law, status);
       }
 }
 

@@ -43,7 +43,7 @@ TEST_CASE("A solution by shears says that it is one where none by shares of the 
       return solution;
     };
     CondensedState state{.multipliers = Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), .statuses = {ContactStatus::sticking}};
-    const CondensedSolution solution = solve_shared_friction(problem, state, {method, method});
+    const CondensedSolution solution = solve_shared_friction(problem, state, {method, method, method, method});
     REQUIRE(solution.verdict == CondensedVerdict::solved);
     CHECK(solution.by_shears == !finds_shares);
   }

@@ -1,0 +1,36 @@
+#include "solver/contact/dead_directions.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/tests/contact/coupled_points.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+RowMatrix rows_of(const Eigen::Vector3d& normal, const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  Eigen::Matrix3d rows;
+  rows << normal.transpose(), first.transpose(), second.transpose();
+  return rows.sparseView();
+}
+
+}  // namespace
+
+TEST_CASE("Along a direction in which a point cannot move there is no friction") {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  // The tangents are (3, 4) / 5 and (-4, 3) / 5; the unknown along the second axis is gone, but for rounding.
+  std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 0.6 * x + 1e-17 * Eigen::Vector3d::UnitY(), -0.8 * x), points);
+  CHECK(std::abs(points[0].law.dead.dot(Eigen::Vector2d(0.6, -0.8))) < 1e-12);
+  CHECK(std::abs(points[0].law.dead.norm() - 1.0) < 1e-12);
+  CHECK(points[0].law.friction == 0.3);
+
+  points = {point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 1e-12 * x, -1e-12 * x), points);
+  CHECK(points[0].law.friction == 0.0);
+
+  points = {point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 0.6 * x, 1e-3 * Eigen::Vector3d::UnitY()), points);
+  CHECK(points[0].law.dead.isZero());
+}
