@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "commands/commands.hpp"
+#include "commands/field_types.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
@@ -13,6 +16,9 @@
 namespace comma::commands {
 
 namespace {
+
+// GROUP_MA and MAILLE; nothing: the whole model.
+using ChosenCells = std::optional<std::vector<int>>;
 
 std::vector<std::string> wanted_fields(const Call& call) {
   std::vector<std::string> names;
@@ -59,16 +65,25 @@ solver::Field own_field(const Keywords& occurrence, const solver::Field& source)
   }
 }
 
+solver::Field on_cells(const solver::Field& field, const solver::Mesh& mesh, const std::vector<int>& cells) {
+  if (const auto* nodal = std::get_if<solver::NodalField>(&field)) return solver::on_nodes(*nodal, mesh.nodes_of_cells(cells));
+  return solver::on_cells(std::get<solver::ElementField>(field), cells);
+}
+
 // A field that the step lacks is computed first.
-void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, solver::ResultStep& step, std::size_t index) {
+void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, const solver::Mesh& mesh, const ChosenCells& cells, solver::ResultStep& step,
+                   std::size_t index) {
   const std::string& name = occurrence.text("NOM_CHAM");
   const bool computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
-  step.fields.insert_or_assign(own_name(occurrence), own_field(occurrence, computed ? computation.compute(name, index) : field_of(occurrence, step)));
+  solver::Field made = own_field(occurrence, computed ? computation.compute(name, index) : field_of(occurrence, step));
+  if (cells) made = on_cells(made, mesh, *cells);
+  require_finite(made, mesh, "CHAM_UTIL", occurrence.span);
+  step.fields.insert_or_assign(own_name(occurrence), std::move(made));
 }
 
 void add_fields(const Call& call, ResultConcept& data) {
   FieldsOfSteps computation(call, data);
-  std::optional<std::vector<int>> cells;
+  ChosenCells cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
@@ -76,7 +91,7 @@ void add_fields(const Call& call, ResultConcept& data) {
       solver::Field field = cells ? computation.compute(name, index, *cells) : computation.compute(name, index);
       data.result.steps[index].fields.insert_or_assign(name, std::move(field));
     }
-    for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.steps[index], index);
+    for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
   }
 }
 

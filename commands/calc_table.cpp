@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "commands/commands.hpp"
 #include "commands/fortran_format.hpp"
+#include "commands/reductions.hpp"
 #include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -107,15 +107,18 @@ void compute(Table& table, const Keywords& action) {
     }
     Cell& result = row[static_cast<std::size_t>(target)];
     result = Cell();
-    if (arguments.size() == sources.size()) result = cell_of(function.call(arguments), action);
+    if (arguments.size() < sources.size()) continue;
+    result = cell_of(function.call(arguments), action);
+    if (std::isfinite(number_in(result).value_or(0.0))) continue;
+    throw DiagnosticError("not-finite", fmt::format("CALC_TABLE: the formula gives no finite number in row {}", &row - table.rows.data() + 1), action.span_of("FORMULE"),
+                          "look for values beyond 1.8e308 in that row");
   }
 }
 
 double reduction(const std::string& type, const std::vector<double>& numbers) {
-  if (type == "MAXI") return *std::max_element(numbers.begin(), numbers.end());
-  if (type == "MINI") return *std::min_element(numbers.begin(), numbers.end());
-  const double sum = std::accumulate(numbers.begin(), numbers.end(), 0.0);
-  return type == "SOMM" ? sum : sum / static_cast<double>(numbers.size());
+  if (type == "MAXI") return greatest(numbers);
+  if (type == "MINI") return least(numbers);
+  return type == "SOMM" ? sum_of(numbers) : mean_of(numbers);
 }
 
 Table reduce(const Table& table, const Keywords& action) {

@@ -238,12 +238,17 @@ FieldPtr extracted(const Call& call, const FieldType& type) {
   return call.has("CHARGE") ? field_of_load(call) : of_mesh(call);
 }
 
+FieldPtr computed(const Call& call, const FieldType& type, Context& context) {
+  const std::string& operation = call.text("OPERATION");
+  FieldPtr product = operation == "ASSE" ? from_pieces(call, type, context.diagnostics) : operation == "COMB" ? from_terms(call) : from_functions(call, type);
+  require_finite(product->field, *product->mesh, "CREA_CHAMP", call.span_of("OPERATION"));
+  return product;
+}
+
 FieldPtr made_by(const Call& call, const FieldType& type, Context& context) {
   const std::string& operation = call.text("OPERATION");
   if (operation == "AFFE") return from_values(call, type);
-  if (operation == "ASSE") return from_pieces(call, type, context.diagnostics);
-  if (operation == "COMB") return from_terms(call);
-  if (operation == "EVAL") return from_functions(call, type);
+  if (operation == "ASSE" || operation == "COMB" || operation == "EVAL") return computed(call, type, context);
   if (operation == "NORMALE") return of_normals(call);
   return operation == "DISC" ? brought(call, type) : extracted(call, type);
 }

@@ -19,14 +19,16 @@ namespace {
 using interpreter::DiagnosticError;
 
 // A field of functions is evaluated with the instant and, at nodes, their coordinates (U4.44.12).
-solver::Field at_instant(const FieldConcept& data, double instant) {
+solver::Field at_instant(const FieldConcept& data, double instant, const interpreter::Span& span) {
   if (data.functions.empty()) return data.field;
   const solver::Field time = solver::uniform_like(data.field, "INST", instant);
   std::vector<const solver::Field*> known = {&time};
   std::optional<solver::Field> coordinates;
   if (std::holds_alternative<solver::NodalField>(data.field)) known.push_back(&coordinates.emplace(solver::node_coordinates(*data.mesh)));
   const std::string quantity = std::visit([](const auto& field) { return field.quantity; }, data.field);
-  return solver::evaluate(data.field, value_functions(data), known, quantity);
+  solver::Field made = solver::evaluate(data.field, value_functions(data), known, quantity);
+  require_finite(made, *data.mesh, "CREA_RESU", span);
+  return made;
 }
 
 // The step at an instant, made in its place among the others if there is none so near.
@@ -111,7 +113,7 @@ void add_field(ResultConcept& product, const Keywords& occurrence) {
   take_state(product, occurrence);
   for (const double instant : instants_of(occurrence)) {
     solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
-    step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant));
+    step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant, occurrence.span));
   }
 }
 

@@ -122,6 +122,16 @@ const FieldConcept& number_field(const interpreter::ConceptPtr& handle, const in
                         keywords.span_of(keyword), "evaluate it by CREA_CHAMP, OPERATION='EVAL'");
 }
 
+void require_finite(const solver::Field& field, const solver::Mesh& mesh, const std::string& maker, const interpreter::Span& span) {
+  const auto found = solver::first_infinite(field);
+  if (!found) return;
+  const std::string& component = solver::components_of(field)[static_cast<std::size_t>(found->component)];
+  const bool nodal = std::holds_alternative<solver::NodalField>(field);
+  const std::string where = nodal ? "node " + mesh.node_name(found->place) : fmt::format("point {} of cell {}", found->point + 1, mesh.cell_name(found->place));
+  throw DiagnosticError("not-finite", fmt::format("{}: {} is no finite number at {}", maker, component, where), span,
+                        "look for values beyond 1.8e308 among what it is made of");
+}
+
 std::vector<solver::ValueFunction> value_functions(const FieldConcept& data) {
   std::vector<solver::ValueFunction> functions;
   for (const auto& function : data.functions) {

@@ -47,6 +47,9 @@ bool lives_on_skin(const FieldType& type);
 /// The field behind a concept, which must hold numbers. Throws DiagnosticError `wrong-type` at `keyword` for one of functions.
 const FieldConcept& number_field(const interpreter::ConceptPtr& handle, const interpreter::Keywords& keywords, const char* keyword);
 
+/// What a command makes of values must be numbers. Throws DiagnosticError `not-finite` at `span`, naming the first place where one is not; `maker` names the command.
+void require_finite(const solver::Field& field, const solver::Mesh& mesh, const std::string& maker, const interpreter::Span& span);
+
 /// The functions of a field of functions, for solver::evaluate.
 std::vector<solver::ValueFunction> value_functions(const FieldConcept& data);
 

@@ -8,9 +8,10 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <ranges>
 
 #include "commands/field_reading.hpp"
+#include "commands/field_types.hpp"
+#include "commands/reductions.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -32,14 +33,13 @@ struct Sample {
 
 const PlaceKeywords places_of_nodes = {"", "GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
 
-template <class Values>
-double reduced(const std::string& operation, const Values& values) {
-  const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  if (operation == "MIN") return *std::ranges::min_element(values);
-  if (operation == "MAX") return *std::ranges::max_element(values);
-  if (operation == "MINI_ABS") return std::abs(*std::ranges::min_element(values, by_size));
-  if (operation == "MAXI_ABS") return std::abs(*std::ranges::max_element(values, by_size));
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+double reduced(const std::string& operation, const std::vector<Sample>& samples) {
+  std::vector<double> values;
+  for (const Sample& sample : samples) values.push_back(sample.value);
+  if (operation == "MIN") return least(values);
+  if (operation == "MAX") return greatest(values);
+  if (operation == "MINI_ABS") return least_size(values);
+  return operation == "MAXI_ABS" ? greatest_size(values) : mean_of(values);
 }
 
 std::vector<int> all_indices(int count) {
@@ -77,7 +77,7 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
       if (!std::isnan(value)) own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value});
     }
     if (over_points != "VALE" && !own.empty()) {
-      own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own | std::views::transform(&Sample::value))}};
+      own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own)}};
     }
     samples.insert(samples.end(), own.begin(), own.end());
   }
@@ -85,7 +85,7 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
 }
 
 // One component, under the name of the formula.
-solver::Field formula_of(const Keywords& keywords, const solver::Field& held) {
+solver::Field formula_of(const Keywords& keywords, const solver::Field& held, const solver::Mesh& mesh) {
   if (!keywords.has("FORMULE")) throw DiagnosticError("missing-keyword", "OBSERVATION: EVAL_CMP='FORMULE' needs FORMULE", keywords.span);
   const auto& handle = keywords.concept_of("FORMULE");
   const auto& function = interpreter::data_of<FunctionConcept>(handle, "FORMULE");
@@ -93,6 +93,7 @@ solver::Field formula_of(const Keywords& keywords, const solver::Field& held) {
   try {
     const auto value = [&function](std::span<const double> at) { return function.evaluate(at); };
     solver::Field made = solver::made_of_rows(held, std::array{solver::formula(components, {function.parameters(), value})});
+    require_finite(made, mesh, "OBSERVATION", keywords.span_of("FORMULE"));
     std::visit([&](auto& any) { any.components = {handle->name}; }, made);
     return made;
   } catch (const solver::Error& error) {
@@ -101,8 +102,8 @@ solver::Field formula_of(const Keywords& keywords, const solver::Field& held) {
 }
 
 // The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula.
-const solver::Field& watched(const Keywords& keywords, const solver::Field& held, const solver::BehaviourOfCells* behaviours, solver::Field& made) {
-  if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held);
+const solver::Field& watched(const Keywords& keywords, const solver::Field& held, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours, solver::Field& made) {
+  if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held, mesh);
   if (!keywords.given("NOM_VARI")) return held;
   return made = by_variable_names(keywords, held, behaviours);
 }
@@ -148,7 +149,7 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
   solver::Field made;
-  const solver::Field& field = watched(keywords, field_of(keywords, step), behaviours_, made);
+  const solver::Field& field = watched(keywords, field_of(keywords, step), mesh_, behaviours_, made);
   check_place(keywords, field);
   const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");
@@ -158,7 +159,7 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
     std::vector<Sample> samples = nodal != nullptr
                                       ? samples_of(*nodal, component, mesh_, observation.nodes)
                                       : samples_of(std::get<solver::ElementField>(field), component, mesh_, observation.cells, keywords);
-    if (operation != "VALE" && !samples.empty()) samples = {{{}, reduced(operation, samples | std::views::transform(&Sample::value))}};
+    if (operation != "VALE" && !samples.empty()) samples = {{{}, reduced(operation, samples)}};
     for (const Sample& sample : samples) {
       Row row = {{"NOM_OBSERVATION", observation.name}, {"NUME_OBSE", std::int64_t{number}}, {"INST", step.instant},
                  {"NOM_CHAM", keywords.text("NOM_CHAM")}, {"EVAL_CHAM", operation}, {"NOM_CMP", components[static_cast<std::size_t>(component)]}};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "commands/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -78,11 +79,11 @@ bool less(const Cell& a, const Cell& b) {
 
 Table extremes(const Table& table, int column, const Keywords& filter) {
   const std::string& comparison = filter.text("CRIT_COMP");
-  const auto numbers = numbers_in(table, column, filter);
+  auto numbers = numbers_in(table, column, filter);
   Table kept{table.title, table.columns, {}};
   if (numbers.empty()) return kept;
-  double best = ranked(comparison, numbers.front());
-  for (const double number : numbers) best = std::max(best, ranked(comparison, number));
+  for (double& number : numbers) number = ranked(comparison, number);
+  const double best = greatest(numbers);
   for (const auto& row : table.rows) {
     const auto value = number_in(row[static_cast<std::size_t>(column)]);
     if (value && ranked(comparison, *value) == best) kept.rows.push_back(row);

@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
+#include "commands/reductions.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -28,10 +29,9 @@ using Values = std::vector<double>;
 
 double reduced(const Keywords& test, const Values& values) {
   const std::string& type = test.text("TYPE_TEST");
-  if (type == "MAX") return *std::max_element(values.begin(), values.end());
-  if (type == "MIN") return *std::min_element(values.begin(), values.end());
-  if (type == "SOMM") return std::accumulate(values.begin(), values.end(), 0.0);
-  return std::accumulate(values.begin(), values.end(), 0.0, [](double sum, double value) { return sum + std::abs(value); });
+  if (type == "MAX") return greatest(values);
+  if (type == "MIN") return least(values);
+  return type == "SOMM" ? sum_of(values) : sum_of_sizes(values);
 }
 
 [[noreturn]] void not_carried(const Keywords& test, const std::string& place) {

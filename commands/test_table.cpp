@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "commands/commands.hpp"
+#include "commands/reductions.hpp"
 #include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -19,10 +17,9 @@ TestedValue reduced(const Call& call, const Table& table, int column) {
   if (call.given("VALE_CALC_K")) throw DiagnosticError("wrong-type", "TEST_TABLE: TYPE_TEST makes a number of the column", call.span_of("VALE_CALC_K"), "leave out TYPE_TEST to compare a text");
   const auto numbers = numbers_in(table, column, call);
   if (numbers.empty()) throw DiagnosticError("wrong-count", "TEST_TABLE: no row is left to reduce", call.span, "loosen FILTRE");
-  if (type == "MAX") return *std::max_element(numbers.begin(), numbers.end());
-  if (type == "MIN") return *std::min_element(numbers.begin(), numbers.end());
-  if (type == "SOMM") return std::accumulate(numbers.begin(), numbers.end(), 0.0);
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0, [](double sum, double value) { return sum + std::abs(value); });
+  if (type == "MAX") return greatest(numbers);
+  if (type == "MIN") return least(numbers);
+  return type == "SOMM" ? sum_of(numbers) : sum_of_sizes(numbers);
 }
 
 // A row that has nothing in the column takes no part, unless it is the only one.

@@ -2,8 +2,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <limits>
+
 #include "commands/concepts.hpp"
 #include "commands/fortran_format.hpp"
+#include "commands/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 
@@ -52,6 +56,20 @@ TEST_CASE("Fortran's edit descriptors") {
   CHECK(format_real(3.14159, "F8.3") == "   3.142");
   CHECK_THROWS_AS(format_real(1.0, "Q5"), DiagnosticError);
   CHECK_FALSE(is_real_format("E12"));
+}
+
+TEST_CASE("A reduction passes over no number that is none") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  using Reduction = double (*)(std::span<const double>);
+  for (const Reduction reduction : {Reduction{least}, Reduction{greatest}, Reduction{sum_of}, Reduction{sum_of_sizes}, Reduction{mean_of}, Reduction{least_size}, Reduction{greatest_size}}) {
+    for (const auto& numbers : {std::vector{none, 1.0, 2.0}, std::vector{1.0, none, 2.0}, std::vector{1.0, 2.0, none}}) CHECK(std::isnan(reduction(numbers)));
+  }
+  const std::vector<double> numbers = {-3.0, 1.0, 2.0};
+  CHECK(least(numbers) == -3.0);
+  CHECK(greatest(numbers) == 2.0);
+  CHECK(sum_of_sizes(numbers) == 6.0);
+  CHECK(least_size(numbers) == 1.0);
+  CHECK(greatest_size(numbers) == 3.0);
 }
 
 TEST_CASE("A command file reads a table cell by column and row") {

@@ -125,6 +125,20 @@ Field uniform_like(const Field& other, std::string component, double value) {
   return field;
 }
 
+std::optional<FieldEntry> first_infinite(const Field& field) {
+  const FieldRows rows(field);
+  const auto width = static_cast<int>(components_of(field).size());
+  const auto& values = values_of(field);
+  for (int place = 0; place < rows.place_count(); ++place) {
+    for (int i = 0; i < rows.count(place) * width; ++i) {
+      if (std::isinf(values[static_cast<std::size_t>(rows.begin(place)) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)])) {
+        return FieldEntry{place, i / width, i % width};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 void assign(Field& field, int component, double value, const std::vector<int>* places) {
   const FieldRows rows(field);
   const std::size_t width = components_of(field).size();
@@ -239,7 +253,7 @@ void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* p
         if (std::isnan(value)) continue;
         double& slot = values[static_cast<std::size_t>(to_rows.begin(place) + point) * to_width + static_cast<std::size_t>(sink)];
         const double base = piece.adds && !std::isnan(slot) ? slot : 0.0;
-        slot = base + piece.factor * value;
+        slot = made_number(base + piece.factor * value);
       }
     });
   }
@@ -332,7 +346,7 @@ Field evaluate(const Field& which, std::span<const ValueFunction> functions, std
       }
       at.push_back(value);
     }
-    return functions[index].value(at);
+    return made_number(functions[index].value(at));
   };
   for (int place = 0; place < rows.place_count(); ++place) {
     for (int point = 0; point < rows.count(place); ++point) {

@@ -3,7 +3,10 @@
 // A place is a node of a nodal field or a cell of a field on elements; it has one point or several, and a row of values at each.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +32,18 @@ NodalField node_coordinates(const Mesh& mesh);
 /// One component with the same value wherever the other field has points.
 Field uniform_like(const Field& other, std::string component, double value);
 
+/// A number made of others that are there: infinite where it is none (a difference of infinite numbers), for NaN says that nothing is there.
+inline double made_number(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
+
+/// A value of a field: at a point of a node (0) or cell.
+struct FieldEntry {
+  int place = 0;
+  int point = 0;
+  int component = 0;
+};
+/// The first value that is infinite.
+std::optional<FieldEntry> first_infinite(const Field& field);
+
 /// Gives a component one value at all points of the places (all that there are without `places`).
 void assign(Field& field, int component, double value, const std::vector<int>* places = nullptr);
 
@@ -52,7 +67,8 @@ struct FieldTerm {
   const Field* field = nullptr;
   double factor = 1.0;
 };
-/// The sum of factor times field. A component that a term lacks somewhere adds nothing there; what all lack stays absent.
+/// The sum of factor times field. A component that a term lacks somewhere adds nothing there; what all lack stays absent, what
+/// is no number is infinite (made_number).
 /// Throws Error `incompatible-field` for fields that do not lie at the same points.
 Field linear_combination(std::span<const FieldTerm> terms);
 
@@ -65,7 +81,7 @@ struct FieldPiece {
   bool adds = false;  ///< to what is there, which counts as 0 where absent; else replaces it
 };
 /// Puts a piece into a field at the places (all without `places`). Places that the piece does not carry keep what they
-/// have. Throws Error `incompatible-field` (another kind of place, another number of points), `unknown-component`.
+/// have; what is no number becomes infinite (made_number). Throws Error `incompatible-field` (another kind of place, another number of points), `unknown-component`.
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places = nullptr);
 
 /// A function of named values.
@@ -74,7 +90,7 @@ struct ValueFunction {
   std::function<double(std::span<const double>)> value;
 };
 /// At each point the value of the function whose index in `functions` the field `which` has there, its parameters being
-/// the components of `arguments` at that point. Throws Error `incompatible-field` (other places), `missing-variable`
+/// the components of `arguments` at that point, infinite where it is no number (made_number). Throws Error `incompatible-field` (other places), `missing-variable`
 /// naming a parameter that no argument has there.
 Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
                std::string quantity);

@@ -52,7 +52,7 @@ double value_of(const Eigen::Matrix3d& tensor, TensorCriterion which) {
 RowFunction criterion(const std::vector<std::string>& components, TensorCriterion which) {
   const auto columns = tensor_columns(components);
   return [columns, which](std::span<const double> row) {
-    return std::isnan(row[static_cast<std::size_t>(columns[0])]) ? absent : value_of(tensor_in(row, columns), which);
+    return std::isnan(row[static_cast<std::size_t>(columns[0])]) ? absent : made_number(value_of(tensor_in(row, columns), which));
   };
 }
 
@@ -92,7 +92,7 @@ RowFunction formula(const std::vector<std::string>& components, const ValueFunct
   return [columns = std::move(columns), value = function.value](std::span<const double> row) {
     std::vector<double> at;
     for (const int column : columns) at.push_back(row[static_cast<std::size_t>(column)]);
-    return std::ranges::any_of(at, [](double each) { return std::isnan(each); }) ? absent : value(at);
+    return std::ranges::any_of(at, [](double each) { return std::isnan(each); }) ? absent : made_number(value(at));
   };
 }
 

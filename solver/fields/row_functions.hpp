@@ -10,7 +10,7 @@
 
 namespace comma::solver {
 
-/// A value out of all components at a point, NaN where it carries none of them.
+/// A value out of all components at a point, NaN where it carries none of them, infinite where it is no number (made_number).
 using RowFunction = std::function<double(std::span<const double>)>;
 
 enum class TensorCriterion : std::uint8_t {

@@ -83,6 +83,23 @@ TEST_CASE("functions are evaluated with the components of their arguments at eac
   CHECK_THROWS_WITH(evaluate(needy, functions, arguments, "NEUT_R"), Catch::Contains("depends on X"));
 }
 
+TEST_CASE("what is made of numbers and is none is infinite, not absent", "[fields]") {
+  constexpr double huge = 1e308;
+  const Field field = nodal({"X1"}, {huge, 1, absent});
+  const Field twice = linear_combination(std::vector<FieldTerm>{{&field, 10.0}, {&field, -10.0}});
+  REQUIRE(first_infinite(twice));
+  CHECK(first_infinite(twice)->place == 0);
+  CHECK(values_of(twice)[1] == 0.0);
+  CHECK(std::isnan(values_of(twice)[2]));
+  const std::vector<ValueFunction> functions = {{{"X1"}, [](std::span<const double> at) { return (at[0] - 1) * huge * huge - (at[0] - 1) * huge * huge; }}};
+  const Field which = nodal({"X2"}, {absent, 0, absent}), two = nodal({"X1"}, {1, 2, 1});
+  const std::vector<const Field*> arguments = {&two};
+  const Field made = evaluate(which, functions, arguments, "NEUT_R");
+  REQUIRE(first_infinite(made));
+  CHECK(first_infinite(made)->place == 1);
+  CHECK_FALSE(first_infinite(field));
+}
+
 TEST_CASE("cells without values give their room back", "[fields]") {
   ElementField field = empty_cell_field(*square_of_triangles().mesh, "TEMP_R", {"TEMP"});
   field.values = {absent, 4.0, absent};
