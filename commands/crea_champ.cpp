@@ -253,16 +253,27 @@ FieldPtr made_by(const Call& call, const FieldType& type, Context& context) {
   return operation == "DISC" ? brought(call, type) : extracted(call, type);
 }
 
+// Of another quantity it would be taken for what it is not. Functions have components alone.
+void check_type(const Call& call, const FieldType& type, const solver::Field& field) {
+  if (!lies_at(field, type.place)) {
+    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says", describe(place_of(field)), describe(type.place)),
+                          call.span_of("TYPE_CHAM"));
+  }
+  const std::string& quantity = std::visit([](const auto& any) -> const std::string& { return any.quantity; }, field);
+  const auto& components = solver::components_of(field);
+  const auto unknown = std::ranges::find_if(components, [&](const std::string& name) { return !has_component(type, name); });
+  if (quantity == type.quantity_name() && (call.text("OPERATION") != "EVAL" || unknown == components.end())) return;
+  const std::string what = quantity == type.quantity_name() ? *unknown : quantity.substr(0, quantity.size() - 2);
+  throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field is one of {}, not of {} as TYPE_CHAM says", what, type.quantity), call.span_of("TYPE_CHAM"),
+                        "OPERATION='ASSE' with NOM_CMP and NOM_CMP_RESU makes components of another quantity");
+}
+
 }  // namespace
 
 Product crea_champ(const Call& call, Context& context) {
   const FieldType type = field_type(call.text("TYPE_CHAM"));
   FieldPtr product = made_by(call, type, context);
-  if (!lies_at(product->field, type.place)) {
-    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says",
-                                                    describe(place_of(product->field)), describe(type.place)),
-                          call.span_of("TYPE_CHAM"));
-  }
+  check_type(call, type, product->field);
   finish(call, *product);
   if (!call.reuse) return product;
   call.result->data = product;
