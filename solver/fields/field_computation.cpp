@@ -139,6 +139,8 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
   }
   // Only sections that are asked for need an outline.
   if (name == "SIPM_ELNO" && cells) return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
+  if (name == "FORC_NODA" && cells) return internal_forces_of(*cells, step);
+  if (name == "REAC_NODA" && cells) return reactions_of(*cells, step);
   if (ends(name, "_NOEU")) return nodal_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
   Field field;
   if (const auto rule = rules().find(name); rule != rules().end()) {
@@ -378,11 +380,34 @@ Field FieldComputation::internal_forces(std::size_t step) {
   return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
 }
 
+// The cells are a model of their own.
+Field FieldComputation::internal_forces_of(std::span<const int> cells, std::size_t step) {
+  Model part{problem_.model->mesh, std::vector<Formulation>(problem_.model->formulations.size(), Formulation::none)};
+  for (const int cell : cells) part.formulations[static_cast<std::size_t>(cell)] = problem_.model->formulations[static_cast<std::size_t>(cell)];
+  const DofMap dofs(part);
+  Assembler assembler(part, *problem_.materials, *problem_.properties, dofs, problem_.behaviours.get());
+  const double time = result_.steps[step].instant;
+  assembler.set_time(time);
+  assembler.impose_strains(problem_.loads, time);
+  return nodal_forces(assembler, dofs, displacement(step), problem_.loads, time, remembered_stresses(step));
+}
+
 Field FieldComputation::reactions(std::size_t step) {
   const double time = result_.steps[step].instant;
   FollowerForces followers(*problem_.model, dofs_, problem_.followers);
   followers.set_time(time);
   return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time, remembered_stresses(step));
+}
+
+Field FieldComputation::reactions_of(std::span<const int> cells, std::size_t step) {
+  const double time = result_.steps[step].instant;
+  FollowerForces followers(*problem_.model, dofs_, problem_.followers);
+  followers.set_time(time);
+  // Initial strains are part of the nodal forces.
+  const Eigen::VectorXd applied = assembler_.external_forces(problem_.loads, time) - assembler_.initial_strain_forces(problem_.loads, time) + followers.at(to_dofs(displacement(step), dofs_));
+  const Field forces = internal_forces_of(cells, step), loads = to_field(applied, dofs_, "DEPL_R");
+  const Field reactions = linear_combination(std::array{FieldTerm{&forces, 1.0}, FieldTerm{&loads, -1.0}});
+  return on_nodes(std::get<NodalField>(reactions), result_.mesh().nodes_of_cells(cells));
 }
 
 }  // namespace comma::solver

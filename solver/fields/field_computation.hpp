@@ -30,7 +30,8 @@ class FieldComputation {
 
   static bool knows(std::string_view name);
 
-  /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given. SIRO_ELEM lies on skin
+  /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given: FORC_NODA is then what these cells alone
+  /// bear, and REAC_NODA that less the loads at their nodes (U4.81.24, section 1). SIRO_ELEM lies on skin
   /// cells, all of the model's without `cells`. Throws Error `unsupported` for another name and for one that plates do not have in
   /// comma, `unknown-field` naming one that the step lacks,
   /// and what the functions of solver/fields throw.
@@ -79,7 +80,9 @@ class FieldComputation {
   const Field& remembered(std::string_view name, std::size_t step) const;
   const ElementField* remembered_stresses(std::size_t step) const;
   Field internal_forces(std::size_t step);
+  Field internal_forces_of(std::span<const int> cells, std::size_t step);
   Field reactions(std::size_t step);
+  Field reactions_of(std::span<const int> cells, std::size_t step);
 
   const StaticProblem& problem_;
   const Result& result_;
