@@ -67,9 +67,9 @@ class StaticAnalysis {
   void run(const StepPlan& plan) {
     if (plan.instants.empty()) return;
     plan_ = &plan;
+    watch(plan);
     start(plan.instants.front());
     begin_measuring();
-    watch(plan);
     if (mixed_) mixed_->iterate_jointly(iterates_jointly(plan));
     StepSequence sequence(plan);
     while (!sequence.finished()) {
@@ -89,7 +89,7 @@ class StaticAnalysis {
       speed_ = (now_.state.u - start_) / (instant - from);
       last_instant_ = instant;
       last_duration_ = instant - from;
-      sequence.accept(*iterations, watch_->changes(result_.steps.back()));
+      sequence.accept(*iterations, watch_->changes());
       if (path_ && path_->has_ended()) return;
       if (unstable && plan.stops_when_unstable)
         throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
@@ -118,7 +118,7 @@ class StaticAnalysis {
     if (mixed_) mixed_->remember();
     try {
       const int iterations = solve_from_either_side(instant, before);
-      watch_->check_increment(instant, result_.steps.back(), [&] { return fields_now(instant); });
+      watch_->check_increment(instant, [&] { return fields_now(instant); });
       if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
       if (!refines_collision(closed_before, sequence)) return iterations;
       return take_again(instant, before, sequence, "meets a change of contact");
@@ -252,7 +252,7 @@ class StaticAnalysis {
     require_watchable(plan, problem_, options_);
     newton_.watch(residual_watch(plan));
     limit_depth(plan.event(StepEventKind::depth));
-    watch_.emplace(plan, mesh_, result_.steps.back());
+    watch_.emplace(plan, mesh_);
   }
 
   void limit_depth(const StepEvent* event) {
@@ -343,7 +343,10 @@ class StaticAnalysis {
     assembler_.impose_strains(loads_so_far(), instant);
     resume();
     go_on_with_path();
-    if (!result_.steps.empty()) return;
+    if (!result_.steps.empty()) {
+      watch_->take(result_.steps.back());
+      return;
+    }
     result_.model = problem_.model;
     ResultStep step;
     step.instant = instant;
@@ -601,7 +604,9 @@ class StaticAnalysis {
     return report.unstable;
   }
 
+  /// What looks on may take fields away.
   void append(ResultStep step) {
+    watch_->take(step);
     result_.steps.push_back(std::move(step));
     if (after_step_) after_step_(result_);
   }

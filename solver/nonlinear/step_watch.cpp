@@ -10,10 +10,20 @@
 
 namespace comma::solver {
 
-StepWatch::StepWatch(const StepPlan& plan, const Mesh& mesh, const ResultStep& last) : plan_(plan), mesh_(mesh) {
+StepWatch::StepWatch(const StepPlan& plan, const Mesh& mesh) : plan_(plan), mesh_(mesh) {
+  if (const StepEvent* event = plan.event(StepEventKind::increment)) limited_ = {*event->increment, {}};
   if (!plan.adaptation) return;
   for (const AdaptationRule& rule : plan.adaptation->rules)
-    if (rule.increment) adapting_.push_back({*rule.increment, watched_values(*rule.increment, last, mesh)});
+    if (rule.increment) adapting_.push_back({*rule.increment, {}});
+}
+
+void StepWatch::take(const ResultStep& step) {
+  if (limited_) limited_->values = watched_values(limited_->increment, step, mesh_);
+  for (WatchedField& each : adapting_) {
+    auto now = watched_values(each.increment, step, mesh_);
+    each.change = largest_change(each.values, now);
+    each.values = std::move(now);
+  }
 }
 
 const StepEvent* StepWatch::event_behind(std::string_view code) const {
@@ -23,8 +33,9 @@ const StepEvent* StepWatch::event_behind(std::string_view code) const {
   return code == "contact-too-deep" ? plan_.event(StepEventKind::depth) : nullptr;
 }
 
-void StepWatch::compare(const WatchedIncrement& watched, double instant, const ResultStep& last, const ResultStep& now) {
-  const double change = largest_change(watched_values(watched, last, mesh_), watched_values(watched, now, mesh_));
+void StepWatch::compare(double instant, const ResultStep& now) {
+  const WatchedIncrement& watched = limited_->increment;
+  const double change = largest_change(limited_->values, watched_values(watched, now, mesh_));
   constexpr double rounding = 1e-9;
   if (change <= watched.wanted * (1.0 + rounding)) return;
   constexpr double least_share = 0.05;
@@ -34,13 +45,9 @@ void StepWatch::compare(const WatchedIncrement& watched, double instant, const R
               "take smaller steps, or allow more (VALE_REF)");
 }
 
-std::vector<double> StepWatch::changes(const ResultStep& accepted) {
+std::vector<double> StepWatch::changes() const {
   std::vector<double> changes;
-  for (WatchedField& each : adapting_) {
-    auto now = watched_values(each.increment, accepted, mesh_);
-    std::swap(now, each.before);
-    changes.push_back(largest_change(now, each.before));
-  }
+  for (const WatchedField& each : adapting_) changes.push_back(each.change);
   return changes;
 }
 

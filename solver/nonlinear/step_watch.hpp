@@ -1,6 +1,7 @@
 // What a plan of steps looks at in each step beside its convergence (U4.34.03, ECHEC and ADAPTATION).
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace comma::solver {
 /// Follows the fields whose changes matter, and knows what is done where a step goes too far.
 class StepWatch {
  public:
-  /// Keeps references. `last`: the step that the computation begins from. Throws what watched_values throws.
-  StepWatch(const StepPlan& plan, const Mesh& mesh, const ResultStep& last);
+  /// Keeps references.
+  StepWatch(const StepPlan& plan, const Mesh& mesh);
 
   /// The event of the plan that an error stands for; null: none.
   const StepEvent* event_behind(std::string_view code) const;
@@ -22,32 +23,38 @@ class StepWatch {
   /// Nothing is known of the next step yet.
   void start_step() { share_ = half_a_step; }
 
-  /// Throws Error `increment-too-large` where the watched field changes by more than is allowed from one step to the next, which has the fields of `now`.
+  /// `step` is what the next one is compared with: it has been accepted, or the computation begins from it. Throws what watched_values throws.
+  void take(const ResultStep& step);
+
+  /// Throws Error `increment-too-large` where the watched field changes by more than is allowed from the step that was taken last to the next one, which
+  /// has the fields of `now`.
   template <class FieldsNow>
-  void check_increment(double instant, const ResultStep& last, FieldsNow&& now) {
-    if (const StepEvent* event = plan_.event(StepEventKind::increment)) compare(*event->increment, instant, last, now());
+  void check_increment(double instant, FieldsNow&& now) {
+    if (limited_) compare(instant, now());
   }
 
   /// How much of the last step that was checked might have been gone.
   double share_of_step() const { return share_; }
 
-  /// Of the fields that adapt steps, one a rule, in the step that has just been accepted.
-  std::vector<double> changes(const ResultStep& accepted);
+  /// Of the fields that adapt steps, one a rule, in the step that was taken last.
+  std::vector<double> changes() const;
 
  private:
   struct WatchedField {
     WatchedIncrement increment;
-    std::vector<double> before;
+    std::vector<double> values;  ///< of the step that was taken last
+    double change = 0.0;         ///< in that step
   };
 
   /// Where nothing tells how far a step might have gone.
   static constexpr double half_a_step = 0.5;
 
-  void compare(const WatchedIncrement& watched, double instant, const ResultStep& last, const ResultStep& now);
+  void compare(double instant, const ResultStep& now);
 
   const StepPlan& plan_;
   const Mesh& mesh_;
   double share_ = half_a_step;
+  std::optional<WatchedField> limited_;
   std::vector<WatchedField> adapting_;
 };
 

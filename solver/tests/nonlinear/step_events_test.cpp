@@ -83,6 +83,29 @@ TEST_CASE("residuals promise an end at the rate of the last three") {
   CHECK_FALSE(iterations_to_go(history_of({1.0, 2.0, 3.0}), 1e3));
 }
 
+TEST_CASE("what looks on may take the watched field away from the result") {
+  StepPlan plan({0.0, 1.0});
+  plan.events.push_back(event_of(StepEventKind::increment));
+  plan.events.front().increment = WatchedIncrement{"SIEF_ELGA", "SIYY", {}, {}, 1e3};
+  plan.events.front().cutting = StepCutting{};
+  plan.adaptation.emplace().rules.front().increment = WatchedIncrement{"DEPL", "DY", {}, {}, 0.05};
+  plan.adaptation->rules.front().always = true;
+  Scene kept, bared;
+  for (Scene* scene : {&kept, &bared}) {
+    const Scene::Block block = scene->block("b", {0, 0}, {3, 1}, 3, 1, 2e5, 0.0);
+    for (const int node : block.nodes.front()) scene->impose({node}, Component::dy, 0);
+    scene->impose({block.nodes[0][0]}, Component::dx, 0);
+    scene->impose(block.nodes.back(), Component::dy, -0.1, true);
+  }
+  solve_static(kept.problem, plan, {}, kept.result, kept.counters);
+  solve_static(bared.problem, plan, {}, bared.result, bared.counters, {}, [](Result& result) {
+    result.steps.back().fields.erase("DEPL");
+    result.steps.back().fields.erase("SIEF_ELGA");
+  });
+  CHECK(kept.result.steps.size() > 3);
+  CHECK(instants_of(bared.result) == instants_of(kept.result));
+}
+
 TEST_CASE("a step that changes a field too much is cut as long as it may be") {
   StepPlan plan({0.0, 1.0});
   plan.events.push_back(event_of(StepEventKind::increment));
