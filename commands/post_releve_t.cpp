@@ -53,6 +53,19 @@ Eigen::Matrix3d axes_by_angles(const Keywords& action) {
   return solver::nautical_axes(angles[0], angles[1], angles[2]);
 }
 
+// Components that keep their direction have nothing to do in another frame.
+void check_frame(const Keywords& action, const std::vector<int>& nodes, const solver::NodalField& field) {
+  if (action.text("REPERE") == "GLOBAL" || action.has("INVARIANT") || action.has("ELEM_PRINCIPAUX")) return;
+  const char* keyword = action.has("RESULTANTE") ? "RESULTANTE" : "NOM_CMP";
+  for (const std::string& name : action.has(keyword) ? action.texts(keyword) : field.components) {
+    const int column = field.component(name);
+    if (column < 0 || !solver::has_own_axes(field, name)) continue;
+    if (std::ranges::all_of(nodes, [&](int node) { return std::isnan(field.at(node, column)); })) continue;
+    throw DiagnosticError("unsupported", fmt::format("POST_RELEVE_T: {} has axes of its own, which REPERE does not turn", name), action.span_of("REPERE"),
+                          "leave out REPERE, or name other components (NOM_CMP)");
+  }
+}
+
 solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
   const std::string& frame = action.text("REPERE");
   if (frame == "GLOBAL") return field;
@@ -108,6 +121,7 @@ Row head_of_action(const Keywords& action, const FieldSource& source) {
 Reading read(const Keywords& action, const FieldSource& source) {
   auto [nodes, cells] = place_of(action, source.mesh);
   solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
+  check_frame(action, nodes, field);
   Row head = head_of_action(action, source);
   // A resultant is turned as a whole.
   if (!action.has("RESULTANTE")) field = values_in_frame(action, source.mesh, nodes, field);

@@ -88,6 +88,16 @@ void turn_group(const NodalField& field, std::span<const int> nodes, const NodeA
 
 }  // namespace
 
+bool has_own_axes(const NodalField& field, std::string_view component) {
+  constexpr std::string_view names[] = {"N",    "VX",   "VY",   "VZ",   "MT",   "MFY",  "MFZ",  "NXX",  "NYY",  "NXY",  "MXX",  "MYY",  "MXY",  "QX",   "QY",
+                                        "EXX",  "EYY",  "EXY",  "KXX",  "KYY",  "KXY",  "GAX",  "GAY",  "GAXY", "GAXZ", "GAT",  "KY",   "KZ",   "SN",   "SVY",
+                                        "SVZ",  "SMT",  "SMFY", "SMFZ", "RNX",  "RNY",  "RNZ",  "GLIX", "GLIY", "RTAX", "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ",
+                                        "RX",   "RY",   "RZ",   "IX",   "IY",   "IZ",   "X",    "Y",    "Z"};
+  // The elongation of a beam has the name of a strain in space.
+  if (component == "EPXX") return field.component("GAXY") >= 0;
+  return std::ranges::find(names, component) != std::end(names);
+}
+
 NodalField in_axes(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes) {
   NodalField result{field.quantity, completed(field), {}};
   const std::size_t width = result.components.size();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include <Eigen/Dense>
 
@@ -18,6 +19,10 @@ using NodeAxes = std::function<Eigen::Matrix3d(int node)>;
 /// ... SIYZ; EPXX ... EPYZ) turned into the axes of each node; other components as they are. Of a vector or tensor that
 /// a node carries in part, the missing components count as 0, and all of them come out.
 NodalField in_axes(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes);
+
+/// Whether a component of the field has a direction that in_axes does not turn: forces and strains of sections, which lie in axes of their own,
+/// forces and slips of contact, coordinates.
+bool has_own_axes(const NodalField& field, std::string_view component);
 
 /// The axes of bodies of revolution about the line through `origin` along `axis`: r away from the line, z along it, and
 /// third the direction in which a right-handed screw along the axis turns (the order of axisymmetric models, which makes

@@ -33,6 +33,14 @@ TEST_CASE("a tensor keeps its invariants in other axes, and its missing componen
   CHECK(std::abs(at("SIXZ")) > 0.1);
 }
 
+TEST_CASE("forces and strains of sections lie in axes of their own", "[fields]") {
+  const NodalField of_beam{"EPSI_R", {"EPXX", "GAXY", "KY"}, {1.0, 0.0, 0.0}}, of_body{"EPSI_R", {"EPXX", "EPYY"}, {1.0, 0.0}};
+  CHECK(has_own_axes(of_beam, "EPXX"));
+  CHECK(has_own_axes(of_beam, "KY"));
+  CHECK_FALSE(has_own_axes(of_body, "EPXX"));
+  CHECK_FALSE(has_own_axes(of_body, "VMIS"));
+}
+
 TEST_CASE("a hoop stress stands in the third place of axes of revolution", "[fields]") {
   // At 30 degrees round Z, a stress of 5 along the tangent.
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
