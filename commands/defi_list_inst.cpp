@@ -55,6 +55,9 @@ solver::WatchedIncrement watched_increment(const Call& call, const Keywords& giv
   watched.wanted = given.real("VALE_REF");
   const char* place = given.given("GROUP_NO") ? "GROUP_NO" : given.given("GROUP_MA") ? "GROUP_MA" : nullptr;
   if (place == nullptr) return watched;
+  if (given.given("GROUP_NO") && watched.field != "DEPL") {
+    throw DiagnosticError("excluded-keyword", fmt::format("DEFI_LIST_INST: {} has its values on cells", watched.field), given.span_of("GROUP_NO"), "name cells by GROUP_MA");
+  }
   if (!call.given("MODELE")) throw DiagnosticError("missing-keyword", std::string("DEFI_LIST_INST: ") + place + " needs to know of which mesh", given.span_of(place), "give MODELE");
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
   watched.nodes = selected_nodes(given, mesh);

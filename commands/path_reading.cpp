@@ -1,5 +1,7 @@
 #include "commands/path_reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -50,6 +52,16 @@ void take_displacements(const Keywords& keywords, const solver::Mesh& mesh, solv
                         "name one of each, or control several by TYPE='LONG_ARC'");
 }
 
+// Displacements are controlled at nodes, strains on cells.
+void check_places(const Keywords& keywords, bool on_cells) {
+  const std::vector<const char*> others = on_cells ? std::vector<const char*>{"GROUP_NO", "NOEUD"} : std::vector<const char*>{"GROUP_MA"};
+  for (const char* keyword : others) {
+    if (!keywords.given(keyword)) continue;
+    throw DiagnosticError("excluded-keyword", fmt::format("PILOTAGE: TYPE='{}' is measured {}", keywords.text("TYPE"), on_cells ? "on cells" : "at nodes"), keywords.span_of(keyword),
+                          on_cells ? "name cells by GROUP_MA" : "name nodes by GROUP_NO or NOEUD");
+  }
+}
+
 }  // namespace
 
 solver::PathControl path_control(const Call& call, const solver::Mesh& mesh) {
@@ -61,7 +73,9 @@ solver::PathControl path_control(const Call& call, const solver::Mesh& mesh) {
   control.scale = keywords.real("COEF_MULT");
   if (control.scale == 0.0) throw DiagnosticError("out-of-bounds", "PILOTAGE: COEF_MULT divides the length of the step", keywords.span_of("COEF_MULT"), "give a value that is not 0");
   take_bounds(keywords, control);
-  if (control.measure == solver::PathMeasure::elastic_prediction || control.measure == solver::PathMeasure::strain) control.cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA", ""});
+  const bool on_cells = control.measure == solver::PathMeasure::elastic_prediction || control.measure == solver::PathMeasure::strain;
+  check_places(keywords, on_cells);
+  if (on_cells) control.cells = selected_cells(keywords, mesh, {"", "", "", "GROUP_MA", ""});
   else take_displacements(keywords, mesh, control);
   return control;
 }
