@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <optional>
-#include <regex>
 
 #include "interpreter/diagnostic.hpp"
 
@@ -18,12 +19,49 @@ struct Descriptor {
   int digits;
 };
 
+/// Reads a text from its beginning.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : rest_(text) {}
+
+  bool at_end() const { return rest_.empty(); }
+  void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
+  /// The next letter if it is one of these, in capitals; 0 otherwise.
+  char one_of(std::string_view letters) {
+    const char next = rest_.empty() ? '\0' : static_cast<char>(std::toupper(static_cast<unsigned char>(rest_.front())));
+    if (next == '\0' || letters.find(next) == std::string_view::npos) return '\0';
+    rest_.remove_prefix(1);
+    return next;
+  }
+  /// A number of digits alone, nothing where there is none or it is larger than any field is wide.
+  std::optional<int> number() {
+    constexpr int widest = 200;
+    int value = 0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc{} || rest_.front() == '-' || value > widest) return std::nullopt;
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    return value;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+// A scale factor 1P, the kind, S or N, width and digits, the digits of the exponent.
 std::optional<Descriptor> parse(std::string_view format) {
-  static const std::regex shape(R"(\s*(?:1P)?([EDFG])[SN]?(\d+)\.(\d+)(?:E\d+)?\s*)", std::regex::icase);
-  std::cmatch match;
-  if (!std::regex_match(format.data(), format.data() + format.size(), match, shape)) return std::nullopt;
-  const char kind = static_cast<char>(std::toupper(static_cast<unsigned char>(*match[1].first)));
-  return Descriptor{kind, std::stoi(match[2]), std::stoi(match[3])};
+  Scanner scanner(format);
+  scanner.skip_blanks();
+  if (scanner.one_of("1") && !scanner.one_of("P")) return std::nullopt;
+  const char kind = scanner.one_of("EDFG");
+  if (kind == '\0') return std::nullopt;
+  scanner.one_of("SN");
+  const auto width = scanner.number();
+  if (!width || !scanner.one_of(".")) return std::nullopt;
+  const auto digits = scanner.number();
+  if (!digits || (scanner.one_of("E") && !scanner.number())) return std::nullopt;
+  scanner.skip_blanks();
+  if (!scanner.at_end()) return std::nullopt;
+  return Descriptor{kind, *width, *digits};
 }
 
 }  // namespace
@@ -48,7 +86,7 @@ std::string RealFormat::operator()(double value) const {
 }
 
 std::string format_real(double value, std::string_view format) {
-  // The common case of every printed table; a regular expression a cell would cost more than the solution.
+  // The common case of every printed table; a format is not taken apart for each cell.
   if (format == "E12.5") return fmt::format("{:12.5E}", value);
   return RealFormat(format)(value);
 }

@@ -55,7 +55,15 @@ TEST_CASE("Fortran's edit descriptors") {
   CHECK(format_real(1234.5678, "1PE13.6") == " 1.234568E+03");
   CHECK(format_real(3.14159, "F8.3") == "   3.142");
   CHECK_THROWS_AS(format_real(1.0, "Q5"), DiagnosticError);
-  CHECK_FALSE(is_real_format("E12"));
+  CHECK(format_real(2.5, " es9.2E3 ") == " 2.50E+00");
+  for (const char* wrong : {"E12", "E12.", "E.5", "2PE12.5", "E-12.5", "E12.5 x", "", "P", "E12.5E"}) CHECK_FALSE(is_real_format(wrong));
+}
+
+TEST_CASE("A format is as wide as a line at most") {
+  CHECK(format_real(1.0, "F200.1").size() == 200);
+  CHECK_FALSE(is_real_format("E99999999999.5"));
+  CHECK_FALSE(is_real_format("E201.5"));
+  CHECK_FALSE(is_real_format("E" + std::string(300000, '1') + ".5"));
 }
 
 TEST_CASE("A reduction passes over no number that is none") {
