@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "interpreter/item_span.hpp"
@@ -123,6 +125,11 @@ bool within(double number, const Bounds& bounds) {
   if (bounds.below && !(number < *bounds.below)) return false;
   return !bounds.at_most || number <= *bounds.at_most;
 }
+
+/// Counts and numbers of things are no larger; a page that gives a bound of its own (at_most) admits more.
+constexpr std::int64_t most_counted = std::numeric_limits<std::int32_t>::max();
+
+bool fits(const Value& integer) { return integer.as_integer() <= most_counted && integer.as_integer() >= -most_counted; }
 
 /// The checks of one keyword's value, element by element.
 class ValueCheck {
@@ -259,6 +266,10 @@ class ValueCheck {
   }
 
   bool check_bounds(const Value& item, const Place& place) {
+    if (item.is_integer() && admits(page_, Kind::integer) && !page_.bounds.at_most && !fits(item)) {
+      error("out-of-bounds", fmt::format("{} must be an integer of 32 bits; it is {}", label_, item.repr()), span_at(place), fmt::format("{} at most", most_counted));
+      return false;
+    }
     if (!item.is_number() || within(item.as_real(), page_.bounds)) return true;
     error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()), span_at(place));
     return false;

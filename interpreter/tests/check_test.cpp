@@ -202,6 +202,11 @@ TEST_CASE("A number out of its bounds") {
          "4");
 }
 
+TEST_CASE("An integer that the machine would cut off") {
+  expect(Checker().only({{"TUNE", factor({{"STEPS", Value(std::int64_t{4294967296})}})}}), "out-of-bounds", "LOAD/TUNE/STEPS must be an integer of 32 bits; it is 4294967296", "4294967296",
+         "2147483647 at most");
+}
+
 TEST_CASE("Too few and too many values") {
   expect(Checker().only({{"AXIS", Value(1.0)}}), "wrong-count", "LOAD/AXIS wants 2 to 3 values, not 1", "1.0");
   const Value two = Value::tuple({Value(1.0), Value(2.0)});
