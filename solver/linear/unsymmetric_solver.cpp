@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <Eigen/SparseLU>
+#include <Eigen/SparseQR>
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -76,6 +77,15 @@ GeneralMatrix shifted(const GeneralMatrix& matrix) {
   return matrix + zero_pivot_shift * diagonal;
 }
 
+/// Columns that are combinations of the others: a rank-revealing QR factorisation puts them last.
+std::vector<int> dependent_columns(const GeneralMatrix& matrix) {
+  const Eigen::SparseQR<GeneralMatrix, Eigen::COLAMDOrdering<int>> factors(matrix);
+  const auto& order = factors.colsPermutation().indices();
+  std::vector<int> columns(order.data() + factors.rank(), order.data() + order.size());
+  std::ranges::sort(columns);
+  return columns;
+}
+
 }  // namespace
 
 GeneralMatrix full_matrix(const SymmetricMatrix& symmetric, const SkewMatrix& skew) {
@@ -141,7 +151,11 @@ void UnsymmetricSolver::factorise_scaled(const GeneralMatrix& working) {
     factors_->compute(shifted(working));
     digits = digits < 0 ? zero_pivot_digits : std::min(digits, zero_pivot_digits);
   }
-  if (factors_->info() != Eigen::Success) throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
+  if (factors_->info() != Eigen::Success) {
+    report_ = {FactorVerdict::singular, dependent_columns(working), std::numeric_limits<double>::max_digits10};
+    if (report_.null_rows.empty()) throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
+    return;
+  }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(working.rows());
   Eigen::VectorXd references = maxima_of(working, ones, ones).columns;
   references = (references.array() > 0.0).select(references, ones);

@@ -108,6 +108,17 @@ TEST_CASE("a singular unsymmetric matrix is told by the unknown behind its null 
   }
 }
 
+TEST_CASE("an unknown that moves nothing but is moved is singular, not a lack of memory") {
+  // Its row is the pivot of the first column, so that not even a shifted diagonal is left of its own.
+  Eigen::Matrix3d dense;
+  dense << 1, 0, 1, 4, 0, 2, 2, 0, 7;
+  const Parts parts = split(dense);
+  UnsymmetricSolver solver({});
+  const FactorReport report = solver.factorise(parts.symmetric, parts.skew);
+  CHECK(report.verdict == FactorVerdict::singular);
+  CHECK(report.null_rows == std::vector<int>{1});
+}
+
 TEST_CASE("what an unsymmetric matrix does not resist, its Gram matrix does not either") {
   Eigen::Matrix3d dense;
   dense << 4, 1, 4, -1, 3, -1, 2, 5, 2;
