@@ -20,7 +20,7 @@ int steps_of(const Keywords& interval, double length) {
   const bool counted = interval.has("NOMBRE");
   const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
   if (!(exact <= most_steps)) {
-    throw DiagnosticError("too-many-steps", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_steps),
+    throw DiagnosticError("out-of-bounds", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_steps),
                           interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
   }
   const double steps = std::round(exact);

@@ -178,7 +178,7 @@ class ValueCheck {
         return false;
       }
       if (converted->is_real() && !std::isfinite(converted->as_real())) {
-        error("not-finite", fmt::format("{} wants a finite number, not {}", label_, item.repr()), span_at({i, items.size()}), "give a value");
+        error("out-of-bounds", fmt::format("{} wants a finite number, not {}", label_, item.repr()), span_at({i, items.size()}), "give a value");
         return false;
       }
       item = *converted;

@@ -89,9 +89,9 @@ TEST_CASE("A list with more steps than a run could take is refused before it is 
     return codes_of(folder.write("list.comm", "L = DEFI_LIST_REEL(DEBUT=0.0, INTERVALLE=_F(JUSQU_A=1.0, " + interval + "))\n"));
   };
   CHECK(codes("NOMBRE=10") == Codes{});
-  CHECK(codes("NOMBRE=2000000000") == Codes{"too-many-steps"});
-  CHECK(codes("NOMBRE=5000000000") == Codes{"too-many-steps"});
-  CHECK(codes("PAS=1e-300") == Codes{"too-many-steps"});
+  CHECK(codes("NOMBRE=2000000000") == Codes{"out-of-bounds"});
+  CHECK(codes("NOMBRE=5000000000") == Codes{"out-of-bounds"});
+  CHECK(codes("PAS=1e-300") == Codes{"out-of-bounds"});
 }
 
 TEST_CASE("What is wrong in an included file is told at its line there") {
