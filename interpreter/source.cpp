@@ -19,6 +19,8 @@ bool continues_character(char c) {
 }  // namespace
 
 SourceFile::SourceFile(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+  // Some editors mark UTF-8 so; Python passes over it.
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   // Command files from before UTF-8 are Latin-1; what follows may count on UTF-8.
   if (!is_valid_utf8(text_)) text_ = utf8_from_latin1(text_);
   line_starts_.push_back(0);

@@ -33,6 +33,12 @@ TEST_CASE("A Latin-1 file is read as what it means", "[source]") {
   CHECK(file.text() == "# d\xC3\xA9placement");
 }
 
+TEST_CASE("The mark with which some editors begin UTF-8 is not part of the text", "[source]") {
+  const SourceFile file("a.comm", "\xEF\xBB\xBF# \xC3\xA9");
+  CHECK(file.text() == "# \xC3\xA9");
+  CHECK(file.position(0).column == 1);
+}
+
 TEST_CASE("A file that cannot be read is a diagnostic", "[source]") {
   try {
     SourceFile::read("no/such/file.comm");
