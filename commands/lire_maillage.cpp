@@ -1,4 +1,9 @@
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
 #include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/gibi_mesh_file.hpp"
 #include "solver/io/gmsh_mesh_file.hpp"
@@ -16,11 +21,23 @@ const std::map<std::string, std::vector<std::string>, std::less<>>& extensions()
   return table;
 }
 
-solver::Mesh read(const Call& call, const Context& context) {
+// Where names are wanted the file's own are likely to be meant.
+solver::Mesh read_names_aside(const Call& call, const std::string& path, Context& context) {
+  std::optional<solver::MisleadingName> misleading;
+  solver::Mesh mesh = solver::read_aster_mesh(path, &misleading);
+  if (!misleading) return mesh;
+  context.diagnostics.alarm("other-names",
+                            fmt::format("LIRE_MAILLAGE: nodes and cells are numbered in the order of the file and keep no names: what the file calls {} is {} from here on",
+                                        misleading->in_file, misleading->afterwards),
+                            call.span, "name nodes and cells by groups");
+  return mesh;
+}
+
+solver::Mesh read(const Call& call, Context& context) {
   const std::string& format = call.text("FORMAT");
   const std::string path = context.files.input(static_cast<int>(call.integer("UNITE")), extensions().at(format)).string();
   context.console.progress("  reads " + path);
-  if (format == "ASTER") return solver::read_aster_mesh(path);
+  if (format == "ASTER") return read_names_aside(call, path, context);
   if (format == "GMSH") return solver::read_gmsh_mesh(path);
   if (format == "IDEAS") return solver::read_ideas_mesh(path);
   if (format == "GIBI") return solver::read_gibi_mesh(path);

@@ -199,6 +199,13 @@ class Names {
     }
   }
 
+  int count() const { return static_cast<int>(indices_.size()); }
+
+  std::optional<int> find(std::string_view name) const {
+    const auto found = indices_.find(name);
+    return found == indices_.end() ? std::nullopt : std::optional(found->second);
+  }
+
   int find(const Word& word, const Source& source) const {
     const auto found = indices_.find(word.text);
     if (found != indices_.end()) return found->second;
@@ -216,11 +223,26 @@ class Names {
   std::unordered_map<std::string_view, int> indices_;
 };
 
+/// The first of the nodes or cells that is called as another one will be: N7 or M7 but for the seventh.
+std::optional<MisleadingName> first_misleading(const Names& names, char letter, int count) {
+  for (int i = 0; i < count; ++i) {
+    const std::string afterwards = fmt::format("{}{}", letter, i + 1);
+    const auto named_so = names.find(afterwards);
+    if (named_so && *named_so != i) return MisleadingName{afterwards, fmt::format("{}{}", letter, *named_so + 1)};
+  }
+  return std::nullopt;
+}
+
 class Parser {
  public:
   Parser(std::string_view text, const std::string& path) : source_(path), words_(split(text, source_)) {}
 
   Mesh parse();
+  /// Of what has been parsed.
+  std::optional<MisleadingName> misleading_name() const {
+    const auto node = first_misleading(node_names_, 'N', node_names_.count());
+    return node ? node : first_misleading(cell_names_, 'M', cell_names_.count());
+  }
 
  private:
   struct PendingCells {
@@ -329,17 +351,20 @@ Mesh Parser::parse() {
 
 }  // namespace
 
-Mesh parse_aster_mesh(std::string_view text, const std::string& path) {
-  return Parser(text, path).parse();
+Mesh parse_aster_mesh(std::string_view text, const std::string& path, std::optional<MisleadingName>* misleading) {
+  Parser parser(text, path);
+  Mesh mesh = parser.parse();
+  if (misleading != nullptr) *misleading = parser.misleading_name();
+  return mesh;
 }
 
-Mesh read_aster_mesh(const std::string& path) {
+Mesh read_aster_mesh(const std::string& path, std::optional<MisleadingName>* misleading) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf())) {
     throw Error("unreadable-file", fmt::format("{}: the file cannot be read, or is empty", path));
   }
-  return parse_aster_mesh(text.str(), path);
+  return parse_aster_mesh(text.str(), path, misleading);
 }
 
 }  // namespace comma::solver

@@ -56,6 +56,21 @@ std::string error_of(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("names that another node or cell has afterwards are told") {
+  const std::string head = "COOR_2D\nN1 0 0\n", tail = " 1 1\nFINSF\nPOI1\n";
+  std::optional<MisleadingName> found;
+  parse_aster_mesh(head + "N3 1 0\nN2" + tail + "M1 N1\nFINSF\nFIN", "x.mail", &found);
+  REQUIRE(found);
+  CHECK(found->in_file == "N2");
+  CHECK(found->afterwards == "N3");
+  parse_aster_mesh(head + "N2 1 0\nA" + tail + "M2 N1\nM1 A\nFINSF\nFIN", "x.mail", &found);
+  REQUIRE(found);
+  CHECK(found->in_file == "M1");
+  CHECK(found->afterwards == "M2");
+  parse_aster_mesh(head + "N2 1 0\nN7" + tail + "M1 N7\nFINSF\nFIN", "x.mail", &found);
+  CHECK_FALSE(found);
+}
+
 TEST_CASE("a mesh file in free format is read") {
   const Mesh mesh = parse_aster_mesh(square, "x.mail");
   CHECK(mesh.dimension == 2);
