@@ -104,4 +104,11 @@ std::string to_json(const Report& report) {
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+void write_report(const std::string& path, const Report& report) {
+  std::ofstream file(path);
+  file << to_json(report);
+  file.close();
+  if (!file) throw interpreter::DiagnosticError("unwritable-file", "cannot write the report " + path);
+}
+
 }  // namespace comma::commands

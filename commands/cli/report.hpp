@@ -31,4 +31,7 @@ struct Report {
 /// The report as JSON text, with this process's peak memory.
 std::string to_json(const Report& report);
 
+/// Throws DiagnosticError `unwritable-file`.
+void write_report(const std::string& path, const Report& report);
+
 }  // namespace comma::commands

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "commands/cli/options.hpp"
 #include "commands/cli/study_run.hpp"
@@ -31,13 +30,6 @@ void show_summary(const Context& context, int status, double seconds) {
   context.console.line(fmt::format("{}   ({:.0f} ms)", text, 1e3 * seconds));
 }
 
-void write_report(const std::string& path, const Report& report) {
-  std::ofstream file(path);
-  file << to_json(report);
-  file.close();
-  if (!file) throw interpreter::DiagnosticError("unwritable-file", "cannot write the report " + path);
-}
-
 int status_of_run(const StudyRun& pass) {
   if (const int status = status_of(pass.diagnostics()); status != 0) return status;
   const auto& verdicts = pass.context().verdicts;
@@ -45,28 +37,34 @@ int status_of_run(const StudyRun& pass) {
   return all_hold ? all_verdicts_hold : a_verdict_fails;
 }
 
-}  // namespace
+struct Outcome {
+  int status;
+  Report report;
+};
 
-int run(const RunOptions& options) try {
+Outcome execute(const RunOptions& options) try {
   const auto started = std::chrono::steady_clock::now();
   StudyRun pass(open_study(options.file), options.verbosity, {.check_only = false, .only_tests = options.only_tests}, options.limits);
   pass.run();
   const int status = status_of_run(pass);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   print_diagnostics(pass.diagnostics(), options.verbosity != Verbosity::quiet);
-  show_summary(pass.context(), status, elapsed.count());
-  if (!options.json.empty()) {
-    write_report(options.json, {options.file, status_word(status), pass.context().verdicts, records_of(pass.graph()),
-                                pass.diagnostics().items(), pass.context().counters, elapsed.count()});
-  }
-  return status;
+  if (status != all_verdicts_hold || options.verbosity != Verbosity::quiet) show_summary(pass.context(), status, elapsed.count());
+  return {status, {options.file, status_word(status), pass.context().verdicts, records_of(pass.graph()), pass.diagnostics().items(), pass.context().counters, elapsed.count()}};
 } catch (const interpreter::DiagnosticError& error) {
   interpreter::Diagnostics only;
   only.add(error.diagnostic());
   print_diagnostics(only, true);
   const int status = status_of(only);
-  if (!options.json.empty()) write_report(options.json, {options.file, status_word(status), {}, {}, only.items(), {}, 0.0});
-  return status;
+  return {status, {options.file, status_word(status), {}, {}, only.items(), {}, 0.0}};
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const Outcome outcome = execute(options);
+  if (!options.json.empty()) write_report(options.json, outcome.report);
+  return outcome.status;
 }
 
 }  // namespace comma::commands

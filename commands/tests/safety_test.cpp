@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "commands/cli/options.hpp"
 #include "commands/cli/study_run.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace fs = std::filesystem;
 using namespace comma::commands;
@@ -92,6 +94,13 @@ TEST_CASE("A list with more steps than a run could take is refused before it is 
   CHECK(codes("NOMBRE=2000000000") == Codes{"out-of-bounds"});
   CHECK(codes("NOMBRE=5000000000") == Codes{"out-of-bounds"});
   CHECK(codes("PAS=1e-300") == Codes{"out-of-bounds"});
+}
+
+TEST_CASE("A report that cannot be written is told, and the file is not called sound") {
+  const Folder folder;
+  const std::string nowhere = (folder.outside() / "no" / "such" / "report.json").string();
+  CHECK_THROWS_AS(check({folder.write("study.comm", "A = 1\n").string(), {}, nowhere}), comma::interpreter::DiagnosticError);
+  CHECK_THROWS_AS(run({folder.write("study.comm", "A = 1\n").string(), {}, nowhere, false, Verbosity::quiet}), comma::interpreter::DiagnosticError);
 }
 
 TEST_CASE("What is wrong in an included file is told at its line there") {
