@@ -263,6 +263,7 @@ void check_one_algorithm(const Call& call) {
     if (zone.text("ALGO_CONT") == zones.front().text("ALGO_CONT")) continue;
     throw DiagnosticError("mixed-algorithms", "DEFI_CONTACT: all zones of the discrete formulation take one ALGO_CONT", zone.span_of("ALGO_CONT"),
                           "write " + zones.front().text("ALGO_CONT") + " here too");
+  definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   }
 }
 
@@ -292,7 +293,6 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   definition.joint_iterations = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON" && call.text("ALGO_RESO_GEOM") == "NEWTON";
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
-  if (call.has("ITER_CONT_MULT")) definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
   if (!is_mixed) {
     check_one_algorithm(call);
