@@ -34,6 +34,13 @@ std::string describe(const LinearRelation& relation, const Mesh& mesh) {
   return text.empty() ? "0" : text;
 }
 
+/// Metres, radians, the pressure's and the change of volume: of its first term.
+int unit_of(const LinearRelation& relation) {
+  if (relation.terms.empty()) return 0;
+  const auto component = static_cast<int>(relation.terms.front().component);
+  return component < motion_count ? component / 3 : component - motion_count + 2;
+}
+
 [[noreturn]] void unknown_dof(const Mesh& mesh, const DofMap& dofs, const LinearRelation::Term& term,
                               const std::string& origin) {
   std::vector<std::string_view> carried;
@@ -75,7 +82,7 @@ SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const
                                      const LinearRelation& relation) {
   const Point at = relation.terms.empty() ? Point{} : mesh.nodes[relation.terms.front().node];
   const bool constant = !relation.function && !applied.multiplier && !applied.differential;
-  conditions_.push_back({applied.load, &relation, applied.multiplier, at, describe(relation, mesh), constant, {}, 0.0});
+  conditions_.push_back({applied.load, &relation, applied.multiplier, at, unit_of(relation), describe(relation, mesh), constant, {}, 0.0});
   std::map<int, double> coefficients;
   for (const auto& term : relation.terms) {
     const int dof = dofs.dof(term.node, term.component);
@@ -126,19 +133,31 @@ Eigen::VectorXd Elimination::values(double time) const {
 
 Eigen::VectorXd Elimination::offset(double time) const {
   const Eigen::VectorXd c = values(time);
-  for (const SparseRow& dependency : dependencies_) check(dependency, c, time);
+  const Scales scales = scales_of(c);
+  for (const SparseRow& dependency : dependencies_) check(dependency, c, scales, time);
   return offsets_ * c;
 }
 
-void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const {
+Elimination::Scales Elimination::scales_of(const Eigen::VectorXd& values) const {
+  Scales scales{};
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    double& scale = scales[static_cast<std::size_t>(conditions_[k].unit)];
+    scale = std::max(scale, std::abs(values[static_cast<Eigen::Index>(k)]));
+  }
+  return scales;
+}
+
+void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& values, const Scales& scales, double time) const {
   double sum = 0.0;
   double largest = 0.0;
+  double scale = 0.0;
   for (const auto& [condition, factor] : dependency) {
     sum += factor * values[condition];
     largest = std::max(largest, std::abs(factor * values[condition]));
+    scale = std::max(scale, scales[static_cast<std::size_t>(conditions_[static_cast<std::size_t>(condition)].unit)]);
   }
-  // Beside values of 1, a value of 1e-17 is a zero that carries rounding, as a cosine leaves it.
-  const double rounding = std::numeric_limits<double>::epsilon() * values.lpNorm<Eigen::Infinity>();
+  // Beside values of 1, a value of 1e-17 is a zero that carries rounding, as a cosine leaves it; beside a pressure of 1e9 it is not.
+  const double rounding = std::numeric_limits<double>::epsilon() * scale;
   if (!(std::abs(sum) <= contradiction_tolerance * largest + rounding)) contradict(dependency, values, time);
 }
 
@@ -147,10 +166,11 @@ void Elimination::check_constant_dependencies() const {
   for (std::size_t k = 0; k < conditions_.size(); ++k) {
     if (conditions_[k].constant) c[static_cast<Eigen::Index>(k)] = conditions_[k].value(0.0);
   }
+  const Scales scales = scales_of(c);
   for (const SparseRow& dependency : dependencies_) {
     const bool constant = std::all_of(dependency.begin(), dependency.end(),
                                       [this](const auto& term) { return conditions_[term.first].constant; });
-    if (constant) check(dependency, c, 0.0);
+    if (constant) check(dependency, c, scales, 0.0);
   }
 }
 

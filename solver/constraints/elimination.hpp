@@ -1,6 +1,7 @@
 // Kinematic conditions by elimination: u = T q + g. What is symmetric positive definite stays so.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,12 +53,15 @@ class Elimination {
   static constexpr double contradiction_tolerance = 1e-9;
 
  private:
+  static constexpr int unit_count = 4;
+
   /// One relation with what its right-hand side needs.
   struct Condition {
     std::shared_ptr<const Load> load;  ///< keeps `relation` alive
     const LinearRelation* relation;
     TimeFunction multiplier;
     Point at;
+    int unit;          ///< see unit_of()
     std::string text;  ///< "DX at N3", "DX at N1 - DX at N2"
     bool constant;
     SparseRow differential;  ///< its coefficients, if it counts from the initial state
@@ -71,7 +75,10 @@ class Elimination {
                           const LinearRelation& relation);
   void set_transformation(const GaussJordan& reduction, int full_size);
   Eigen::VectorXd values(double time) const;
-  void check(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const;
+  /// The largest values that conditions of each unit prescribe.
+  using Scales = std::array<double, unit_count>;
+  Scales scales_of(const Eigen::VectorXd& values) const;
+  void check(const SparseRow& dependency, const Eigen::VectorXd& values, const Scales& scales, double time) const;
   void check_constant_dependencies() const;
   [[noreturn]] void contradict(const SparseRow& dependency, const Eigen::VectorXd& values, double time) const;
 

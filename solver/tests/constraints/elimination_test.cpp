@@ -176,6 +176,17 @@ TEST_CASE("contradictory values name node, component, values and both origins") 
         "DDL_IMPO)");
 }
 
+TEST_CASE("values of another unit leave no room for a contradiction") {
+  const Model model = nodes_in_a_row(2, Formulation::spring_rotation_3d);
+  const DofMap dofs(model);
+  const auto conditions = [&](double turn) {
+    return applied({relation({{0, dx}}, 0.0), relation({{0, dx}}, 1e-7), relation({{1, Component::drx}}, turn)});
+  };
+  CHECK_THROWS_WITH(Elimination(*model.mesh, dofs, conditions(1e9)), Catch::Contains("contradict"));
+  // Beside metres of that size the same is rounding.
+  CHECK_NOTHROW(Elimination(*model.mesh, dofs, applied({relation({{0, dx}}, 0.0), relation({{0, dx}}, 1e-7), relation({{1, dx}}, 1e9)})));
+}
+
 TEST_CASE("a contradiction through relations names all that take part and no other") {
   const std::string message =
       message_of(3, {relation({{0, dx}}, 1.0, "first"), relation({{1, dx}}, 2.0, "second"),
