@@ -399,9 +399,10 @@ std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occu
   if (given.mesh.get() != &target.mesh) throw DiagnosticError("incompatible-field", std::string(keyword) + ": the field lies on another mesh than the model", occurrence.span_of(keyword));
   auto field = std::make_shared<solver::ElementField>(solver::brought_to(target.model, given.field, solver::Support::gauss_point, false));
   if (!names_a_place(occurrence)) return field;
-  const auto cells = selected_cells(occurrence, target.mesh);
+  std::vector<bool> chosen(target.mesh.cell_types.size(), false);
+  for (const int cell : selected_cells(occurrence, target.mesh)) chosen[static_cast<std::size_t>(cell)] = true;
   for (int cell = 0; cell < target.mesh.cell_count(); ++cell) {
-    if (std::ranges::find(cells, cell) != cells.end()) continue;
+    if (chosen[static_cast<std::size_t>(cell)]) continue;
     const std::size_t first = static_cast<std::size_t>(field->starts[cell]) * field->components.size();
     const std::size_t last = static_cast<std::size_t>(field->starts[cell + 1]) * field->components.size();
     std::fill(field->values.begin() + static_cast<std::ptrdiff_t>(first), field->values.begin() + static_cast<std::ptrdiff_t>(last), solver::absent);

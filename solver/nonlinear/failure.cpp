@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "solver/error.hpp"
 
@@ -94,8 +95,10 @@ void throw_condensed_limit(int limit, double friction, bool has_negative_weight)
 }
 
 void throw_geometry_failure(double time, const GeometryHistory& history, const ContactDefinition& contact) {
-  std::string changes;
-  for (const double change : history.changes) changes += fmt::format("{}{:.3e}", changes.empty() ? "" : ", ", change);
+  constexpr std::size_t most_shown = 10;
+  const std::size_t left_out = history.changes.size() - std::min(history.changes.size(), most_shown);
+  std::string changes = left_out > 0 ? fmt::format("{} more, then ", left_out) : "";
+  changes += fmt::format("{:.3e}", fmt::join(std::span(history.changes).subspan(left_out), ", "));
   const std::string tail = fmt::format("at t = {:.6g}; change of the contact geometry at each update: {} (RESI_GEOM = {:.3g}); "
                                        "node {} moved most",
                                        time, changes, contact.geometry_tolerance, history.worst);
