@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "commands/concepts.hpp"
+#include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/locking.hpp"
@@ -128,6 +129,23 @@ void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<dou
                             fmt::format("{}: the step{} to INST={}{} did not converge within the iterations allowed and stand{} as the iterations left {}, out of balance", call.command,
                                         instants.size() > 1 ? "s" : "", fmt::join(shown, ", "), more, instants.size() > 1 ? "" : "s", instants.size() > 1 ? "them" : "it"),
                             call.span, "allow more iterations (ITER_GLOB_MAXI), or take shorter steps; ARRET='OUI' stops at the first");
+}
+
+void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver::Model& model, Context& context) {
+  if (call.factors("COMPORTEMENT").empty()) return;
+  std::vector<bool> named(model.formulations.size(), false);
+  for (const interpreter::Keywords& keywords : call.factors("COMPORTEMENT")) {
+    if (!names_a_place(keywords, cell_places)) return;
+    for (const int cell : selected_cells(keywords, *model.mesh)) named[static_cast<std::size_t>(cell)] = true;
+  }
+  int count = 0, first = -1;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (named[static_cast<std::size_t>(cell)] || model.components_of(cell) == 0 || model.is_skin(cell)) continue;
+    if (count++ == 0) first = cell;
+  }
+  if (count == 0) return;
+  context.diagnostics.alarm("no-behaviour", fmt::format("{}: COMPORTEMENT leaves out {} cell{}, {} the first: what it leaves out is elastic, in small strains", call.command, count, count == 1 ? "" : "s", model.mesh->cell_name(first)),
+                            call.factors("COMPORTEMENT").front().span, "name all cells that carry stiffness, those with RELATION='ELAS' too");
 }
 
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context) {

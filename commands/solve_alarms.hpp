@@ -16,6 +16,9 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
 /// Alarm `repeated-load`: a load that EXCIT names more than once.
 void warn_of_repeated_loads(const interpreter::Call& call, Context& context);
 
+/// Alarm `no-behaviour`: cells that COMPORTEMENT leaves out.
+void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver::Model& model, Context& context);
+
 /// Alarm `other-variables`: a cell goes on with a law whose internal variables are others than those it had. `before`: the laws of the initial state; null: elasticity, or not known.
 void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context);
 
