@@ -135,6 +135,14 @@ void take_thickness(const Keywords& keywords, const char* keyword, solver::Field
   const auto& parameters = interpreter::data_of<FunctionConcept>(handle, keyword).parameters();
   if (std::ranges::find(parameters, "INST") != parameters.end()) zone.thickness_changes = true;
 }
+// Nodes and patches have no facet to be sought along a line.
+void check_direction_of_search(const Keywords& zone) {
+  const bool by_patches = zone.text("ALGO_CONT") == "LAC";
+  if (!by_patches && zone.text("APPARIEMENT") != "NODAL") return;
+  throw DiagnosticError("unsupported", fmt::format("comma does not support TYPE_APPA='FIXE' with {}", by_patches ? "ALGO_CONT='LAC'" : "APPARIEMENT='NODAL'"), zone.span_of("TYPE_APPA"),
+                        "leave it out, or take APPARIEMENT='MAIT_ESCL' and ALGO_CONT='STANDARD'");
+}
+
 
 solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::ContactZone zone;
@@ -143,7 +151,10 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("NORMALE")) zone.normal_side = normal_side(keywords.text("NORMALE"));
   take_normal(keywords, "MAIT", zone.master_normal, zone.master_vector);
   take_normal(keywords, "ESCL", zone.slave_normal, zone.slave_vector);
-  if (keywords.text("TYPE_APPA") == "FIXE") zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
+  if (keywords.text("TYPE_APPA") == "FIXE") {
+    check_direction_of_search(keywords);
+    zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
+  }
   zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";

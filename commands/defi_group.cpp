@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "commands/commands.hpp"
 #include "commands/angles.hpp"
@@ -211,7 +212,9 @@ void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& me
 void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context& context) {
   const Target target{mesh.node_groups, "nodes", context};
   if (creation.given("TOUT_GROUP_MA")) {
-    solver::add_node_groups_of_all_cell_groups(mesh);
+    const auto kept = solver::add_node_groups_of_all_cell_groups(mesh);
+    if (kept.empty()) return;
+    context.diagnostics.alarm("group-exists", fmt::format("DEFI_GROUP: node groups of the names of cell groups stay as they are, with other nodes than those: {}", fmt::join(kept, ", ")), creation.span);
     return;
   }
   if (creation.given("GROUP_MA") && !creation.given("OPTION")) return node_groups_of_cell_groups(creation, mesh, target);

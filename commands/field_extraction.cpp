@@ -75,7 +75,7 @@ class TableReader {
     for (const auto& row : table_.rows) {
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const auto value = number_in(row[static_cast<std::size_t>(columns[i])]);
-        if (value) slot(row, i) = *value;
+        if (value) store(slot(row, i), *value, row);
       }
     }
   }
@@ -129,6 +129,17 @@ class TableReader {
                             call_.span_of("TABLE"));
     }
     return field.values[static_cast<std::size_t>(field.starts[cell] + point) * field.components.size() + component];
+  }
+
+  // Rows of several instants would overwrite each other.
+  void store(double& slot, double value, const std::vector<Cell>& row) const {
+    if (std::isnan(slot)) {
+      slot = value;
+      return;
+    }
+    const std::string& name = name_in(row[static_cast<std::size_t>(column(nodal() ? "NOEUD" : "MAILLE"))]);
+    throw DiagnosticError("repeated-row", fmt::format("CREA_CHAMP: the table has several rows for one place, at {}", name), call_.span_of("TABLE"),
+                          "leave the rows of one instant by CALC_TABLE, OPERATION='FILTRE'");
   }
 
   int node_of(const std::vector<Cell>& row) const {

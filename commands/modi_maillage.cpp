@@ -6,6 +6,8 @@
 
 #include "commands/commands.hpp"
 #include "commands/occurrences.hpp"
+#include "commands/points.hpp"
+#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/orientation.hpp"
@@ -92,6 +94,8 @@ void change_axes(const Keywords& axes, solver::Mesh& mesh) {
   solver::change_axes(mesh, x, mesh.dimension == 3 ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0});
 }
 
+  // A copy of the mesh has the same cells.
+  if (concept_data.mesh->cell_types != mesh.cell_types || concept_data.mesh->connectivity != mesh.connectivity) require_mesh(deformation, "DEPL", concept_data.mesh.get(), mesh);
 void deform(const Keywords& deformation, solver::Mesh& mesh) {
   const auto& concept_data = deformation.data<FieldConcept>("DEPL");
   const auto* field = std::get_if<solver::NodalField>(&concept_data.field);
