@@ -5,6 +5,7 @@
 #include "commands/angles.hpp"
 #include "commands/discrete_building.hpp"
 #include "commands/plate_building.hpp"
+#include "commands/points.hpp"
 #include "commands/section_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -19,19 +20,14 @@ using interpreter::DiagnosticError;
 
 // Angles in radians; those left out are 0.
 Eigen::Vector3d angles_of(const Keywords& frame, const std::string& keyword) {
-  Eigen::Vector3d angles = Eigen::Vector3d::Zero();
-  const auto values = frame.reals(keyword);
-  std::copy(values.begin(), values.end(), angles.begin());
-  return angles * degree;
+  return Eigen::Vector3d(point_of(frame, keyword).data()) * degree;
 }
 
 // ORIG_AXE: round an axis through a point; alone, in the plane, the axis is Z.
 Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Model& model, int cell) {
   const Eigen::Vector3d along_z(0.0, -90.0 * degree, 0.0);
   const Eigen::Vector3d angles = frame.has("ANGL_AXE") ? angles_of(frame, "ANGL_AXE") : along_z;
-  const auto values = frame.reals("ORIG_AXE");
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  std::copy(values.begin(), values.end(), origin.begin());
+  const Eigen::Vector3d origin(point_of(frame, "ORIG_AXE").data());
   const Eigen::Matrix3d axes = solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(*model.mesh, cell));
   return solver::material_axes_round(axes, solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 3);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/points.hpp"
 #include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -55,9 +56,7 @@ solver::NormalSide normal_side(const std::string& word) {
 }
 
 std::array<double, 3> direction_of(const Keywords& zone, const std::string& keyword) {
-  const auto values = zone.reals(keyword);
-  std::array<double, 3> vector{};
-  std::copy(values.begin(), values.end(), vector.begin());
+  const solver::Point vector = point_of(zone, keyword);
   if (std::ranges::any_of(vector, [](double each) { return each != 0.0; })) return vector;
   throw DiagnosticError("zero-vector", keyword + " is no direction: all its components are 0", zone.span_of(keyword), "give a vector that is not null");
 }
@@ -135,6 +134,7 @@ void take_thickness(const Keywords& keywords, const char* keyword, solver::Field
   const auto& parameters = interpreter::data_of<FunctionConcept>(handle, keyword).parameters();
   if (std::ranges::find(parameters, "INST") != parameters.end()) zone.thickness_changes = true;
 }
+
 // Nodes and patches have no facet to be sought along a line.
 void check_direction_of_search(const Keywords& zone) {
   const bool by_patches = zone.text("ALGO_CONT") == "LAC";
@@ -142,7 +142,6 @@ void check_direction_of_search(const Keywords& zone) {
   throw DiagnosticError("unsupported", fmt::format("comma does not support TYPE_APPA='FIXE' with {}", by_patches ? "ALGO_CONT='LAC'" : "APPARIEMENT='NODAL'"), zone.span_of("TYPE_APPA"),
                         "leave it out, or take APPARIEMENT='MAIT_ESCL' and ALGO_CONT='STANDARD'");
 }
-
 
 solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& mesh) {
   solver::ContactZone zone;
@@ -263,6 +262,7 @@ void take_algorithm(const Call& call, solver::ContactDefinition& definition) {
     throw DiagnosticError("missing-keyword", "DEFI_CONTACT: ALGO_CONT='GCP' needs RESI_ABSO, the largest interpenetration left", call.span,
                           "give RESI_ABSO, 1e-6 of the size of a cell for instance");
   definition.gradient_tolerance = call.real("RESI_ABSO");
+  definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   definition.gradient_iterations = static_cast<int>(call.integer("ITER_GCP_MAXI"));
   definition.gradient_scaled = call.text("PRE_COND") == "DIRICHLET";
 }
@@ -274,7 +274,6 @@ void check_one_algorithm(const Call& call) {
     if (zone.text("ALGO_CONT") == zones.front().text("ALGO_CONT")) continue;
     throw DiagnosticError("mixed-algorithms", "DEFI_CONTACT: all zones of the discrete formulation take one ALGO_CONT", zone.span_of("ALGO_CONT"),
                           "write " + zones.front().text("ALGO_CONT") + " here too");
-  definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   }
 }
 

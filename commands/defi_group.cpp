@@ -10,6 +10,7 @@
 #include "commands/field_types.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/occurrences.hpp"
+#include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/axes.hpp"
@@ -68,22 +69,16 @@ std::optional<std::vector<int>> combination(const Keywords& creation, const solv
   return std::nullopt;
 }
 
-solver::Point point_of(const std::vector<double>& values) {
-  solver::Point point{};
-  std::copy(values.begin(), values.end(), point.begin());
-  return point;
-}
-
 // The centre of a shape: POINT, or a node.
 solver::Point centre(const Keywords& creation, const solver::Mesh& mesh) {
-  if (creation.given("POINT")) return point_of(creation.reals("POINT"));
+  if (creation.given("POINT")) return point_of(creation, "POINT");
   return mesh.nodes[static_cast<std::size_t>(single_node(creation, "NOEUD_CENTRE", "GROUP_NO_CENTRE", mesh))];
 }
 
 // VECT_NORMALE, or the first axis of ANGL_NAUT.
 solver::Point direction(const Keywords& creation) {
-  if (creation.given("VECT_NORMALE")) return point_of(creation.reals("VECT_NORMALE"));
-  const solver::Point angles = point_of(creation.reals("ANGL_NAUT"));
+  if (creation.given("VECT_NORMALE")) return point_of(creation, "VECT_NORMALE");
+  const solver::Point angles = point_of(creation, "ANGL_NAUT");
   const Eigen::Vector3d axis = solver::nautical_axes(angles[0] * degree, angles[1] * degree, 0.0).row(0);
   return {axis[0], axis[1], axis[2]};
 }
@@ -150,7 +145,7 @@ std::vector<int> nodes_in_order(const Keywords& creation, const solver::Mesh& me
   const auto end = end_of_line(creation, "EXTR", mesh);
   if (creation.text("OPTION") == "NOEUD_ORDO") {
     std::optional<solver::Point> step;
-    if (creation.given("VECT_ORIE")) step = point_of(creation.reals("VECT_ORIE"));
+    if (creation.given("VECT_ORIE")) step = point_of(creation, "VECT_ORIE");
     return solver::nodes_along_line(mesh, selected_cells(creation, mesh), start, end, step);
   }
   if (!start || !end) {

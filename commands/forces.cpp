@@ -11,6 +11,7 @@
 #include "commands/concepts.hpp"
 #include "commands/functions.hpp"
 #include "commands/load_building.hpp"
+#include "commands/points.hpp"
 #include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -372,24 +373,17 @@ std::vector<int> cells_or_all(const Keywords& keywords, const solver::Mesh& mesh
   return all;
 }
 
-std::array<double, 3> three_reals(const Keywords& keywords, const std::string& name) {
-  std::array<double, 3> vector{};
-  const auto values = keywords.reals(name);
-  std::copy(values.begin(), values.end(), vector.begin());
-  return vector;
-}
-
 void add_inertia_loads(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   for (const Keywords& weight : call.factors("PESANTEUR")) {
-    auto acceleration = three_reals(weight, "DIRECTION");
+    auto acceleration = point_of(weight, "DIRECTION");
     const double length = std::hypot(acceleration[0], acceleration[1], acceleration[2]);
     if (length == 0.0) throw DiagnosticError("zero-vector", "PESANTEUR/DIRECTION has no length", weight.span_of("DIRECTION"));
     for (double& component : acceleration) component *= weight.real("GRAVITE") / length;
     load.gravities.push_back({cells_or_all(weight, target.mesh), acceleration});
   }
   for (const Keywords& rotation : call.factors("ROTATION")) {
-    load.rotations.push_back({cells_or_all(rotation, target.mesh), rotation.real("VITESSE"), three_reals(rotation, "AXE"),
-                              three_reals(rotation, "CENTRE")});
+    load.rotations.push_back({cells_or_all(rotation, target.mesh), rotation.real("VITESSE"), point_of(rotation, "AXE"),
+                              point_of(rotation, "CENTRE")});
   }
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <span>
 
 #include "commands/angles.hpp"
@@ -188,7 +187,7 @@ void add_displacements_of_field(const Keywords& keywords, const LoadedModel& tar
 void add_beam_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const auto candidates = reference_cells(keywords, target.mesh);
   const auto nodes = selected_nodes(keywords, target.mesh);
-  const double roll = keywords.has("ANGL_VRIL") ? keywords.real("ANGL_VRIL") * std::numbers::pi / 180.0 : 0.0;
+  const double roll = keywords.has("ANGL_VRIL") ? keywords.real("ANGL_VRIL") * degree : 0.0;
   const auto axes = [&](int node) {
     const int cell = solver::beam_at_node(target.model, node, candidates);
     if (!keywords.given("VECT_Y")) return solver::own_axes(target.mesh, cell, roll);

@@ -1,10 +1,10 @@
+#include "commands/angles.hpp"
 #include "commands/load_building.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "commands/concepts.hpp"
 #include "commands/functions.hpp"
@@ -88,7 +88,7 @@ std::vector<solver::LinearRelation::Term> terms_of_field(const Keywords& keyword
 
 Eigen::Matrix3d axes_of_angles(const std::vector<double>& degrees) {
   std::array<double, 3> radians{};
-  for (std::size_t i = 0; i < degrees.size(); ++i) radians[i] = degrees[i] * std::numbers::pi / 180.0;
+  for (std::size_t i = 0; i < degrees.size(); ++i) radians[i] = degrees[i] * degree;
   return solver::nautical_axes(radians[0], radians[1], radians[2]);
 }
 

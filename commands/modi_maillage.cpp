@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "commands/angles.hpp"
 #include "commands/commands.hpp"
 #include "commands/occurrences.hpp"
 #include "commands/points.hpp"
@@ -42,13 +42,6 @@ void orient_skin(const Keywords& skin, solver::Mesh& mesh, const char* skin_name
   context.console.detail(fmt::format("  {} of {} skin cells turned outwards", turned, cells.size()));
 }
 
-Point point_of(const Keywords& keywords, const std::string& keyword) {
-  Point point{};
-  const auto values = keywords.reals(keyword);
-  std::copy(values.begin(), values.end(), point.begin());
-  return point;
-}
-
 using Orient = int (*)(solver::Mesh&, std::span<const int>, const std::optional<solver::OrientationSeed>&);
 
 // ORIE_NORM_COQUE and ORIE_LIGNE: cells run alike, and as a direction at a node says.
@@ -72,7 +65,7 @@ void rotate(const Keywords& rotation, solver::Mesh& mesh) {
   if (!tells && mesh.dimension == 3) {
     throw DiagnosticError("missing-keyword", "MODI_MAILLAGE/ROTATION: in space a rotation needs its axis", rotation.span, "give DIR or POIN_2");
   }
-  solver::rotate(mesh, point, axis, rotation.real("ANGLE") * std::numbers::pi / 180.0);
+  solver::rotate(mesh, point, axis, rotation.real("ANGLE") * degree);
 }
 
 // The mirror is a plane in space, a line in the plane.
@@ -94,8 +87,6 @@ void change_axes(const Keywords& axes, solver::Mesh& mesh) {
   solver::change_axes(mesh, x, mesh.dimension == 3 ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0});
 }
 
-  // A copy of the mesh has the same cells.
-  if (concept_data.mesh->cell_types != mesh.cell_types || concept_data.mesh->connectivity != mesh.connectivity) require_mesh(deformation, "DEPL", concept_data.mesh.get(), mesh);
 void deform(const Keywords& deformation, solver::Mesh& mesh) {
   const auto& concept_data = deformation.data<FieldConcept>("DEPL");
   const auto* field = std::get_if<solver::NodalField>(&concept_data.field);
@@ -103,6 +94,8 @@ void deform(const Keywords& deformation, solver::Mesh& mesh) {
     throw DiagnosticError("wrong-type", "MODI_MAILLAGE/DEFORME: nodes move by a field on nodes", deformation.span_of("DEPL"),
                           "CREA_CHAMP with TYPE_CHAM=\"NOEU_DEPL_R\" makes one");
   }
+  // A copy of the mesh has the same cells.
+  if (concept_data.mesh->cell_types != mesh.cell_types || concept_data.mesh->connectivity != mesh.connectivity) require_mesh(deformation, "DEPL", concept_data.mesh.get(), mesh);
   solver::displace(mesh, *field);
 }
 

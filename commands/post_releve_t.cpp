@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "commands/angles.hpp"
 #include "commands/commands.hpp"
 #include "commands/field_reading.hpp"
+#include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -42,14 +43,11 @@ std::vector<double> abscissas(const Reading& reading) {
 }
 
 Eigen::Vector3d vector_of(const Keywords& action, const char* keyword) {
-  const auto values = action.reals(keyword);
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < values.size(); ++i) vector[static_cast<Eigen::Index>(i)] = values[i];
-  return vector;
+  return Eigen::Vector3d(point_of(action, keyword).data());
 }
 
 Eigen::Matrix3d axes_by_angles(const Keywords& action) {
-  const Eigen::Vector3d angles = vector_of(action, "ANGL_NAUT") * (std::numbers::pi / 180.0);
+  const Eigen::Vector3d angles = vector_of(action, "ANGL_NAUT") * degree;
   return solver::nautical_axes(angles[0], angles[1], angles[2]);
 }
 
