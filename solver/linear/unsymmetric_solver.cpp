@@ -77,8 +77,17 @@ GeneralMatrix shifted(const GeneralMatrix& matrix) {
   return matrix + zero_pivot_shift * diagonal;
 }
 
-/// Columns that are combinations of the others: a rank-revealing QR factorisation puts them last.
+std::vector<int> empty_columns(const GeneralMatrix& matrix) {
+  std::vector<int> columns;
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    if (matrix.col(column).cwiseAbs().sum() == 0.0) columns.push_back(column);
+  }
+  return columns;
+}
+
+/// Columns that are combinations of the others. Empty ones are seen; else a rank-revealing QR factorisation puts them last.
 std::vector<int> dependent_columns(const GeneralMatrix& matrix) {
+  if (auto empty = empty_columns(matrix); !empty.empty()) return empty;
   const Eigen::SparseQR<GeneralMatrix, Eigen::COLAMDOrdering<int>> factors(matrix);
   const auto& order = factors.colsPermutation().indices();
   std::vector<int> columns(order.data() + factors.rank(), order.data() + order.size());

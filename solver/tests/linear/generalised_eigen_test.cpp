@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 
 namespace {
@@ -39,7 +41,7 @@ TEST_CASE("the smallest eigenvalues of a chain are those of the formula", "[line
       CHECK(pairs.values[static_cast<std::size_t>(k)] == Approx(exact(k + 1, n)).epsilon(1e-8));
       const Eigen::VectorXd x = pairs.vectors.col(k);
       CHECK((a.selfadjointView<Eigen::Lower>() * x - pairs.values[static_cast<std::size_t>(k)] * x).norm() <= 1e-8);
-      CHECK(x.maxCoeff() == Approx(1.0));
+      CHECK(x.maxCoeff() == exactly(1.0));
     }
   }
 }
@@ -60,8 +62,8 @@ TEST_CASE("eigenvalues of either sign come with a matrix of both signs", "[linea
     const EigenPairs pairs = smallest_eigenvalues({a, nullptr, b}, 4);
     REQUIRE(pairs.values.size() == 4);
     // The chain is its own mirror image, and b changes sign with it.
-    CHECK(pairs.values[0] == Approx(-pairs.values[3]));
-    CHECK(pairs.values[1] == Approx(-pairs.values[2]));
+    CHECK(pairs.values[0] == exactly(-pairs.values[3]));
+    CHECK(pairs.values[1] == exactly(-pairs.values[2]));
     CHECK(pairs.values[2] > 0.0);
   }
 }
@@ -74,5 +76,5 @@ TEST_CASE("complex eigenvalues of an unsymmetric matrix are left out", "[linear]
   const SymmetricMatrix b = signs(3, 0);
   const EigenPairs pairs = smallest_eigenvalues({a, &skew, b}, 3);
   REQUIRE(pairs.values.size() == 1);
-  CHECK(pairs.values[0] == Approx(5.0));
+  CHECK(pairs.values[0] == exactly(5.0));
 }

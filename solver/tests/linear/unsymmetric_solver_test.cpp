@@ -119,6 +119,17 @@ TEST_CASE("an unknown that moves nothing but is moved is singular, not a lack of
   CHECK(report.null_rows == std::vector<int>{1});
 }
 
+TEST_CASE("unknowns that move others alike are singular where no pivot is left either") {
+  Eigen::Matrix4d dense = Eigen::Matrix4d::Zero();
+  dense.topLeftCorner<2, 4>() << 1, 2, 2, 1, 4, 8, 8, 3;
+  dense(3, 3) = 1;
+  const Parts parts = split(dense);
+  UnsymmetricSolver solver({});
+  const FactorReport report = solver.factorise(parts.symmetric, parts.skew);
+  CHECK(report.verdict == FactorVerdict::singular);
+  CHECK_FALSE(report.null_rows.empty());
+}
+
 TEST_CASE("what an unsymmetric matrix does not resist, its Gram matrix does not either") {
   Eigen::Matrix3d dense;
   dense << 4, 1, 4, -1, 3, -1, 2, 5, 2;
