@@ -4,6 +4,7 @@
 
 #include "solver/error.hpp"
 #include "solver/tests/elements/sample_meshes.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -45,9 +46,9 @@ TEST_CASE(
         value += embeddings[0].weights[a] * linear(mesh->nodes[a]);
         square += embeddings[0].weights[a] * quadratic(mesh->nodes[a]);
       }
-      CHECK(value == Approx(linear(mesh->nodes[node])));
+      CHECK(value == exactly(linear(mesh->nodes[node])));
       const bool complete = bend == 0.0 && node_count(type) > corner_count(type) && type != CellType::pyram13;
-      if (complete) CHECK(square == Approx(quadratic(mesh->nodes[node])));
+      if (complete) CHECK(square == exactly(quadratic(mesh->nodes[node])));
     }
   }
 }
@@ -68,9 +69,9 @@ TEST_CASE("a node beside the cells is tied to the nearest point of the nearest o
   const auto embeddings = embed(mesh, std::vector{16, 17}, std::vector{0, 1});
   REQUIRE(embeddings.size() == 2);
   CHECK(embeddings[0].cell == 0);
-  CHECK(embeddings[0].distance == Approx(0.5));
+  CHECK(embeddings[0].distance == exactly(0.5));
   CHECK(embeddings[1].cell == 1);
-  CHECK(embeddings[1].distance == Approx(std::sqrt(1.0 + 16.0)));
+  CHECK(embeddings[1].distance == exactly(std::sqrt(1.0 + 16.0)));
   CHECK_THROWS_WITH(embed(mesh, std::vector{16}, std::vector{0, 1}, 0.4), Catch::Contains("N17"));
   mesh.dimension = 3;
   Model model{std::make_shared<Mesh>(mesh), {Formulation::solid, Formulation::solid}};

@@ -4,6 +4,7 @@
 
 #include "scene.hpp"
 #include "solver/constraints/elimination.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::test;
@@ -123,17 +124,17 @@ TEST_CASE("a rigid body on springs: eliminated, it answers a force as statics sa
   force[8] = 4.0;
   const Eigen::VectorXd u = t * (t.transpose() * stiffness.asDiagonal() * t).ldlt().solve(t.transpose() * force);
   const double turn = -4.0 * 3.0 / 8.0;
-  CHECK(u[8] == Approx(1.0 - 3.0 * turn));
+  CHECK(u[8] == exactly(1.0 - 3.0 * turn));
   CHECK(u[9] == Approx(0.0).margin(1e-12));
-  CHECK(u[0] == Approx(1.0 - turn));
-  CHECK(u[1] == Approx(turn));
+  CHECK(u[0] == exactly(1.0 - turn));
+  CHECK(u[1] == exactly(turn));
 }
 
 TEST_CASE("coincidence is a thousandth of the shortest edge") {
   Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {3, 0, 0}, {3, 0.5, 0}, {0, 7, 0}};
   mesh.add_cell(CellType::quad4, std::vector{0, 1, 2, 3});
-  CHECK(default_coincidence(mesh) == Approx(0.0005));
+  CHECK(default_coincidence(mesh) == exactly(0.0005));
   CHECK(default_coincidence(Mesh{}) == 0.0);
 }
 

@@ -5,6 +5,7 @@
 #include "scene.hpp"
 #include "solver/constraints/elimination.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::test;
@@ -58,7 +59,7 @@ TEST_CASE("a section that moves rigidly takes the beam's node along") {
   REQUIRE(link.relations.size() == 6);
   CHECK((link.centroid - section.centre).norm() < 1e-14);
   CHECK(link.offset < 1e-14);
-  CHECK(link.size == Approx(std::sqrt((4.0 + 9.0) / 12.0)));
+  CHECK(link.size == exactly(std::sqrt((4.0 + 9.0) / 12.0)));
   const Eigen::Vector3d translation(0.3, -0.2, 0.9), rotation(0.5, 0.7, -0.4);
   const auto u = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return translation + rotation.cross(x); };
   for (const auto& relation : link.relations)
@@ -90,7 +91,7 @@ TEST_CASE("an edge in the plane joins a beam's node by three relations") {
   mesh.add_cell(CellType::seg3, std::vector{1, 3, 4});
   const SectionLink link = section_link(mesh, std::vector{0, 1}, 5, origin);
   REQUIRE(link.relations.size() == 3);
-  CHECK(link.offset == Approx(0.1));
+  CHECK(link.offset == exactly(0.1));
   const Eigen::Vector3d rotation(0, 0, 0.4);
   const auto turned = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return rotation.cross(x - link.centroid); };
   CHECK(std::abs(residual(mesh, link.relations[2], turned, rotation)) < 1e-14);

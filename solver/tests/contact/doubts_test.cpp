@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 
 namespace {
@@ -61,7 +63,7 @@ TEST_CASE("Surfaces that have moved on since they were paired are told of by wha
   REQUIRE(risen.size() == 1);
   CHECK(risen.front().kind == DoubtKind::stale_geometry);
   CHECK(risen.front().node == 3);
-  CHECK(risen.front().length == Approx(0.05 / std::sqrt(1.01)));  // half way up the slope
+  CHECK(risen.front().length == exactly(0.05 / std::sqrt(1.01)));  // half way up the slope
   CHECK(risen.front().share == 1.0);
   CHECK(told(1.0, 6.0).empty());  // less than a hundredth of what contact pushes back
 }
@@ -105,8 +107,8 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
   REQUIRE(half.size() == 1);
   CHECK(half.front().kind == DoubtKind::passed_master);
   CHECK(half.front().length == Approx(0.1).margin(0.01));  // 8 or 9 of 17 nodes
-  CHECK(half.front().share == Approx(half.front().length));
-  CHECK(told(0.2, 1.6).front().share == Approx(half.front().share / 1.6));
+  CHECK(half.front().share == exactly(half.front().length));
+  CHECK(told(0.2, 1.6).front().share == exactly(half.front().share / 1.6));
   CHECK(told(0.05, 1.0).empty());
   CHECK(told(-0.2, 1.0).empty());
   // Nothing pushed back, and nodes that lay in front are behind.

@@ -5,6 +5,7 @@
 #include "solver/elements/section_shapes.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -54,12 +55,12 @@ TEST_CASE("Along a beam that tapers the radius is linear, and nodes have the mea
   std::array<double, max_facet_nodes> quarter{};
   quarter[0] = 0.75;
   quarter[1] = 0.25;
-  CHECK(half_thickness(zone, *frame.mesh, 1, quarter) == Approx(0.25));
+  CHECK(half_thickness(zone, *frame.mesh, 1, quarter) == exactly(0.25));
   CHECK(half_thickness(zone, *frame.mesh, 2, quarter) == 0.0);
   const auto nodal = nodal_half_thickness(zone, *frame.mesh);
-  CHECK(nodal.at(0) == Approx(0.1));
-  CHECK(nodal.at(1) == Approx(0.15));
-  CHECK(nodal.at(2) == Approx(0.4));
+  CHECK(nodal.at(0) == exactly(0.1));
+  CHECK(nodal.at(1) == exactly(0.15));
+  CHECK(nodal.at(2) == exactly(0.4));
   CHECK_FALSE(nodal.contains(3));
 }
 

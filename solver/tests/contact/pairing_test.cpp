@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 using Eigen::Vector3d;
 
@@ -38,7 +40,7 @@ TEST_CASE("Slave nodes take the facet under them") {
   const auto pairs = Table({{0.5, 1, 0}, {3, 0.2, 0}}).pair();
   REQUIRE(pairs.size() == 2);
   CHECK(pairs[0].facet == 0);
-  CHECK(pairs[0].weights[1] == Approx(0.75));  // nodes 1, 0: three quarters of the way to node 0
+  CHECK(pairs[0].weights[1] == exactly(0.75));  // nodes 1, 0: three quarters of the way to node 0
   CHECK(pairs[1].facet == 1);
   CHECK((pairs[1].normal - Vector3d(0, 1, 0)).norm() == 0.0);
   CHECK((pairs[1].foot - Vector3d(3, 0, 0)).norm() < 1e-14);
@@ -128,6 +130,6 @@ TEST_CASE("What elements add to both sides is taken off the gap") {
   table.zone().half_thickness[0] = {0.1, 0.3};  // the facet from x = 2 to x = 0
   table.zone().half_thickness[table.zone().slave_cells[0]] = {0.05, 0.07};
   const auto pairs = table.pair();
-  CHECK(pairs[0].thickness == Approx(0.2 + 0.05));
-  CHECK(pairs[1].thickness == Approx(0.07));
+  CHECK(pairs[0].thickness == exactly(0.2 + 0.05));
+  CHECK(pairs[1].thickness == exactly(0.07));
 }

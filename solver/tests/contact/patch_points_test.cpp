@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using Eigen::Vector3d;
@@ -149,8 +150,8 @@ TEST_CASE("In space what faces each other follows the bodies") {
   std::vector<ContactPoint> points;
   append_patch_points(definition, 0, model, moved, places, 0.0, points);
   REQUIRE(points.size() == 1);
-  CHECK(points[0].area == Approx(2.0));
-  CHECK(points[0].weight == Approx(1.5));
+  CHECK(points[0].area == exactly(2.0));
+  CHECK(points[0].weight == exactly(1.5));
 }
 
 TEST_CASE("Surfaces that turn against each other slide, by a share of the smaller facet") {

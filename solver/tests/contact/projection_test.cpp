@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -14,16 +16,16 @@ TEST_CASE("On a segment: foot, weights, distance, and how far outside") {
   const std::vector<Vector3d> segment = {{0, 0, 0}, {4, 0, 0}};
   const auto inside = project({1, 3, 0}, CellType::seg2, segment);
   REQUIRE(inside);
-  CHECK(inside->xi[0] == Approx(-0.5));
-  CHECK(inside->weights[0] == Approx(0.75));
-  CHECK(inside->distance == Approx(3.0));
+  CHECK(inside->xi[0] == exactly(-0.5));
+  CHECK(inside->weights[0] == exactly(0.75));
+  CHECK(inside->distance == exactly(3.0));
   CHECK(inside->outside == 0.0);
   const auto beyond = project({5, 3, 0}, CellType::seg2, segment);
   REQUIRE(beyond);
-  CHECK(beyond->outside == Approx(0.5));
+  CHECK(beyond->outside == exactly(0.5));
   CHECK(beyond->weights[1] == 1.0);
   CHECK((beyond->foot - Vector3d(4, 0, 0)).norm() == 0.0);
-  CHECK(beyond->distance == Approx(std::sqrt(10.0)));
+  CHECK(beyond->distance == exactly(std::sqrt(10.0)));
 }
 
 TEST_CASE("On a parabola the offset is orthogonal to the tangent") {
@@ -66,7 +68,7 @@ TEST_CASE("Along a direction a point meets a facet where the line through it doe
   const auto slanted = project_along({1, 1, 0}, {0, -2, 0}, CellType::seg2, segment);
   REQUIRE(slanted);
   CHECK((slanted->foot - Vector3d(2, 0, 0)).norm() < 1e-13);
-  CHECK(slanted->distance == Approx(2 * std::sqrt(2.0)));
+  CHECK(slanted->distance == exactly(2 * std::sqrt(2.0)));
   CHECK(slanted->outside == 0.0);
   // A line that passes the facet by ends at its border; one along it meets it nowhere.
   CHECK((project_along({1, 1, 0}, {3, -2, 0}, CellType::seg2, segment)->foot - Vector3d(4, 0, 0)).norm() == 0.0);

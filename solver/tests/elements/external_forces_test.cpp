@@ -6,6 +6,7 @@
 
 #include "load_scene.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -86,10 +87,10 @@ TEST_CASE("pressure and shear on one edge: resultant, direction and sharing betw
   load->pressures.push_back({1, 5.0, 3.0, {}, {}});
   const std::vector<AppliedLoad> loads = {{load, [](double t) { return 10.0 * t; }}};
   const Eigen::VectorXd forces = body.assembler->external_forces(loads, 0.1);
-  CHECK(forces[0] == Approx(3.0));
-  CHECK(forces[1] == Approx(5.0));  // against the outward normal: upwards
-  CHECK(forces[2] == Approx(3.0));
-  CHECK(forces[3] == Approx(5.0));
+  CHECK(forces[0] == exactly(3.0));
+  CHECK(forces[1] == exactly(5.0));  // against the outward normal: upwards
+  CHECK(forces[2] == exactly(3.0));
+  CHECK(forces[3] == exactly(5.0));
   CHECK(forces.tail(4).norm() == 0.0);
 }
 
@@ -103,9 +104,9 @@ TEST_CASE("a quadratic edge shares a uniform pressure as 1/6, 1/6, 4/6", "[loads
   auto load = std::make_shared<Load>();
   load->pressures.push_back({1, 6.0, 0.0, {}, {}});
   const Eigen::VectorXd forces = body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0);
-  CHECK(forces[1] == Approx(2.0));
-  CHECK(forces[3] == Approx(2.0));
-  CHECK(forces[9] == Approx(8.0));
+  CHECK(forces[1] == exactly(2.0));
+  CHECK(forces[3] == exactly(2.0));
+  CHECK(forces[9] == exactly(8.0));
 }
 
 TEST_CASE("axisymmetric pressure counts per radian", "[loads]") {
@@ -118,7 +119,7 @@ TEST_CASE("axisymmetric pressure counts per radian", "[loads]") {
   auto load = std::make_shared<Load>();
   load->pressures.push_back({1, 2.0, 0.0, {}, {}});
   const Eigen::VectorXd forces = body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0);
-  CHECK(resultant(body, forces)[1] == Approx(2.0 * (3.0 * 3.0 - 1.0) / 2));  // p times the integral of r dr
+  CHECK(resultant(body, forces)[1] == exactly(2.0 * (3.0 * 3.0 - 1.0) / 2));  // p times the integral of r dr
 }
 
 TEST_CASE("nodal forces follow functions of place and time, and unknown components are named", "[loads]") {
@@ -127,7 +128,7 @@ TEST_CASE("nodal forces follow functions of place and time, and unknown componen
   load->nodal_forces.push_back({2, Component::dy, 0.0, [](const Point& x, double t) { return x[1] + t; }});
   load->nodal_forces.push_back({2, Component::dy, 1.0, {}});
   const Eigen::VectorXd forces = body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 4.0);
-  CHECK(forces[5] == Approx(body.model.mesh->nodes[2][1] + 5.0));
+  CHECK(forces[5] == exactly(body.model.mesh->nodes[2][1] + 5.0));
   load->nodal_forces.push_back({2, Component::dz, 1.0, {}});
   CHECK_THROWS_WITH(body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0),
                     Catch::Contains("DZ") && Catch::Contains("N3"));
@@ -176,7 +177,7 @@ TEST_CASE(
       const Eigen::VectorXd forces = body.assembler->external_forces(applied(load), 0.0);
       const Content reference = content(mesh, cell);
       for (int c = 0; c < mesh.dimension; ++c) {
-        CHECK(work(body, forces, Eigen::Vector3d::Unit(c)) == Approx(reference.measure * force[c]));
+        CHECK(work(body, forces, Eigen::Vector3d::Unit(c)) == exactly(reference.measure * force[c]));
       }
       for (int c = mesh.dimension == 3 ? 0 : 2; c < 3; ++c) {
         CHECK(work(body, forces, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(c)) ==
@@ -198,8 +199,8 @@ TEST_CASE("a force that is linear in place has the first moment of the cell as r
       const Eigen::VectorXd forces =
           body.assembler->external_forces(applied(load, [](double t) { return 1.0 + t; }), 2.0);
       const Content reference = content(*body.model.mesh, cell);
-      CHECK(work(body, forces, Eigen::Vector3d::UnitX()) == Approx(3.0 * reference.measure));
-      CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == Approx(6.0 * reference.moment[0]));
+      CHECK(work(body, forces, Eigen::Vector3d::UnitX()) == exactly(3.0 * reference.measure));
+      CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == exactly(6.0 * reference.moment[0]));
     }
   }
 }
@@ -238,9 +239,9 @@ TEST_CASE("distributed forces in an axisymmetric body count per radian", "[loads
   const Body body(mesh, Formulation::axisymmetric, elastic(1.0, 0.3));
   Load load;
   load.distributed_forces.push_back({0, {0.0, 2.0, 0.0}, {}});
-  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == Approx(2.0 * (9.0 - 1.0) / 2));
+  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == exactly(2.0 * (9.0 - 1.0) / 2));
   load.distributed_forces[0].cell = 1;
-  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == Approx(2.0 * 3.0));
+  CHECK(resultant(body, body.assembler->external_forces(applied(load), 0.0))[1] == exactly(2.0 * 3.0));
 }
 
 TEST_CASE("a distributed force is refused where nothing can take it", "[loads]") {

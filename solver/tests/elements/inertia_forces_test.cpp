@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "load_scene.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -39,13 +40,13 @@ TEST_CASE("weight has the resultant and the moment of the mass, on every body ce
     const Eigen::VectorXd forces =
         body.assembler->external_forces(applied(gravity(all_cells(*body.model.mesh), g)), 0.0);
     const Content mass = content(*body.model.mesh, 0);
-    CHECK(work(body, forces, Eigen::Vector3d::UnitX()) == Approx(7.0 * mass.measure * g[0]));
-    CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == Approx(7.0 * mass.measure * g[1]));
+    CHECK(work(body, forces, Eigen::Vector3d::UnitX()) == exactly(7.0 * mass.measure * g[0]));
+    CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == exactly(7.0 * mass.measure * g[1]));
     CHECK(work(body, forces, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()) ==
-          Approx(7.0 * mass.moment.cross(g)[2]));
+          exactly(7.0 * mass.moment.cross(g)[2]));
     if (dimension(type) == 2) continue;
     CHECK(work(body, forces, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()) ==
-          Approx(7.0 * mass.moment.cross(g)[0]));
+          exactly(7.0 * mass.moment.cross(g)[0]));
   }
 }
 
@@ -95,7 +96,7 @@ TEST_CASE("the centrifugal force is the mass times the distance of its centre fr
     const Content mass = content(*body.model.mesh, 0);
     const Eigen::Vector3d r = mass.moment - mass.measure * c;
     const Eigen::Vector3d expected = 2.0 * 9.0 * (r - a * a.dot(r));
-    for (int i = 0; i < 3; ++i) CHECK(work(body, forces, Eigen::Vector3d::Unit(i)) == Approx(expected[i]));
+    for (int i = 0; i < 3; ++i) CHECK(work(body, forces, Eigen::Vector3d::Unit(i)) == exactly(expected[i]));
     CHECK(work(body, forces, c.cross(a), a) == Approx(0.0).margin(1e-10));  // no moment about the axis
   }
 }
@@ -108,10 +109,10 @@ TEST_CASE("an axisymmetric ring weighs, and flies apart, per radian", "[loads]")
   const Body body(mesh, Formulation::axisymmetric, dense(1.0, 0.3, 2.0));
   Eigen::VectorXd forces = body.assembler->external_forces(applied(gravity({0}, {0.0, -10.0, 0.0})), 0.0);
   CHECK(work(body, forces, Eigen::Vector3d::UnitY()) ==
-        Approx(-10.0 * 2.0 * 2.0 * (9.0 - 1.0) / 2.0));  // height x r dr
+        exactly(-10.0 * 2.0 * 2.0 * (9.0 - 1.0) / 2.0));  // height x r dr
   forces = body.assembler->external_forces(applied(rotation({0}, 3.0, {0, -5, 0}, {0, 7, 0})), 0.0);
   CHECK(work(body, forces, Eigen::Vector3d::UnitX()) ==
-        Approx(2.0 * 9.0 * 2.0 * (27.0 - 1.0) / 3.0));  // height x r^2 dr
+        exactly(2.0 * 9.0 * 2.0 * (27.0 - 1.0) / 3.0));  // height x r^2 dr
   CHECK(work(body, forces, Eigen::Vector3d::UnitY()) == Approx(0.0).margin(1e-12));
   CHECK_THROWS_WITH(body.assembler->external_forces(applied(gravity({0}, {1.0, 0.0, 0.0})), 0.0),
                     Catch::Contains("axis Y"));
@@ -137,10 +138,10 @@ TEST_CASE("bars and beams weigh, and fly apart, along their length", "[loads]") 
         body.assembler->external_forces(applied(rotation({0}, 2.0, {0, 0, 3}, {0, 1, 0})), 0.0);
     const Eigen::Vector3d middle = 0.5 * (x1 + x2);
     for (int i = 0; i < mesh->dimension; ++i)
-      CHECK(work(body, weight, Eigen::Vector3d::Unit(i)) == Approx(line * length * g[i]));
-    CHECK(work(body, weight, {0, 0, 0}, Eigen::Vector3d::UnitZ()) == Approx(line * length * middle.cross(g)[2]));
-    CHECK(work(body, spin, Eigen::Vector3d::UnitX()) == Approx(4.0 * line * length * middle[0]));
-    CHECK(work(body, spin, Eigen::Vector3d::UnitY()) == Approx(4.0 * line * length * (middle[1] - 1.0)));
+      CHECK(work(body, weight, Eigen::Vector3d::Unit(i)) == exactly(line * length * g[i]));
+    CHECK(work(body, weight, {0, 0, 0}, Eigen::Vector3d::UnitZ()) == exactly(line * length * middle.cross(g)[2]));
+    CHECK(work(body, spin, Eigen::Vector3d::UnitX()) == exactly(4.0 * line * length * middle[0]));
+    CHECK(work(body, spin, Eigen::Vector3d::UnitY()) == exactly(4.0 * line * length * (middle[1] - 1.0)));
   }
 }
 
@@ -163,8 +164,8 @@ TEST_CASE("discrete masses weigh: points, segments, and one beside its node", "[
                     Catch::Contains("offset"));
   const Body body(mesh, std::vector{formulation, formulation}, nullptr, properties);
   const Eigen::VectorXd forces = body.assembler->external_forces(applied(gravity({0, 1}, {0.0, 0.0, -10.0})), 0.0);
-  CHECK(forces[body.dofs->dof(0, Component::dz)] == Approx(-50.0));
-  CHECK(forces[body.dofs->dof(1, Component::dz)] == Approx(-20.0));
-  CHECK(forces[body.dofs->dof(0, Component::drx)] == Approx(-15.0));  // weight 30 at y = 0.5
+  CHECK(forces[body.dofs->dof(0, Component::dz)] == exactly(-50.0));
+  CHECK(forces[body.dofs->dof(1, Component::dz)] == exactly(-20.0));
+  CHECK(forces[body.dofs->dof(0, Component::drx)] == exactly(-15.0));  // weight 30 at y = 0.5
   CHECK(forces[body.dofs->dof(1, Component::drx)] == 0.0);
 }

@@ -4,6 +4,7 @@
 
 #include "sample_meshes.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::single_cell;
@@ -102,8 +103,8 @@ TEST_CASE("a linear displacement, its change of volume and the pressure of that 
   const double shear = young / (2.0 * (1.0 + poisson));
   const int sip = stresses.component("SIP");
   for (int point = 0; point < stresses.points(0); ++point) {
-    CHECK(stresses.at(0, point, 0) == Approx(bulk * trace + 2.0 * shear * (h(0, 0) - trace / 3.0)));
-    CHECK(stresses.at(0, point, stresses.component("SIXY")) == Approx(shear * (h(0, 1) + h(1, 0))));
+    CHECK(stresses.at(0, point, 0) == exactly(bulk * trace + 2.0 * shear * (h(0, 0) - trace / 3.0)));
+    CHECK(stresses.at(0, point, stresses.component("SIXY")) == exactly(shear * (h(0, 1) + h(1, 0))));
     CHECK(std::abs(stresses.at(0, point, sip)) < 1e-12 * young);
   }
 }

@@ -5,6 +5,7 @@
 #include "sample_meshes.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -175,9 +176,10 @@ TEST_CASE("rotation about the normal is free, tied to the membrane, or held agai
     return 0.5 * u.dot(body.dense_stiffness() * u);
   };
   CHECK(std::abs(energy_of_spin(0.0, false)) < 1e-12);
-  CHECK(energy_of_spin(-1e-3, false) == Approx(0.5 * 1e-3 * young * 0.1));  // 1/2 |c| E h A (theta_z - spin)^2
+  CHECK(energy_of_spin(-1e-3, false) == exactly(0.5 * 1e-3 * young * 0.1));  // 1/2 |c| E h A (theta_z - spin)^2
   CHECK(std::abs(energy_of_spin(-1e-3, true)) < 1e-9 * energy_of_spin(-1e-3, false));
-  CHECK(energy_of_spin(2e-5, true) == Approx(2 * energy_of_spin(1e-5, true)));
+  // The body turns with it, and the far larger forces of its membrane cancel.
+  CHECK(energy_of_spin(2e-5, true) == Approx(2 * energy_of_spin(1e-5, true)).epsilon(1e-6));
   CHECK(energy_of_spin(1e-5, true) > 0.0);
 }
 

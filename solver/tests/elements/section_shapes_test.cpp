@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using std::numbers::pi;
@@ -24,9 +25,9 @@ double saint_venant(double a, double b) {
 TEST_CASE("a solid rectangle has b h^3 / 12 and nearly Saint-Venant's torsion constant", "[elements]") {
   for (const double y : {0.1, 0.2, 1.0}) {
     const BeamSection section = rectangular_section({.height_y = y, .height_z = 0.2});
-    CHECK(section.area == Approx(0.2 * y));
-    CHECK(section.inertia_y == Approx(y * 0.008 / 12));
-    CHECK(section.inertia_z == Approx(0.2 * y * y * y / 12));
+    CHECK(section.area == exactly(0.2 * y));
+    CHECK(section.inertia_y == exactly(y * 0.008 / 12));
+    CHECK(section.inertia_z == exactly(0.2 * y * y * y / 12));
     CHECK(section.torsion == Approx(saint_venant(std::max(y, 0.2), std::min(y, 0.2))).epsilon(5e-3));
     CHECK(section.shear_y == 1.2);
     CHECK(section.reach_y == y / 2);
@@ -38,13 +39,13 @@ TEST_CASE("a hollow section is the outer one without the inner", "[elements]") {
   const BeamSection box = rectangular_section({0.3, 0.2, 0.02, 0.01});
   const BeamSection outer = rectangular_section({.height_y = 0.3, .height_z = 0.2});
   const BeamSection inner = rectangular_section({.height_y = 0.26, .height_z = 0.18});
-  CHECK(box.area == Approx(outer.area - inner.area));
-  CHECK(box.inertia_y == Approx(outer.inertia_y - inner.inertia_y));
-  CHECK(box.inertia_z == Approx(outer.inertia_z - inner.inertia_z));
+  CHECK(box.area == exactly(outer.area - inner.area));
+  CHECK(box.inertia_y == exactly(outer.inertia_y - inner.inertia_y));
+  CHECK(box.inertia_z == exactly(outer.inertia_z - inner.inertia_z));
   const BeamSection tube = circular_section(0.1, 0.03);
-  CHECK(tube.area == Approx(pi * (0.01 - 0.0049)));
-  CHECK(tube.inertia_y == Approx(pi / 4 * (1e-4 - 0.0049 * 0.0049)));
-  CHECK(tube.torsion == Approx(2 * tube.inertia_y));
+  CHECK(tube.area == exactly(pi * (0.01 - 0.0049)));
+  CHECK(tube.inertia_y == exactly(pi / 4 * (1e-4 - 0.0049 * 0.0049)));
+  CHECK(tube.torsion == exactly(2 * tube.inertia_y));
   CHECK(circular_section(0.1, 0.1).shear_y == Approx(7.0 / 6.0).epsilon(1e-5));
 }
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "load_scene.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -53,14 +54,14 @@ TEST_CASE("a cantilever under a uniform load bends by q L^4 / 8 E I, and shears 
   const double q = 0.7;
   const double l4 = std::pow(length, 4), l3 = std::pow(length, 3), l2 = length * length;
   const auto euler = Cantilever(Formulation::euler_beam).tip(force(1, q));
-  CHECK(euler[1] == Approx(q * l4 / (8 * young * section.inertia_z)));
-  CHECK(euler[5] == Approx(q * l3 / (6 * young * section.inertia_z)));
+  CHECK(euler[1] == exactly(q * l4 / (8 * young * section.inertia_z)));
+  CHECK(euler[5] == exactly(q * l3 / (6 * young * section.inertia_z)));
   const auto timoshenko = Cantilever(Formulation::timoshenko_beam).tip(force(2, q));
-  CHECK(timoshenko[2] == Approx(q * l4 / (8 * young * section.inertia_y) +
+  CHECK(timoshenko[2] == exactly(q * l4 / (8 * young * section.inertia_y) +
                                 q * l2 * section.shear_z / (2 * shear_modulus * section.area)));
-  CHECK(timoshenko[4] == Approx(-q * l3 / (6 * young * section.inertia_y)));
+  CHECK(timoshenko[4] == exactly(-q * l3 / (6 * young * section.inertia_y)));
   const auto pulled = Cantilever(Formulation::euler_beam).tip(force(0, q));
-  CHECK(pulled[0] == Approx(q * l2 / (2 * young * section.area)));
+  CHECK(pulled[0] == exactly(q * l2 / (2 * young * section.area)));
 }
 
 TEST_CASE("a load that grows along the cantilever gives the exact end displacements", "[loads]") {
@@ -69,24 +70,24 @@ TEST_CASE("a load that grows along the cantilever gives the exact end displaceme
   const double l4 = std::pow(length, 4), l3 = std::pow(length, 3), l2 = length * length;
   const double rigidity = young * section.inertia_z;
   const auto euler = Cantilever(Formulation::euler_beam).tip(growing);
-  CHECK(euler[1] == Approx(11.0 * l4 / (120 * rigidity)));
-  CHECK(euler[5] == Approx(l3 / (8 * rigidity)));
+  CHECK(euler[1] == exactly(11.0 * l4 / (120 * rigidity)));
+  CHECK(euler[5] == exactly(l3 / (8 * rigidity)));
   // Shear adds the integral of V / G A', V(x) = (L^2 - x^2) / 2 L.
   const auto timoshenko = Cantilever(Formulation::timoshenko_beam).tip(growing);
   CHECK(timoshenko[1] ==
-        Approx(11.0 * l4 / (120 * rigidity) + l2 / 3.0 * section.shear_y / (shear_modulus * section.area)));
-  CHECK(timoshenko[5] == Approx(l3 / (8 * rigidity)));
+        exactly(11.0 * l4 / (120 * rigidity) + l2 / 3.0 * section.shear_y / (shear_modulus * section.area)));
+  CHECK(timoshenko[5] == exactly(l3 / (8 * rigidity)));
 }
 
 TEST_CASE("moments per length twist and bend the cantilever", "[loads]") {
   const double m = 0.3;
   for (const Formulation formulation : {Formulation::euler_beam, Formulation::timoshenko_beam}) {
     const Cantilever beam(formulation);
-    CHECK(beam.tip(force(3, m))[3] == Approx(m * length * length / (2 * shear_modulus * section.torsion)));
+    CHECK(beam.tip(force(3, m))[3] == exactly(m * length * length / (2 * shear_modulus * section.torsion)));
     const auto bent = beam.tip(force(5, m));
-    CHECK(bent[5] == Approx(m * length * length / (2 * young * section.inertia_z)));
-    CHECK(bent[1] == Approx(m * std::pow(length, 3) / (3 * young * section.inertia_z)));
-    CHECK(beam.tip(force(4, m))[2] == Approx(-m * std::pow(length, 3) / (3 * young * section.inertia_y)));
+    CHECK(bent[5] == exactly(m * length * length / (2 * young * section.inertia_z)));
+    CHECK(bent[1] == exactly(m * std::pow(length, 3) / (3 * young * section.inertia_z)));
+    CHECK(beam.tip(force(4, m))[2] == exactly(-m * std::pow(length, 3) / (3 * young * section.inertia_y)));
   }
 }
 
@@ -94,8 +95,8 @@ TEST_CASE("loads in own axes turn with the roll of the section", "[loads]") {
   const double roll = 0.6;
   const auto turned = Cantilever(Formulation::euler_beam, roll).tip(force(1, 1.0, BeamAxes::own));
   const double along_y = std::pow(length, 4) / (8 * young * section.inertia_z);
-  CHECK(turned[1] == Approx(along_y * std::cos(roll)));
-  CHECK(turned[2] == Approx(along_y * std::sin(roll)));
+  CHECK(turned[1] == exactly(along_y * std::cos(roll)));
+  CHECK(turned[2] == exactly(along_y * std::sin(roll)));
 }
 
 TEST_CASE("a bar shares its load between its ends, and refuses moments", "[loads]") {
@@ -109,8 +110,8 @@ TEST_CASE("a bar shares its load between its ends, and refuses moments", "[loads
   load.beam_forces.push_back(force(0, 2.0, BeamAxes::own));
   load.beam_forces.back().functions[0] = [](const Point& at, double) { return 1.0 + at[1]; };  // 1, then 4
   const Eigen::VectorXd forces = body.assembler->external_forces(applied(load), 0.0);
-  CHECK(forces[1] == Approx(0.6 * 5.0 * (2 * 1 + 4) / 6));
-  CHECK(forces[5] == Approx(0.8 * 5.0 * (1 + 2 * 4) / 6));
+  CHECK(forces[1] == exactly(0.6 * 5.0 * (2 * 1 + 4) / 6));
+  CHECK(forces[5] == exactly(0.8 * 5.0 * (1 + 2 * 4) / 6));
   load.beam_forces.push_back(force(4, 1.0));
   CHECK_THROWS_WITH(body.assembler->external_forces(applied(load), 0.0),
                     Catch::Contains("M1") && Catch::Contains("bend"));

@@ -5,6 +5,7 @@
 #include "sample_meshes.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -45,7 +46,7 @@ TEST_CASE("a bar resists along its axis alone, with E A / L", "[elements]") {
   const Eigen::VectorXd u = Eigen::Vector4d(0, 0, 0.6, 0.8) * 1e-3;
   const double tension = young * 1e-3 / 5.0 * 1e-3;
   CHECK((body.assembler->internal_forces(u) - tension * Eigen::Vector4d(-0.6, -0.8, 0.6, 0.8)).norm() < 1e-10 * tension);
-  CHECK(body.assembler->stresses(u).at(0, 0, 0) == Approx(tension));
+  CHECK(body.assembler->stresses(u).at(0, 0, 0) == exactly(tension));
   CHECK(body.assembler->internal_forces(Eigen::Vector4d(0, 0, -0.8, 0.6)).norm() < 1e-10 * young * 1e-3 / 5.0);
   CHECK(body.assembler->internal_forces(Eigen::Vector4d(7.1, 3.3, 7.1, 3.3)).norm() == 0.0);
 }
@@ -74,12 +75,12 @@ TEST_CASE("a cantilever bends by P L^3 / 3 E I, and by shear where the beam know
       tip << p, p, p, p, 0, 0;
       const Eigen::VectorXd u = clamped(body, tip).tail(6);
       const double cube = p * length * length * length / (3 * young);
-      CHECK(u[0] == Approx(p * length / (young * section.area)));
-      CHECK(u[1] == Approx(cube / section.inertia_z + section.shear_y * shear));
-      CHECK(u[2] == Approx(cube / section.inertia_y + section.shear_z * shear));
-      CHECK(u[3] == Approx(p * length / (shear_modulus * section.torsion)));
-      CHECK(u[4] == Approx(-p * length * length / (2 * young * section.inertia_y)));
-      CHECK(u[5] == Approx(p * length * length / (2 * young * section.inertia_z)));
+      CHECK(u[0] == exactly(p * length / (young * section.area)));
+      CHECK(u[1] == exactly(cube / section.inertia_z + section.shear_y * shear));
+      CHECK(u[2] == exactly(cube / section.inertia_y + section.shear_z * shear));
+      CHECK(u[3] == exactly(p * length / (shear_modulus * section.torsion)));
+      CHECK(u[4] == exactly(-p * length * length / (2 * young * section.inertia_y)));
+      CHECK(u[5] == exactly(p * length * length / (2 * young * section.inertia_z)));
     }
   }
 }
@@ -92,11 +93,11 @@ TEST_CASE("section forces of a cantilever: constant shear, linear moment, zero a
   const int n = force.component("N");
   const int shear = force.component("VY");
   const int moment = force.component("MFZ");
-  CHECK(force.at(0, 0, n) == Approx(7.0));
-  CHECK(force.at(1, 1, n) == Approx(7.0));
-  CHECK(force.at(0, 0, shear) == Approx(5.0));
-  CHECK(force.at(0, 0, moment) == Approx(10.0));
-  CHECK(force.at(0, 1, moment) == Approx(5.0));
+  CHECK(force.at(0, 0, n) == exactly(7.0));
+  CHECK(force.at(1, 1, n) == exactly(7.0));
+  CHECK(force.at(0, 0, shear) == exactly(5.0));
+  CHECK(force.at(0, 0, moment) == exactly(10.0));
+  CHECK(force.at(0, 1, moment) == exactly(5.0));
   CHECK(force.at(1, 1, moment) == Approx(0.0).margin(1e-6));
 }
 

@@ -9,6 +9,7 @@
 #include "solver/elements/section_shapes.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -61,10 +62,10 @@ TEST_CASE("a cone is one beam: pulled, twisted and bent at its end it moves as t
   Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
   load << 5e3, 7e3, 0, 11e3, 0, 0;
   const Eigen::VectorXd u = tip_displacement(body, load);
-  CHECK(u[0] == Approx(5e3 * length / (young * area * tip)));
+  CHECK(u[0] == exactly(5e3 * length / (young * area * tip)));
   // Integrals of s^-4 and of s^2 times it along the cone (R. J. Roark, Formulas for Stress and Strain, tapered beams).
-  CHECK(u[3] == Approx(11e3 * length / (shear_modulus * 2 * inertia) * (1 + 1 / tip + 1 / (tip * tip)) / (3 * tip)));
-  CHECK(u[1] == Approx(7e3 * length * length * length / (3 * young * inertia * tip)));
+  CHECK(u[3] == exactly(11e3 * length / (shear_modulus * 2 * inertia) * (1 + 1 / tip + 1 / (tip * tip)) / (3 * tip)));
+  CHECK(u[1] == exactly(7e3 * length * length * length / (3 * young * inertia * tip)));
 }
 
 TEST_CASE("a cone is the same beam whether cut into pieces or not", "[elements]") {
@@ -111,13 +112,13 @@ TEST_CASE("the section halfway along a tapered rectangle lies between those of i
   const BeamSection first = rectangular_section({0.05, 0.1, 0.0, 0.0});
   const BeamSection last = rectangular_section({0.05, 0.2, 0.0, 0.0});
   const BeamSection section = varying_section(first, last, one_size_varies);
-  CHECK(section_at(section, 0.0).inertia_y == Approx(first.inertia_y));
-  CHECK(section_at(section, 1.0).inertia_y == Approx(last.inertia_y));
+  CHECK(section_at(section, 0.0).inertia_y == exactly(first.inertia_y));
+  CHECK(section_at(section, 1.0).inertia_y == exactly(last.inertia_y));
   const BeamSection middle = section_at(section, 0.5);
   const BeamSection exact = rectangular_section({0.05, 0.15, 0.0, 0.0});
-  CHECK(middle.area == Approx(exact.area));
-  CHECK(middle.reach_z == Approx(exact.reach_z));
-  CHECK(middle.shear_y == Approx(1.2));
+  CHECK(middle.area == exactly(exact.area));
+  CHECK(middle.reach_z == exactly(exact.reach_z));
+  CHECK(middle.shear_y == exactly(1.2));
   CHECK_THROWS_AS(varying_section({.area = 1.0, .centre_y = 0.1}, {.area = 1.0, .centre_y = 0.2}, all_sizes_vary), Error);
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("a cone weighs a third of base times height, and all of it reaches the
   double weight = 0.0;
   for (int node = 0; node < 3; ++node) weight += forces[body.dofs->dof(node, Component::dz)];
   const double volume = std::numbers::pi * r * r * length * (1 + tip + tip * tip) / 3.0;
-  CHECK(weight == Approx(-78000.0 * volume));
+  CHECK(weight == exactly(-78000.0 * volume));
 }
 
 }  // namespace varying_section_test

@@ -4,6 +4,7 @@
 
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/beam_stresses.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -46,23 +47,23 @@ FieldInput input_of(const Body& body) {
 TEST_CASE("each section force gives the stress of beam theory at the outermost fibre", "[fields]") {
   const Body body = beam(rectangle());
   const ElementField stress = force_stresses(input_of(body), forces({10, 0, 0, 0, 3, 4}));
-  CHECK(stress.at(0, 1, 0) == Approx(10 / 0.02));
-  CHECK(stress.at(0, 1, 4) == Approx(3 / (0.2 * 0.01 / 6)));   // W = b h^2 / 6
-  CHECK(stress.at(0, 1, 5) == Approx(-4 / (0.1 * 0.04 / 6)));  // stretched where y is negative
+  CHECK(stress.at(0, 1, 0) == exactly(10 / 0.02));
+  CHECK(stress.at(0, 1, 4) == exactly(3 / (0.2 * 0.01 / 6)));   // W = b h^2 / 6
+  CHECK(stress.at(0, 1, 5) == exactly(-4 / (0.1 * 0.04 / 6)));  // stretched where y is negative
 }
 
 TEST_CASE("extreme stresses: both moments at a rectangle's corner, their resultant on a circle's rim", "[fields]") {
   const Body body = beam(rectangle());
   const ElementField corner = extreme_stresses(input_of(body), forces({10, 0, 0, 0, 3, -4}));
   const double bending = 3 / (0.2 * 0.01 / 6) + 4 / (0.1 * 0.04 / 6);
-  CHECK(corner.at(0, 0, 0) == Approx(10 / 0.02 - bending));
-  CHECK(corner.at(0, 0, 1) == Approx(10 / 0.02 + bending));
+  CHECK(corner.at(0, 0, 0) == exactly(10 / 0.02 - bending));
+  CHECK(corner.at(0, 0, 1) == exactly(10 / 0.02 + bending));
   BeamSection circle = rectangle();
   circle.shape = SectionShape::circle;
   circle.reach_y = circle.reach_z = 0.1;
   circle.inertia_y = circle.inertia_z = std::acos(-1.0) * 1e-4 / 4;
   const Body rod = beam(circle);
-  CHECK(extreme_stresses(input_of(rod), forces({0, 0, 0, 0, 3, 4})).at(0, 0, 1) == Approx(5 * 0.1 / circle.inertia_y));
+  CHECK(extreme_stresses(input_of(rod), forces({0, 0, 0, 0, 3, 4})).at(0, 0, 1) == exactly(5 * 0.1 / circle.inertia_y));
   BeamSection general = rectangle();
   general.shape = SectionShape::general;
   const Body unknown = beam(general);
@@ -74,9 +75,9 @@ TEST_CASE("generalised strains of a stretched, twisted and bent beam", "[fields]
   const double shear = 2e11 / 2.6;
   const ElementField strain =
       generalised_strains(input_of(body), forces({4e9 * 1e-3, 6, 0, shear * 4.58e-5 * 0.02, 0, 0}));
-  CHECK(strain.at(0, 0, 0) == Approx(1e-3));
-  CHECK(strain.at(0, 0, 1) == Approx(6 * 1.2 / (shear * 0.02)));
-  CHECK(strain.at(0, 0, 3) == Approx(0.02));
+  CHECK(strain.at(0, 0, 0) == exactly(1e-3));
+  CHECK(strain.at(0, 0, 1) == exactly(6 * 1.2 / (shear * 0.02)));
+  CHECK(strain.at(0, 0, 3) == exactly(0.02));
 }
 
 }  // namespace beam_stresses_test

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -36,9 +37,9 @@ std::vector<Eigen::Vector3d> places(const Mesh& mesh) {
 TEST_CASE("the pressure on a boundary is the stress along its normal", "[fields]") {
   const Mesh mesh = two_edges();
   const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0, 1}, places(mesh));
-  CHECK(pressure.at(1, 0) == Approx(-3.0));
-  CHECK(pressure.at(3, 0) == Approx(-5.0));
-  CHECK(pressure.at(2, 0) == Approx(0.5 * (-3 - 5 + 2 * 2)));  // its normal is (1, 1) / sqrt(2)
+  CHECK(pressure.at(1, 0) == exactly(-3.0));
+  CHECK(pressure.at(3, 0) == exactly(-5.0));
+  CHECK(pressure.at(2, 0) == exactly(0.5 * (-3 - 5 + 2 * 2)));  // its normal is (1, 1) / sqrt(2)
   CHECK(std::isnan(pressure.at(0, 0)));
 }
 
@@ -47,7 +48,7 @@ TEST_CASE("normals are those of the positions given", "[fields]") {
   auto moved = places(mesh);
   moved[2] = {2, 1, 0};  // the right edge now leans by 45 degrees
   const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0}, moved);
-  CHECK(pressure.at(1, 0) == Approx(0.5 * (-3 - 5 - 2 * 2)));
+  CHECK(pressure.at(1, 0) == exactly(0.5 * (-3 - 5 - 2 * 2)));
 }
 
 TEST_CASE("a field without stresses has no pressure", "[fields]") {
@@ -61,10 +62,10 @@ TEST_CASE("the traction along a boundary is what the stress has beside the press
   const NodalField pressure = boundary_pressure(mesh, uniform(mesh, {-3, -5, 0, 2}), std::array{0, 1}, places(mesh));
   REQUIRE(pressure.components == std::vector<std::string>{"PRES", "CISA", "VX", "VY"});
   // On the right edge S n = (-3, 2), on the upper one (2, -5).
-  CHECK(pressure.at(1, 1) == Approx(2.0));
+  CHECK(pressure.at(1, 1) == exactly(2.0));
   CHECK(pressure.at(1, 2) == Approx(0.0).margin(1e-15));
-  CHECK(pressure.at(1, 3) == Approx(2.0));
-  CHECK(pressure.at(3, 2) == Approx(2.0));
+  CHECK(pressure.at(1, 3) == exactly(2.0));
+  CHECK(pressure.at(3, 2) == exactly(2.0));
   CHECK(pressure.at(3, 3) == Approx(0.0).margin(1e-15));
 }
 

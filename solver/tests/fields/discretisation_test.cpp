@@ -8,6 +8,7 @@
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -43,16 +44,16 @@ TEST_CASE("a linear field at nodes is the same at Gauss points, those of the ski
     REQUIRE(at_points.points(cell) == static_cast<int>(samples.size()));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Eigen::Vector3d at = points.locate(cell, samples[i]).at;
-      CHECK(at_points.at(cell, static_cast<int>(i), 0) == Approx(linear(at[0], at[1])));
+      CHECK(at_points.at(cell, static_cast<int>(i), 0) == exactly(linear(at[0], at[1])));
     }
   }
   // Points of the edge lie evenly about its middle.
   double sum = 0.0;
   for (int i = 0; i < at_points.points(2); ++i) sum += at_points.at(2, i, 0);
-  CHECK(sum / at_points.points(2) == Approx(linear(0.0, 0.5)));
+  CHECK(sum / at_points.points(2) == exactly(linear(0.0, 0.5)));
   // The smoothing of the rectangle-like cells is exact on bilinear fields.
   const NodalField back = brought_to_nodes(*model.mesh, &model, brought_to(model, linear_field(*model.mesh), Support::gauss_point, false));
-  CHECK(back.at(3, 0) == Approx(linear(0.0, 1.0)));
+  CHECK(back.at(3, 0) == exactly(linear(0.0, 1.0)));
 }
 
 TEST_CASE("one value a cell holds all over it, and nodes between cells have the mean", "[fields]") {

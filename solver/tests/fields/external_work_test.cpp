@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -25,9 +26,9 @@ TEST_CASE("the work of a force is the area under its curve", "[fields]") {
   const auto works = external_work(result);
   REQUIRE(works.size() == 3);
   CHECK(works[0].real == 0.0);
-  CHECK(works[1].real == Approx(6.0));
-  CHECK(works[2].real == Approx(6.0 + 6.0));  // at a force that stays
-  CHECK(works[2].elastic == Approx(9.0));     // had it grown in proportion
+  CHECK(works[1].real == exactly(6.0));
+  CHECK(works[2].real == exactly(6.0 + 6.0));  // at a force that stays
+  CHECK(works[2].elastic == exactly(9.0));     // had it grown in proportion
 }
 
 TEST_CASE("without nodal forces there is no work to tell", "[fields]") {

@@ -6,6 +6,7 @@
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/extrapolation.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -39,7 +40,7 @@ TEST_CASE("smoothing reproduces linear fields at all nodes of every cell with se
     const auto nodes = reference_nodes(type);
     const Eigen::VectorXd values = smoothed(type, family, linear);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      CHECK(values[static_cast<Eigen::Index>(a)] == Approx(linear(nodes[a])));
+      CHECK(values[static_cast<Eigen::Index>(a)] == exactly(linear(nodes[a])));
   }
 }
 
@@ -50,13 +51,13 @@ TEST_CASE("a single point gives its value to all nodes", "[fields]") {
 TEST_CASE("a node in the middle of an edge has the mean of its ends, whatever the field", "[fields]") {
   const Eigen::VectorXd values =
       smoothed(CellType::quad8, "FPG9", [](const auto& at) { return std::exp(at[0]) * std::cos(2 * at[1]); });
-  for (int edge = 0; edge < 4; ++edge) CHECK(values[4 + edge] == Approx(0.5 * (values[edge] + values[(edge + 1) % 4])));
+  for (int edge = 0; edge < 4; ++edge) CHECK(values[4 + edge] == exactly(0.5 * (values[edge] + values[(edge + 1) % 4])));
 }
 
 TEST_CASE("smoothing four points of a quadrangle is exact on bilinear fields", "[fields]") {
   const Eigen::VectorXd values = smoothed(CellType::quad4, "FPG4", [](const auto& at) { return at[0] * at[1]; });
-  CHECK(values[0] == Approx(1.0));
-  CHECK(values[1] == Approx(-1.0));
+  CHECK(values[0] == exactly(1.0));
+  CHECK(values[1] == exactly(-1.0));
 }
 
 TEST_CASE("smoothing is least squares: a constant keeps its value and noise its mean", "[fields]") {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -40,8 +41,8 @@ TEST_CASE("extremes over time, and when they are reached", "[fields]") {
 TEST_CASE("a field between two instants is linear", "[fields]") {
   const Field first = swing(1.0, 2.0), last = swing(3.0, -2.0);
   const auto middle = std::get<NodalField>(between_instants({1.0, &first}, {5.0, &last}, 2.0));
-  CHECK(middle.at(0, 0) == Approx(1.5));
-  CHECK(middle.at(1, 1) == Approx(1.0));
+  CHECK(middle.at(0, 0) == exactly(1.5));
+  CHECK(middle.at(1, 1) == exactly(1.0));
   CHECK(std::isnan(middle.at(1, 0)));
 }
 

@@ -5,6 +5,7 @@
 
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/mass_inertia.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -40,10 +41,10 @@ std::shared_ptr<Mesh> brick(const Point& corner, double a, double b, double c) {
 
 TEST_CASE("a brick: mass, centre and m (b^2 + c^2) / 12", "[fields]") {
   const MassInertia result = of(Body(brick({1, 2, 3}, 2, 4, 6), Formulation::solid, dense(10)));
-  CHECK(result.mass == Approx(480));
+  CHECK(result.mass == exactly(480));
   CHECK((result.centre - Eigen::Vector3d(2, 4, 6)).norm() < 1e-13);
-  CHECK(result.inertia(0, 0) == Approx(480 * (16 + 36) / 12.0));
-  CHECK(result.inertia(2, 2) == Approx(480 * (4 + 16) / 12.0));
+  CHECK(result.inertia(0, 0) == exactly(480 * (16 + 36) / 12.0));
+  CHECK(result.inertia(2, 2) == exactly(480 * (4 + 16) / 12.0));
   CHECK(result.inertia(0, 1) == Approx(0).margin(1e-10));
 }
 
@@ -54,10 +55,10 @@ TEST_CASE("a hollow cylinder by its axisymmetric section", "[fields]") {
   mesh->add_cell(CellType::quad8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
   const MassInertia result = of(Body(mesh, Formulation::axisymmetric, dense(7)));
   const double mass = 7 * std::numbers::pi * (4 - 1) * 3;
-  CHECK(result.mass == Approx(mass));
+  CHECK(result.mass == exactly(mass));
   CHECK((result.centre - Eigen::Vector3d(0, 1.5, 0)).norm() < 1e-13);
-  CHECK(result.inertia(1, 1) == Approx(mass * (1 + 4) / 2));
-  CHECK(result.inertia(0, 0) == Approx(mass * (3 * (1 + 4) + 9) / 12));
+  CHECK(result.inertia(1, 1) == exactly(mass * (1 + 4) / 2));
+  CHECK(result.inertia(0, 0) == exactly(mass * (3 * (1 + 4) + 9) / 12));
 }
 
 TEST_CASE("a slanted rod: m L^2 / 12 across it, its section along it", "[fields]") {
@@ -72,22 +73,22 @@ TEST_CASE("a slanted rod: m L^2 / 12 across it, its section along it", "[fields]
   section.torsion = 0.04;
   properties.sections[0] = section;
   const MassInertia result = of(Body(mesh, std::vector{Formulation::euler_beam}, dense(8), properties));
-  CHECK(result.mass == Approx(20));
+  CHECK(result.mass == exactly(20));
   const Eigen::Vector3d along(0.6, 0.8, 0);
-  CHECK(along.dot(result.inertia * along) == Approx(8 * 5 * (0.02 + 0.03)));
-  CHECK(result.inertia(2, 2) == Approx(20 * 25 / 12.0 + 8 * 5 * 0.03));
+  CHECK(along.dot(result.inertia * along) == exactly(8 * 5 * (0.02 + 0.03)));
+  CHECK(result.inertia(2, 2) == exactly(20 * 25 / 12.0 + 8 * 5 * 0.03));
 }
 
 TEST_CASE("inertia about a corner, and principal moments of a turned brick", "[fields]") {
   const MassInertia brick_mass = of(Body(brick({0, 0, 0}, 2, 4, 6), Formulation::solid, dense(10)));
   // m (b^2 + c^2) / 3 about an edge, -m a b / 4 for the product.
   const Eigen::Matrix3d corner = inertia_about(brick_mass, Eigen::Vector3d::Zero());
-  CHECK(corner(0, 0) == Approx(480 * (16 + 36) / 3.0));
-  CHECK(corner(0, 1) == Approx(-480 * 2 * 4 / 4.0));
+  CHECK(corner(0, 0) == exactly(480 * (16 + 36) / 3.0));
+  CHECK(corner(0, 1) == exactly(-480 * 2 * 4 / 4.0));
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d moments = principal_moments(turn * brick_mass.inertia * turn.transpose());
-  CHECK(moments[0] == Approx(480 * (4 + 16) / 12.0));
-  CHECK(moments[2] == Approx(480 * (16 + 36) / 12.0));
+  CHECK(moments[0] == exactly(480 * (4 + 16) / 12.0));
+  CHECK(moments[2] == exactly(480 * (16 + 36) / 12.0));
 }
 
 TEST_CASE("a slanted plate with an offset: its middle surface", "[fields]") {
@@ -101,14 +102,14 @@ TEST_CASE("a slanted plate with an offset: its middle surface", "[fields]") {
     properties.plates[0] = {.thickness = 0.1, .offset = 0.5};
     const MassInertia result = of(Body(mesh, std::vector{Formulation::thin_plate}, dense(7), properties));
     const double mass = (quad ? 1.0 : 0.5) * 7 * 0.1 * 20;
-    CHECK(result.mass == Approx(mass));
+    CHECK(result.mass == exactly(mass));
     // The normal is (0, -0.8, 0.6).
     const Eigen::Vector3d middle = quad ? Eigen::Vector3d(2, 1.5, 2) : Eigen::Vector3d(8.0 / 3, 1, 4.0 / 3);
     CHECK((result.centre - middle - 0.5 * Eigen::Vector3d(0, -0.8, 0.6)).norm() < 1e-13);
     const double share = quad ? 1.0 / 12 : 1.0 / 18;
-    CHECK(result.inertia(0, 0) == Approx(mass * 25 * share));
+    CHECK(result.inertia(0, 0) == exactly(mass * 25 * share));
     const Eigen::Vector3d normal(0, -0.8, 0.6);
-    CHECK(normal.dot(result.inertia * normal) == Approx(mass * (16 + 25) * share));
+    CHECK(normal.dot(result.inertia * normal) == exactly(mass * (16 + 25) * share));
   }
 }
 

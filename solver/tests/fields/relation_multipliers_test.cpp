@@ -4,6 +4,7 @@
 
 #include "solver/elements/assembler.hpp"
 #include "solver/tests/constraints/scene.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::test;
@@ -29,10 +30,10 @@ TEST_CASE("The multipliers of relations balance the reactions, as many for each 
   reactions[dofs.dof(0, Component::dy)] = 9.0;
   const auto multipliers = relation_multipliers(dofs, loads, to_field(reactions, dofs, "DEPL_R"));
   REQUIRE(multipliers.size() == 4);
-  CHECK(multipliers[0] == Approx(-3.0));
-  CHECK(multipliers[1] == Approx(-3.0));
-  CHECK(multipliers[2] == Approx(-5.0));
-  CHECK(multipliers[3] == Approx(-7.0));
+  CHECK(multipliers[0] == exactly(-3.0));
+  CHECK(multipliers[1] == exactly(-3.0));
+  CHECK(multipliers[2] == exactly(-5.0));
+  CHECK(multipliers[3] == exactly(-7.0));
 }
 
 TEST_CASE("Relations that depend on each other share what there is") {
@@ -45,5 +46,5 @@ TEST_CASE("Relations that depend on each other share what there is") {
   reactions[dofs.dof(0, Component::dx)] = 6.0;
   const auto found = relation_multipliers(dofs, loads, to_field(reactions, dofs, "DEPL_R"));
   REQUIRE(found.size() == 4);
-  CHECK(found[0] + found[1] + 3.0 * (found[2] + found[3]) == Approx(-6.0));
+  CHECK(found[0] + found[1] + 3.0 * (found[2] + found[3]) == exactly(-6.0));
 }

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 
 TEST_CASE("a straight profile has its own ends as ends of the mean line", "[fields]") {
@@ -11,10 +13,10 @@ TEST_CASE("a straight profile has its own ends as ends of the mean line", "[fiel
   std::array<double, 4> values{};
   for (std::size_t i = 0; i < 4; ++i) values[i] = 2.0 - 3.0 * at[i];
   const LineMean mean = line_mean(at, values);
-  CHECK(mean.mean == Approx(2.0 - 3.0 * 3.0));
-  CHECK(mean.slope == Approx(-12.0));
-  CHECK(mean.first() == Approx(values.front()));
-  CHECK(mean.last() == Approx(values.back()));
+  CHECK(mean.mean == exactly(2.0 - 3.0 * 3.0));
+  CHECK(mean.slope == exactly(-12.0));
+  CHECK(mean.first() == exactly(values.front()));
+  CHECK(mean.last() == exactly(values.back()));
   CHECK(mean.least == values.back());
   CHECK(mean.greatest == values.front());
 }
@@ -23,7 +25,7 @@ TEST_CASE("a tent has a mean of half its height and no slope", "[fields]") {
   const std::array<double, 3> at = {0.0, 1.0, 2.0};
   const std::array<double, 3> values = {0.0, 6.0, 0.0};
   const LineMean mean = line_mean(at, values);
-  CHECK(mean.mean == Approx(3.0));
+  CHECK(mean.mean == exactly(3.0));
   CHECK(mean.slope == Approx(0.0).margin(1e-14));
 }
 

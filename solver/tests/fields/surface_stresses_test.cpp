@@ -2,6 +2,7 @@
 
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/surface_stresses.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -27,15 +28,15 @@ TEST_CASE("a uniform stress on a face: normal and tangential traction, principal
   const ElementField skin = surface_stresses(mesh, stress, std::array{1});
   REQUIRE(skin.points(1) == 1);
   CHECK(skin.points(0) == 0);
-  CHECK(value(skin, 1, "SIG_N") == Approx(1000));
-  CHECK(value(skin, 1, "SIG_NZ") == Approx(1000));
-  CHECK(value(skin, 1, "SIG_TX") == Approx(50));
-  CHECK(value(skin, 1, "SIG_TY") == Approx(-70));
+  CHECK(value(skin, 1, "SIG_N") == exactly(1000));
+  CHECK(value(skin, 1, "SIG_NZ") == exactly(1000));
+  CHECK(value(skin, 1, "SIG_TX") == exactly(50));
+  CHECK(value(skin, 1, "SIG_TY") == exactly(-70));
   CHECK(value(skin, 1, "SIG_TZ") == Approx(0).margin(1e-12));
-  CHECK(value(skin, 1, "SIG_T1") == Approx(100));
-  CHECK(value(skin, 1, "SIG_T2") == Approx(200));
-  CHECK(std::abs(value(skin, 1, "SIG_T1X")) == Approx(100));
-  CHECK(std::abs(value(skin, 1, "SIG_T2Y")) == Approx(200));
+  CHECK(value(skin, 1, "SIG_T1") == exactly(100));
+  CHECK(value(skin, 1, "SIG_T2") == exactly(200));
+  CHECK(std::abs(value(skin, 1, "SIG_T1X")) == exactly(100));
+  CHECK(std::abs(value(skin, 1, "SIG_T2Y")) == exactly(200));
 }
 
 TEST_CASE("principal directions in a face take their signs from its first edge", "[fields]") {
@@ -56,7 +57,7 @@ TEST_CASE("principal directions in a face take their signs from its first edge",
       const auto part = [&](const char* x, const char* y) { return Eigen::Vector2d(value(*skin, 1, x), value(*skin, 1, y)); };
       const Eigen::Vector2d first = part("SIG_T1X", "SIG_T1Y"), second = part("SIG_T2X", "SIG_T2Y");
       CHECK(std::abs(first.dot(second)) < 1e-12 * first.norm() * second.norm());
-      CHECK(first.norm() == Approx(std::abs(value(*skin, 1, "SIG_T1"))));
+      CHECK(first.norm() == exactly(std::abs(value(*skin, 1, "SIG_T1"))));
       // Both together are the stress again.
       CHECK(first[0] * first[1] / value(*skin, 1, "SIG_T1") + second[0] * second[1] / value(*skin, 1, "SIG_T2") == Approx(shear).margin(1e-12));
     }
@@ -72,11 +73,11 @@ TEST_CASE("a uniform stress on an edge of a plane body", "[fields]") {
   ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY"}, {0, 4, 4}, {}};
   for (int i = 0; i < 4; ++i) stress.values.insert(stress.values.end(), {100, 200, 30, 50});
   const ElementField skin = surface_stresses(mesh, stress, std::array{1});
-  CHECK(value(skin, 1, "SIG_N") == Approx(100));
-  CHECK(value(skin, 1, "SIG_NY") == Approx(50));
-  CHECK(value(skin, 1, "SIG_T1") == Approx(200));
-  CHECK(value(skin, 1, "SIG_TX") == Approx(50));
-  CHECK(value(skin, 1, "SIG_TN") == Approx(50));
+  CHECK(value(skin, 1, "SIG_N") == exactly(100));
+  CHECK(value(skin, 1, "SIG_NY") == exactly(50));
+  CHECK(value(skin, 1, "SIG_T1") == exactly(200));
+  CHECK(value(skin, 1, "SIG_TX") == exactly(50));
+  CHECK(value(skin, 1, "SIG_TN") == exactly(50));
 }
 
 TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
@@ -101,8 +102,8 @@ TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
   Eigen::Matrix3d tensor;
   tensor << 3, 1, 4, 1, -2, -1, 4, -1, 5;
   const ElementField skin = surface_stresses(mesh, stress, std::array{1});
-  CHECK(value(skin, 1, "SIG_N") == Approx(n.dot(tensor * n)));
-  CHECK(value(skin, 1, "SIG_NX") == Approx(n.dot(tensor * n) * n[0]));
+  CHECK(value(skin, 1, "SIG_N") == exactly(n.dot(tensor * n)));
+  CHECK(value(skin, 1, "SIG_NX") == exactly(n.dot(tensor * n) * n[0]));
 }
 
 }  // namespace surface_stresses_test

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/tests/elements/sample_meshes.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -35,13 +36,13 @@ TEST_CASE("command variables and their strains at Gauss points", "[fields]") {
   const FieldInput input{body.model, body.materials, body.properties, body.assembler->state()};
   const ElementField variables = command_variable_field(input);
   CHECK(variables.points(0) == 4);
-  CHECK(variables.at(0, 3, variables.component("TEMP")) == Approx(70.0));
-  CHECK(variables.at(0, 3, variables.component("SECH")) == Approx(90.0));
+  CHECK(variables.at(0, 3, variables.component("TEMP")) == exactly(70.0));
+  CHECK(variables.at(0, 3, variables.component("SECH")) == exactly(90.0));
   CHECK(std::isnan(variables.at(0, 3, variables.component("NEUT1"))));
   const ElementField strains = variable_strain_field(input);
-  CHECK(strains.at(0, 2, strains.component("EPTHER_N")) == Approx(1e-5 * 50.0));
-  CHECK(strains.at(0, 2, strains.component("EPSECH")) == Approx(-6e-5 * 10.0));
-  CHECK(strains.at(0, 2, strains.component("EPHYDR")) == Approx(-2e-4 * 0.5));
+  CHECK(strains.at(0, 2, strains.component("EPTHER_N")) == exactly(1e-5 * 50.0));
+  CHECK(strains.at(0, 2, strains.component("EPSECH")) == exactly(-6e-5 * 10.0));
+  CHECK(strains.at(0, 2, strains.component("EPHYDR")) == exactly(-2e-4 * 0.5));
 }
 
 TEST_CASE("a material strains by its own coefficients along its axes", "[fields]") {
@@ -55,7 +56,7 @@ TEST_CASE("a material strains by its own coefficients along its axes", "[fields]
   body.materials.variables = {constant(Parameter::temperature, "TEMP", 120.0, 20.0)};
   body.assembler->set_time(0.0);
   const ElementField strains = variable_strain_field({body.model, body.materials, body.properties, body.assembler->state()});
-  CHECK(strains.at(0, 0, 0) == Approx(1e-4));
-  CHECK(strains.at(0, 0, 1) == Approx(2e-3));
-  CHECK(strains.at(0, 0, 2) == Approx(3e-3));
+  CHECK(strains.at(0, 0, 0) == exactly(1e-4));
+  CHECK(strains.at(0, 0, 1) == exactly(2e-3));
+  CHECK(strains.at(0, 0, 2) == exactly(3e-3));
 }

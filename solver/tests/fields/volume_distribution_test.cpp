@@ -5,6 +5,7 @@
 #include <array>
 
 #include "solver/tests/elements/sample_meshes.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -21,7 +22,7 @@ TEST_CASE("the volumes of all values are the volume of the body", "[fields]") {
   CHECK(value_range(pieces) == std::pair(1.0, 3.0));
   // A Gauss point stands for a quarter of the area of 2.
   const auto volumes = volumes_between(pieces, std::array{1.0, 2.0, 3.0});
-  CHECK(volumes[0] == Approx(1.0));
-  CHECK(volumes[1] == Approx(1.0));
-  CHECK(volumes_between(pieces, std::array{2.5, 10.0})[0] == Approx(1.0));
+  CHECK(volumes[0] == exactly(1.0));
+  CHECK(volumes[1] == exactly(1.0));
+  CHECK(volumes_between(pieces, std::array{2.5, 10.0})[0] == exactly(1.0));
 }

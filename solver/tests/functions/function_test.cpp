@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -13,8 +14,8 @@ TEST_CASE("a table goes through its points and straight between them", "[functio
   CHECK(f(0.0) == 2.0);
   CHECK(f(1.0) == 4.0);
   CHECK(f(3.0) == 0.0);
-  CHECK(f(0.25) == Approx(2.5));
-  CHECK(f(2.5) == Approx(1.0));
+  CHECK(f(0.25) == exactly(2.5));
+  CHECK(f(2.5) == exactly(1.0));
 }
 
 TEST_CASE("past its ends a table follows its rule", "[functions]") {
@@ -25,15 +26,15 @@ TEST_CASE("past its ends a table follows its rule", "[functions]") {
   CHECK(f(3.0 * (1 + 1e-15)) == 0.0);  // the end, but for rounding
   f.left = Extension::linear;
   f.right = Extension::constant;
-  CHECK(f(-1.0) == Approx(0.0));
+  CHECK(f(-1.0) == exactly(0.0));
   CHECK(f(99.0) == 0.0);
 }
 
 TEST_CASE("logarithmic scales turn powers into straight lines", "[functions]") {
   TabulatedFunction f{.x = {1.0, 100.0}, .y = {2.0, 2e6}, .x_scale = Scale::logarithmic, .y_scale = Scale::logarithmic};
-  CHECK(f(10.0) == Approx(2e3));  // 2 x^3
+  CHECK(f(10.0) == exactly(2e3));  // 2 x^3
   f.right = Extension::linear;
-  CHECK(f(1000.0) == Approx(2e9));
+  CHECK(f(1000.0) == exactly(2e9));
   f.y[0] = 0.0;
   CHECK_THROWS_WITH(f(10.0), Catch::Contains("not positive"));
 }

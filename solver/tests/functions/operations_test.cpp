@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -30,7 +31,7 @@ TabulatedFunction parabola() {
 TEST_CASE("a combination goes through the points of all its functions", "[functions]") {
   const TabulatedFunction f = combination(Pointers{&line, &bump}, std::array{2.0, -1.0});
   CHECK(f.x == std::vector<double>{0.0, 1.0, 2.0, 4.0});
-  for (const double x : {0.0, 0.7, 1.5, 3.3, 4.0}) CHECK(f(x) == Approx(2.0 * line(x) - bump(x)));
+  for (const double x : {0.0, 0.7, 1.5, 3.3, 4.0}) CHECK(f(x) == exactly(2.0 * line(x) - bump(x)));
 }
 
 TEST_CASE("a combination ends where one of its functions excludes, and goes on where it may", "[functions]") {
@@ -49,8 +50,8 @@ TEST_CASE("envelopes bound, means lie between, products multiply", "[functions]"
   for (const double x : {0.0, 1.0, 2.0, 4.0}) {
     CHECK(upper_envelope(both)(x) == std::max(line(x), bump(x)));
     CHECK(lower_envelope(both)(x) == std::min(line(x), bump(x)));
-    CHECK(mean(both)(x) == Approx(0.5 * (line(x) + bump(x))));
-    CHECK(product(both)(x) == Approx(line(x) * bump(x)));
+    CHECK(mean(both)(x) == exactly(0.5 * (line(x) + bump(x))));
+    CHECK(product(both)(x) == exactly(line(x) * bump(x)));
   }
 }
 
@@ -61,7 +62,7 @@ TEST_CASE("the trapezoidal rule integrates a polygon exactly", "[functions]") {
 
 TEST_CASE("central differences are exact for a parabola inside, one-sided ones for a line at its ends", "[functions]") {
   const TabulatedFunction slope = derivative(parabola());
-  for (std::size_t i = 1; i < 10; ++i) CHECK(slope.y[i] == Approx(2.0 * slope.x[i]));
+  for (std::size_t i = 1; i < 10; ++i) CHECK(slope.y[i] == exactly(2.0 * slope.x[i]));
   CHECK(derivative(line).y == std::vector<double>{2.0, 2.0, 2.0});
   CHECK_THROWS_AS(derivative({.x = {1.0}, .y = {1.0}}), Error);
 }
@@ -86,7 +87,7 @@ TEST_CASE("a function and its inverse undo each other", "[functions]") {
   falling.left = Extension::constant;
   for (const TabulatedFunction& f : {line, falling}) {
     const TabulatedFunction back = inverse(f);
-    for (const double x : f.x) CHECK(back(f(x)) == Approx(x));
+    for (const double x : f.x) CHECK(back(f(x)) == exactly(x));
     CHECK(inverse(back).x == f.x);
     CHECK(inverse(back).y == f.y);
     const TabulatedFunction same = composition(back, f);
@@ -117,6 +118,6 @@ TEST_CASE("a fractile of functions goes from the lower to the upper envelope", "
 TEST_CASE("least squares give a polynomial back, and the mean for degree 0", "[functions]") {
   const TabulatedFunction fit = polynomial_fit(parabola(), 2);
   for (std::size_t i = 0; i < fit.x.size(); ++i) CHECK(fit.y[i] == Approx(fit.x[i] * fit.x[i]).margin(1e-14));
-  CHECK(polynomial_fit(bump, 0).y[1] == Approx(4.0 / 3.0));
+  CHECK(polynomial_fit(bump, 0).y[1] == exactly(4.0 / 3.0));
   CHECK_THROWS_AS(polynomial_fit(bump, 3), Error);
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -22,8 +23,8 @@ double square_between(double time, Extension left, Extension right) {
 
 TEST_CASE("between two instants a value is linear, at each it is exact") {
   for (const double time : instants) CHECK(square_between(time, Extension::excluded, Extension::excluded) == time * time);
-  CHECK(square_between(3.0, Extension::excluded, Extension::excluded) == Approx(10.0));
-  CHECK(square_between(1.25, Extension::excluded, Extension::excluded) == Approx(1.75));
+  CHECK(square_between(3.0, Extension::excluded, Extension::excluded) == exactly(10.0));
+  CHECK(square_between(1.25, Extension::excluded, Extension::excluded) == exactly(1.75));
 }
 
 TEST_CASE("outside the instants a value is excluded, constant, or goes on in a straight line") {
@@ -31,8 +32,8 @@ TEST_CASE("outside the instants a value is excluded, constant, or goes on in a s
   CHECK_THROWS_AS(square_between(4.5, Extension::linear, Extension::excluded), Error);
   CHECK(square_between(0.0, Extension::constant, Extension::excluded) == 1.0);
   CHECK(square_between(9.0, Extension::excluded, Extension::constant) == 16.0);
-  CHECK(square_between(0.0, Extension::linear, Extension::excluded) == Approx(-2.0));
-  CHECK(square_between(5.0, Extension::excluded, Extension::linear) == Approx(22.0));
+  CHECK(square_between(0.0, Extension::linear, Extension::excluded) == exactly(-2.0));
+  CHECK(square_between(5.0, Extension::excluded, Extension::linear) == exactly(22.0));
 }
 
 TEST_CASE("an instant that is a sum of steps meets the last one although it misses it by rounding") {

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -55,23 +56,23 @@ double polygon(int sides) {
 
 TEST_CASE("the area inside a rim: a polygon by straight edges, whichever way they are turned") {
   const Ring ring(12, false);
-  CHECK(enclosed_area(ring.mesh, ring.rim) == Approx(polygon(12)));
-  CHECK(surface_area(ring.mesh, ring.faces) == Approx(3.0 * polygon(12)));
+  CHECK(enclosed_area(ring.mesh, ring.rim) == exactly(polygon(12)));
+  CHECK(surface_area(ring.mesh, ring.faces) == exactly(3.0 * polygon(12)));
 }
 
 TEST_CASE("a rim of quadratic edges is a polygon through their middle nodes too") {
   const Ring ring(12, true);
-  CHECK(enclosed_area(ring.mesh, ring.rim) == Approx(polygon(24)));
+  CHECK(enclosed_area(ring.mesh, ring.rim) == exactly(polygon(24)));
 }
 
 TEST_CASE("the end of a tube is pulled by the pressure on its hole") {
   const Ring ring(12, false);
   const auto loads = end_effect(ring.mesh, ring.faces, ring.rim, 60.0);
   REQUIRE(loads.size() == 12);
-  for (const auto& load : loads) CHECK(load.pressure == Approx(-60.0 / 3.0));
+  for (const auto& load : loads) CHECK(load.pressure == exactly(-60.0 / 3.0));
   const auto changing =
       end_effect(ring.mesh, ring.faces, ring.rim, 0.0, [](const Point&, double t) { return 6.0 * t; });
-  CHECK(changing[3].pressure_function({}, 2.0) == Approx(-4.0));
+  CHECK(changing[3].pressure_function({}, 2.0) == exactly(-4.0));
 }
 
 TEST_CASE("a rim that is open, forks or is no line is refused") {

@@ -5,6 +5,7 @@
 
 #include "solver/error.hpp"
 #include "solver/materials/command_variables.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -38,17 +39,17 @@ double temperature(const Mesh& mesh, const VariableState& state, int cell, doubl
 TEST_CASE("command variables are linear in time and place", "[materials]") {
   const Mesh mesh = two_bars();
   const std::vector variables = {heating()};
-  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 0, 0.5) == Approx(50.0));
-  CHECK(temperature(mesh, VariableState(mesh, variables, 2.5), 1, 0.25) == Approx(0.25 * 150 + 0.75 * 250));
-  CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == Approx(400.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 0, 0.5) == exactly(50.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 2.5), 1, 0.25) == exactly(0.25 * 150 + 0.75 * 250));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == exactly(400.0));
 }
 
 TEST_CASE("a command variable may run through its instants at a pace of its own", "[materials]") {
   const Mesh mesh = two_bars();
   std::vector variables = {heating()};
   variables[0].instant = [](double time) { return 10.0 - 0.5 * time; };
-  CHECK(temperature(mesh, VariableState(mesh, variables, 20.0), 0, 0.5) == Approx(50.0));
-  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 1, 0.0) == Approx(400.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 20.0), 0, 0.5) == exactly(50.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 0.0), 1, 0.0) == exactly(400.0));
   CHECK(VariableState(mesh, variables, 20.0).time() == 20.0);
   CHECK_THROWS_AS(VariableState(mesh, variables, 21.0), Error);
 }
@@ -58,9 +59,9 @@ TEST_CASE("outside its instants a command variable is refused unless it is exten
   std::vector variables = {heating()};
   CHECK_THROWS_WITH(VariableState(mesh, variables, 11.0), Catch::Contains("temperature") && Catch::Contains("11"));
   variables[0].right = Extension::constant;
-  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == Approx(400.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == exactly(400.0));
   variables[0].right = Extension::linear;
-  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == Approx(420.0));
+  CHECK(temperature(mesh, VariableState(mesh, variables, 11.0), 1, 0.0) == exactly(420.0));
   CHECK_THROWS_AS(VariableState(mesh, variables, -1.0), Error);
 }
 
@@ -72,7 +73,7 @@ TEST_CASE("a later variable replaces an earlier one on its cells alone", "[mater
       {0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::cell, {"TEMP"}, {0, 0, 1}, {77.0}})}};
   const std::vector variables = {heating(), local};
   const VariableState state(mesh, variables, 5.0);
-  CHECK(temperature(mesh, state, 0, 0.0) == Approx(200.0));
+  CHECK(temperature(mesh, state, 0, 0.0) == exactly(200.0));
   CHECK(temperature(mesh, state, 1, 0.3) == 77.0);
 }
 

@@ -6,6 +6,7 @@
 
 #include "solver/error.hpp"
 #include "solver/mesh/axes.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -17,9 +18,9 @@ const IsotropicModuli steel{2.1e11, 0.3};
 
 TEST_CASE("uniaxial stress gives E and Poisson's ratio back", "[materials]") {
   const Eigen::Matrix<double, 6, 1> strain = solid_stiffness(steel).ldlt().solve(Eigen::Matrix<double, 6, 1>::Unit(0));
-  CHECK(strain[0] == Approx(1.0 / steel.young));
-  CHECK(strain[1] == Approx(-steel.poisson / steel.young));
-  CHECK(strain[2] == Approx(-steel.poisson / steel.young));
+  CHECK(strain[0] == exactly(1.0 / steel.young));
+  CHECK(strain[1] == exactly(-steel.poisson / steel.young));
+  CHECK(strain[2] == exactly(-steel.poisson / steel.young));
 }
 
 TEST_CASE("plane stress is the three-dimensional law with no stress across the plane", "[materials]") {
@@ -56,9 +57,9 @@ const Eigen::Matrix3d some_axes = nautical_axes(0.7, -0.4, 1.1);
 TEST_CASE("an orthotropic stress along L strains T and N by NU_LT / E_L and NU_LN / E_L", "[materials]") {
   const Elasticity elasticity = wood();
   const Vector6d strain = solid_compliance({&elasticity, nullptr}, MaterialPoint()) * Vector6d::Unit(0);
-  CHECK(strain[0] == Approx(1.0 / 11000));
-  CHECK(strain[1] == Approx(-0.4 / 11000));
-  CHECK(strain[2] == Approx(-0.35 / 11000));
+  CHECK(strain[0] == exactly(1.0 / 11000));
+  CHECK(strain[1] == exactly(-0.4 / 11000));
+  CHECK(strain[2] == exactly(-0.35 / 11000));
 }
 
 TEST_CASE("a plane body does without the moduli that it does not use", "[materials]") {
@@ -97,10 +98,10 @@ TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned l
   Vector6d global;
   global << strain(0, 0), strain(1, 1), strain(2, 2), 2 * strain(0, 1), 2 * strain(0, 2), 2 * strain(1, 2);
   const Vector6d found = stiffness * global;
-  CHECK(found[0] == Approx(stress(0, 0)));
-  CHECK(found[3] == Approx(stress(0, 1)));
-  CHECK(found[4] == Approx(stress(0, 2)));
-  CHECK(found[5] == Approx(stress(1, 2)));
+  CHECK(found[0] == exactly(stress(0, 0)));
+  CHECK(found[3] == exactly(stress(0, 1)));
+  CHECK(found[4] == exactly(stress(0, 2)));
+  CHECK(found[5] == exactly(stress(1, 2)));
 }
 
 TEST_CASE("an isotropic law written as an orthotropic one does not notice its axes", "[materials]") {
@@ -152,7 +153,7 @@ TEST_CASE("thermal strain vanishes at the reference, and is measured on the leng
     CHECK(thermal_strain(mean, 20.0, at) == Approx(stretch(t) - stretch(100.0)).margin(1e-15));
   }
   at[Parameter::temperature] = 700.0;
-  CHECK(thermal_strain(2e-5, from_reference, at) == Approx(2e-5 * 600));
+  CHECK(thermal_strain(2e-5, from_reference, at) == exactly(2e-5 * 600));
   at.reference(Parameter::temperature) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(thermal_strain(2e-5, from_reference, at), Catch::Contains("reference"));
 }
@@ -165,7 +166,7 @@ TEST_CASE("concrete shrinks as it dries and as it hydrates", "[materials]") {
   at[Parameter::drying] = 70.0;
   at.reference(Parameter::drying) = 100.0;
   at[Parameter::hydration] = 0.5;
-  CHECK(inelastic_axial_strain(concrete, at) == Approx(-30 * 1e-5 - 0.5 * 8e-5));
+  CHECK(inelastic_axial_strain(concrete, at) == exactly(-30 * 1e-5 - 0.5 * 8e-5));
 }
 
 TEST_CASE("a property by a table names the variable that it misses", "[materials]") {
@@ -176,7 +177,7 @@ TEST_CASE("a property by a table names the variable that it misses", "[materials
   MaterialPoint at;
   CHECK_THROWS_WITH(young(at), Catch::Contains("temperature"));
   at[Parameter::temperature] = 25.0;
-  CHECK(young(at) == Approx(1.75e11));
+  CHECK(young(at) == exactly(1.75e11));
 }
 
 TEST_CASE("a strain that is known beforehand adds to what command variables cause, whatever the axes of the material") {

@@ -2,6 +2,7 @@
 
 #include "solver/materials/elasticity.hpp"
 #include "solver/materials/mean_expansion.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -37,11 +38,11 @@ TEST_CASE("what a coefficient measured elsewhere has of a stretch up to the refe
 
 TEST_CASE("near the reference a mean coefficient is the limit, by the slopes on both sides", "[materials]") {
   const TabulatedFunction measured = tabulate({0.0, 99.5, 120.0}, [](double t) { return 1e-5 + 4e-9 * t; });
-  CHECK(expansion_from(100.0, measured, 20.0, 1.0).y[1] == Approx(1e-5 + 4e-7 + 4e-9 * 80.0));
+  CHECK(expansion_from(100.0, measured, 20.0, 1.0).y[1] == exactly(1e-5 + 4e-7 + 4e-9 * 80.0));
   // No nearness: the quotient itself, which is that of the difference of two strains.
   const double quotient = ((1e-5 + 4e-9 * 99.5) * 79.5 - (1e-5 + 4e-7) * 80.0) / -0.5;
-  CHECK(expansion_from(100.0, measured, 20.0, 0.0).y[1] == Approx(quotient));
-  CHECK(expansion_from(0.0, measured, 20.0, 1.0).y[0] == Approx(1e-5 - 4e-9 * 20.0));  // one side alone
+  CHECK(expansion_from(100.0, measured, 20.0, 0.0).y[1] == exactly(quotient));
+  CHECK(expansion_from(0.0, measured, 20.0, 1.0).y[0] == exactly(1e-5 - 4e-9 * 20.0));  // one side alone
 }
 
 TEST_CASE("mean coefficients follow the reference of the point, and miss a temperature that is not given", "[materials]") {

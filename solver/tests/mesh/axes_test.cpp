@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -23,7 +24,7 @@ TEST_CASE("a material round an axis has L away from it in the plane, and along i
   CHECK((axes.row(0) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-14);
   CHECK((axes.row(1) - Eigen::RowVector3d(-1, 0, 0)).norm() < 1e-14);
   CHECK((axes.row(2) - Eigen::RowVector3d(0, -1, 0)).norm() < 1e-14);
-  CHECK(axes.determinant() == Approx(1.0));
+  CHECK(axes.determinant() == exactly(1.0));
 }
 
 TEST_CASE("Euler's angles turn about Z, the new X and the new Z", "[mesh]") {

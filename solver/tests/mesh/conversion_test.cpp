@@ -10,6 +10,7 @@
 #include "solver/mesh/boundary.hpp"
 #include "solver/mesh/reference_cell.hpp"
 #include "solver/mesh/transform.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using Group = std::vector<int>;
@@ -79,7 +80,7 @@ TEST_CASE("the middle of a curved face lies on the face", "[mesh]") {
   for (Point& node : mesh.nodes) node[2] = node[0] * node[0];  // a parabolic cylinder, which QUAD8 represents exactly
   mesh.nodes[4][0] = mesh.nodes[6][0] = 0.25;
   const Mesh larger = converted(mesh, first_cell, Conversion::quad8_to_9);
-  CHECK(larger.nodes.back()[0] == Approx(0.25));
+  CHECK(larger.nodes.back()[0] == exactly(0.25));
   CHECK(larger.nodes.back()[1] == Approx(0.0).margin(1e-15));
 }
 
@@ -105,7 +106,7 @@ TEST_CASE("a part of a mesh keeps names and what remains of its groups", "[mesh]
   CHECK(part.cell_groups.at("BOTH") == Group{0});
   CHECK_FALSE(part.node_groups.contains("LEFT"));
   CHECK(part.node_groups.at("ALL") == Group{0, 1, 2, 3});
-  CHECK(std::abs(signed_size(part, 0)) == Approx(1.0));
+  CHECK(std::abs(signed_size(part, 0)) == exactly(1.0));
 }
 
 TEST_CASE("moving a mesh keeps its sizes as the motion says", "[mesh]") {
@@ -114,21 +115,21 @@ TEST_CASE("moving a mesh keeps its sizes as the motion says", "[mesh]") {
     move(mesh);
     return signed_size(mesh, 0);
   };
-  CHECK(moved([](Mesh& m) { scale(m, 0.5); }) == Approx(1.0));
-  CHECK(moved([](Mesh& m) { translate(m, {1, 2, 3}); }) == Approx(8.0));
-  CHECK(moved([](Mesh& m) { rotate(m, {1, 2, 3}, {1, 1, 0}, 0.7); }) == Approx(8.0));
-  CHECK(moved([](Mesh& m) { mirror(m, {1, 2, 3}, {1, 1, 0}); }) == Approx(-8.0));
-  CHECK(moved([](Mesh& m) { change_axes(m, {1, 2, 3}, {1, 1, 0}); }) == Approx(8.0));
+  CHECK(moved([](Mesh& m) { scale(m, 0.5); }) == exactly(1.0));
+  CHECK(moved([](Mesh& m) { translate(m, {1, 2, 3}); }) == exactly(8.0));
+  CHECK(moved([](Mesh& m) { rotate(m, {1, 2, 3}, {1, 1, 0}, 0.7); }) == exactly(8.0));
+  CHECK(moved([](Mesh& m) { mirror(m, {1, 2, 3}, {1, 1, 0}); }) == exactly(-8.0));
+  CHECK(moved([](Mesh& m) { change_axes(m, {1, 2, 3}, {1, 1, 0}); }) == exactly(8.0));
   Mesh mesh;
   mesh.nodes = {{2, 0, 0}};
   rotate(mesh, {1, 0, 0}, {0, 0, 2}, std::acos(0.0));
-  CHECK(mesh.nodes[0][0] == Approx(1.0));
-  CHECK(mesh.nodes[0][1] == Approx(1.0));
+  CHECK(mesh.nodes[0][0] == exactly(1.0));
+  CHECK(mesh.nodes[0][1] == exactly(1.0));
   change_axes(mesh, {0, 3, 0}, {-1, 0, 0});
-  CHECK(mesh.nodes[0][0] == Approx(1.0));
-  CHECK(mesh.nodes[0][1] == Approx(-1.0));
+  CHECK(mesh.nodes[0][0] == exactly(1.0));
+  CHECK(mesh.nodes[0][1] == exactly(-1.0));
   mirror(mesh, {0, 5, 0}, {0, -1, 0});
-  CHECK(mesh.nodes[0][1] == Approx(11.0));
+  CHECK(mesh.nodes[0][1] == exactly(11.0));
   CHECK_THROWS_AS(rotate(mesh, {0, 0, 0}, {0, 0, 0}, 1.0), Error);
   CHECK_THROWS_AS(change_axes(mesh, {1, 0, 0}, {2, 0, 0}), Error);
 }
@@ -154,7 +155,7 @@ TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]"
     CHECK(twice > 0.0);
     area += 0.5 * twice;
   }
-  CHECK(area == Approx(2.0));
+  CHECK(area == exactly(2.0));
   CHECK(mesh.cell_group("BOTH").size() == 4);
   CHECK(mesh.cell_group("RIGHT").size() == 2);
   // Only the first is cut.
@@ -169,6 +170,6 @@ TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]"
       CHECK(signed_size(cut, cell) * signed_size(whole, 0) > 0.0);
       size += signed_size(cut, cell);
     }
-    CHECK(size == Approx(signed_size(whole, 0)));
+    CHECK(size == exactly(signed_size(whole, 0)));
   }
 }

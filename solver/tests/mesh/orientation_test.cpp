@@ -11,6 +11,7 @@
 #include "reference_cells.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::tests::Vector;
@@ -149,10 +150,10 @@ TEST_CASE("a solid whose nodes run inside out gets its skin outside all the same
   Mesh mesh = block(1, 1, 1);
   std::reverse(mesh.connectivity.begin(), mesh.connectivity.begin() + 4);
   std::reverse(mesh.connectivity.begin() + 4, mesh.connectivity.end());
-  REQUIRE(signed_size(mesh, 0) == Approx(-1.0));
+  REQUIRE(signed_size(mesh, 0) == exactly(-1.0));
   const auto skin = add_random_skin(mesh, random);
   orient_skin(mesh, skin);
-  CHECK(enclosed(mesh, skin).first == Approx(1.0));
+  CHECK(enclosed(mesh, skin).first == exactly(1.0));
 }
 
 TEST_CASE("a triangle that is turned exchanges its first corner and its third; the second corner stays where contact knows it") {

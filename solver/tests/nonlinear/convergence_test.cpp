@@ -4,13 +4,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/exactly.hpp"
+
 using namespace comma::solver;
 
 TEST_CASE("By default a millionth of the load is asked") {
   const ConvergenceCriterion criterion(NewtonOptions{});
   CHECK(criterion.measure(0.9e-3, 1000.0, false).converged);
   CHECK_FALSE(criterion.measure(1.1e-3, 1000.0, false).converged);
-  CHECK(criterion.measure(1.1e-3, 1000.0, false).relative == Approx(1.1e-6));
+  CHECK(criterion.measure(1.1e-3, 1000.0, false).relative == exactly(1.1e-6));
 }
 
 TEST_CASE("Both criteria are asked when both are given, one when one is") {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "scene.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
@@ -106,7 +107,7 @@ TEST_CASE("Points keep their facets within a margin that grows with updates that
     if (update < 5) CHECK(updates.margin() == 0.0);
     updates.settled(corner.at(update % 2), corner.at(1 - update % 2));
   }
-  CHECK(updates.margin() == Approx(0.05));
+  CHECK(updates.margin() == exactly(0.05));
   corner.contact.geometry_update = GeometryUpdate::controlled;
   CHECK(updates.margin() == 0.0);
 }

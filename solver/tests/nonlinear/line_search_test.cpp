@@ -5,6 +5,7 @@
 #include "scene.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/line_search.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
@@ -31,7 +32,7 @@ TEST_CASE("the line search keeps to its bounds and comes back from where the law
     if (at > 0.6) throw Error("integration-failure", "too far");
     return 1.0 - 2.0 * at;
   });
-  CHECK(rho == Approx(0.5));
+  CHECK(rho == exactly(0.5));
   CHECK_THROWS_WITH(search_line(options, 1.0, [](double) -> double { throw Error("integration-failure", "nowhere"); }), "nowhere");
 }
 

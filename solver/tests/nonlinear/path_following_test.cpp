@@ -6,6 +6,7 @@
 
 #include "scene.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
@@ -103,7 +104,7 @@ TEST_CASE("Path following ends with the step that reaches a bound") {
   beyond.options.path->stops_at_bound = false;
   beyond.scene.solve(10, beyond.options);
   REQUIRE(beyond.scene.result.steps.size() == 4);
-  CHECK(intensity(beyond.scene, 3) == Approx(3.75));
+  CHECK(intensity(beyond.scene, 3) == exactly(3.75));
 }
 
 TEST_CASE("Path following: an intensity that may not fall, and a displacement that loads do not move") {

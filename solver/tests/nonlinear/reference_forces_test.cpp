@@ -5,6 +5,7 @@
 #include "scene.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/convergence.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
@@ -18,7 +19,7 @@ TEST_CASE("The reference force of a square's corner is the stress times half a s
   // The integral of |dN/dx| over the square is half of its height.
   const Eigen::VectorXd forces = reference_forces(*scene.problem.model, dofs, efforts);
   for (const auto& row : block.nodes)
-    for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == Approx(7.0 * (1.0 + 1.0)));
+    for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == exactly(7.0 * (1.0 + 1.0)));
 }
 
 TEST_CASE("Corners of mixed elements have their share of the volume times the strain and the stress") {
@@ -34,8 +35,8 @@ TEST_CASE("Corners of mixed elements have their share of the volume times the st
   efforts.strain = 0.01;
   const Eigen::VectorXd forces = reference_forces(model, dofs, efforts);
   for (int corner = 0; corner < 4; ++corner) {
-    CHECK(forces[dofs.dof(corner, Component::pressure)] == Approx(0.01 * 1.0));
-    CHECK(forces[dofs.dof(corner, Component::swelling)] == Approx(7.0 * 1.0));
+    CHECK(forces[dofs.dof(corner, Component::pressure)] == exactly(0.01 * 1.0));
+    CHECK(forces[dofs.dof(corner, Component::swelling)] == exactly(7.0 * 1.0));
   }
 }
 
@@ -64,11 +65,11 @@ TEST_CASE("Residuals of each kind of component are measured against internal for
   forces[dofs.dof(node, Component::dx)] = -100.0;
   forces[dofs.dof(node, Component::dy)] = 10.0;
   reference.begin_step(forces);
-  CHECK(*reference.share_by_component(residual) == Approx(0.05));
+  CHECK(*reference.share_by_component(residual) == exactly(0.05));
   // A kind without forces takes the largest of all.
   forces[dofs.dof(node, Component::dy)] = 0.0;
   reference.begin_step(forces);
-  CHECK(*reference.share_by_component(residual) == Approx(0.01));
+  CHECK(*reference.share_by_component(residual) == exactly(0.01));
 }
 
 TEST_CASE("RESI_COMP_RELA takes the loads where no internal force is known") {

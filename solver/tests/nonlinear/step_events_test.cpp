@@ -4,6 +4,7 @@
 #include "scene.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/residual_watch.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Cantilever;
@@ -119,7 +120,7 @@ TEST_CASE("a step that changes a field too much is cut as long as it may be") {
   const std::vector<double> instants = instants_of(cut.scene.result);
   REQUIRE(instants.back() == 1.0);
   // The deflection grows by 5 a unit of time.
-  for (std::size_t k = 1; k < instants.size(); ++k) CHECK(instants[k] - instants[k - 1] <= Approx(0.2));
+  for (std::size_t k = 1; k < instants.size(); ++k) CHECK(instants[k] - instants[k - 1] <= exactly(0.2));
   CHECK(instants.size() <= 8);
   CHECK(arrived == Approx(Cantilever().solve(StepPlan(instants), 30)).epsilon(1e-8));
 }
@@ -154,7 +155,7 @@ TEST_CASE("steps in which contact closes are as short as is asked for") {
     plan.events.front().cutting = StepCutting{2, 4, 0.0};
     Falling blocks(formulation);
     blocks.solve(plan);
-    CHECK(meeting_step(blocks.scene.result) == Approx(1.0 / 16));
+    CHECK(meeting_step(blocks.scene.result) == exactly(1.0 / 16));
     CHECK(blocks.scene.result.steps.size() < 8);
   }
   SECTION("or the computation ends there") {
@@ -165,9 +166,9 @@ TEST_CASE("steps in which contact closes are as short as is asked for") {
     plan.events.front().around = CollisionSteps{0.02, 0.5};
     Falling blocks(formulation);
     blocks.solve(plan);
-    CHECK(meeting_step(blocks.scene.result) == Approx(0.02));
+    CHECK(meeting_step(blocks.scene.result) == exactly(0.02));
     const std::vector<double> instants = instants_of(blocks.scene.result);
-    CHECK(instants[instants.size() - 2] == Approx(0.5));
+    CHECK(instants[instants.size() - 2] == exactly(0.5));
     CHECK(instants.size() == 27);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "solver/error.hpp"
 #include "solver/nonlinear/watched_increment.hpp"
+#include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 
@@ -68,7 +69,7 @@ TEST_CASE("a step may be cut in two where the program chooses the parts") {
   sequence.accept(1);
   CHECK(sequence.target() == 1.0);
   CHECK(sequence.cut(rule));
-  CHECK(sequence.target() == Approx(0.65));
+  CHECK(sequence.target() == exactly(0.65));
   int cuts = 2;
   while (sequence.cut(rule)) ++cuts;
   CHECK(cuts > 10);
@@ -86,7 +87,7 @@ TEST_CASE("for a while steps are no longer than a length, and meet the instants 
   }
   const std::vector<double> expected = {0.4, 0.8, 1.0, 1.4, 1.8, 2.0};
   REQUIRE(reached.size() == expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == Approx(expected[k]));
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == exactly(expected[k]));
 }
 
 TEST_CASE("hard steps make the next ones shorter where that is asked for") {
@@ -153,7 +154,7 @@ TEST_CASE("steps adapt so that a watched field changes by as much as is wanted")
   double before = 0.0, length = 0.5;
   for (std::size_t k = 0; k + 2 < reached.size(); ++k) {
     length *= 0.3 / (reached[k] * reached[k] - before * before);
-    CHECK(reached[k + 1] == Approx(reached[k] + length));
+    CHECK(reached[k + 1] == exactly(reached[k] + length));
     before = reached[k];
   }
   CHECK(reached.back() == 2.0);
@@ -174,7 +175,7 @@ TEST_CASE("after a step that an instant of the list made shorter the planned len
   }
   const std::vector<double> expected = {0.2, 0.4, 0.5, 0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.0};
   REQUIRE(reached.size() == expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == Approx(expected[k]));
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == exactly(expected[k]));
 }
 
 TEST_CASE("the change of a field is the largest over the places that are watched") {
