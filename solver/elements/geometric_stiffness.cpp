@@ -68,7 +68,7 @@ Eigen::Matrix3d stress_tensor(const double* s, int dimension) {
 /// Adds what the stress at one point makes of one cell's matrix.
 void add_point(const NodeColumns& places, const CellSample& sample, const Eigen::Matrix3d& stress, int dimension, bool axisymmetric, Eigen::MatrixXd& k) {
   const CellPoint point = locate(places, sample);
-  const double weight = std::abs(sample.weight * point.measure(dimension)) * (axisymmetric ? point.at[0] : 1.0);
+  const double weight = sample.weight * point.measure(dimension) * (axisymmetric ? point.at[0] : 1.0);
   const Eigen::MatrixXd gradients = sample.derivatives * point.tangents.topLeftCorner(dimension, dimension).inverse();
   const Eigen::MatrixXd pairs = weight * gradients * stress.topLeftCorner(dimension, dimension) * gradients.transpose();
   for (Eigen::Index a = 0; a < pairs.rows(); ++a) {

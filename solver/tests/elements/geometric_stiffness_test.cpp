@@ -53,18 +53,20 @@ TEST_CASE("section forces in balance that turn with a beam stay the same in its 
 }
 
 TEST_CASE("a stretched continuum resists turning by its stress", "[elements]") {
-  for (const CellType type : {CellType::quad4, CellType::tria6}) {
-    const Body body(single_cell(type), Formulation::plane_strain, elastic(10.0, 0.0));
+  // Tetrahedra on ten nodes have a point of negative weight.
+  for (const CellType type : {CellType::quad4, CellType::tria6, CellType::tetra10, CellType::hexa20, CellType::penta15, CellType::pyram13}) {
+    INFO(name_of(type));
+    const Formulation formulation = dimension(type) == 3 ? Formulation::solid : Formulation::plane_strain;
+    const Body body(single_cell(type), formulation, elastic(10.0, 0.0));
     const Eigen::VectorXd u = body.displacements([](const Point& at, int component) { return component == 0 ? 1e-3 * at[0] : 0.0; });
     const SymmetricMatrix lower = body.assembler->geometric_stiffness(u);
     const Eigen::MatrixXd k = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
     const Eigen::VectorXd aside = body.displacements([](const Point& at, int component) { return component == 1 ? at[0] : 0.0; });
     const Eigen::VectorXd across = body.displacements([](const Point& at, int component) { return component == 0 ? at[1] : 0.0; });
     // The stress is 1e-2 along x alone; the volume is what a unit strain energy of E = 2 measures.
-    double area = 0.0;
-    const Body unit(single_cell(type), Formulation::plane_strain, elastic(2.0, 0.0));
+    const Body unit(single_cell(type), formulation, elastic(2.0, 0.0));
     const Eigen::VectorXd stretch = unit.displacements([](const Point& at, int component) { return component == 0 ? at[0] : 0.0; });
-    area = 0.5 * stretch.dot(unit.dense_stiffness() * stretch);
+    const double area = 0.5 * stretch.dot(unit.dense_stiffness() * stretch);
     CHECK(aside.dot(k * aside) == Approx(1e-2 * area).epsilon(1e-12));
     CHECK(std::abs(across.dot(k * across)) <= 1e-12 * area);
   }
