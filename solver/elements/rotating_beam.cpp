@@ -26,17 +26,6 @@ using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Axes = Eigen::Matrix<Scalar, 3, 3>;
 
-/// The axes (rows) along a direction whose second is horizontal, then turned about the first, as own_axes() has them.
-Eigen::Matrix3d rolled_axes(const Eigen::Vector3d& along, double roll) {
-  const Eigen::Vector3d x = along.normalized();
-  const double level = std::hypot(x[0], x[1]);
-  const Eigen::Vector3d y = level > 0.0 ? Eigen::Vector3d(-x[1] / level, x[0] / level, 0.0) : Eigen::Vector3d::UnitY();
-  const Eigen::Vector3d z = x.cross(y);
-  Eigen::Matrix3d axes;
-  axes << x.transpose(), (std::cos(roll) * y + std::sin(roll) * z).transpose(), (std::cos(roll) * z - std::sin(roll) * y).transpose();
-  return axes;
-}
-
 /// The axes of `before`, moved along with their first direction the shortest way to another one, then turned about it.
 template <class Scalar>
 Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length, const Vector3<Scalar>& rotation) {
@@ -80,12 +69,12 @@ BeamGeometry<Scalar> geometry(const BeamPast& past, const Eigen::Matrix<Scalar, 
   const Vector3<Scalar> along = past.along.template cast<Scalar>() + motion.template head<3>();
   const Vector3<Scalar> rotation = motion.template tail<3>();
   const Scalar length = sqrt(along.dot(along));
-  return {carried_axes<Scalar>(rolled_axes(past.along, past.roll), along, length, rotation), length};
+  return {carried_axes<Scalar>(level_axes(past.along, past.roll), along, length, rotation), length};
 }
 
-/// By how much axes are rolled against those of own_axes() without roll.
+/// By how much axes are rolled against level_axes().
 double roll_of(const Eigen::Matrix3d& axes) {
-  const Eigen::Matrix3d level = rolled_axes(axes.row(0).transpose(), 0.0);
+  const Eigen::Matrix3d level = level_axes(axes.row(0).transpose());
   return std::atan2(axes.row(1).dot(level.row(2)), axes.row(1).dot(level.row(1)));
 }
 

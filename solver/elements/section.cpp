@@ -12,6 +12,8 @@ namespace {
 
 /// Directions (in radians) closer than this are the same but for rounding.
 constexpr double smallest_roll = 1e-12;
+/// A segment that leans less (sine of the angle) is vertical: turns and rounded coordinates leave such leans in columns.
+constexpr double smallest_lean = 1e-9;
 
 void check_count(std::size_t given, std::size_t expected, const Mesh& mesh, int cell) {
   if (given == expected) return;
@@ -88,6 +90,19 @@ Eigen::Vector3d along_segment(const Mesh& mesh, int cell) {
 
 }  // namespace
 
+Eigen::Matrix3d level_axes(const Eigen::Vector3d& along, double roll) {
+  Eigen::Vector3d x = along.normalized(), y = Eigen::Vector3d::UnitY();
+  const double level = std::hypot(x[0], x[1]);
+  if (level > smallest_lean)
+    y << -x[1] / level, x[0] / level, 0.0;
+  else
+    x << 0.0, 0.0, std::copysign(1.0, x[2]);
+  const Eigen::Vector3d z = x.cross(y);
+  Eigen::Matrix3d axes;
+  axes << x.transpose(), (std::cos(roll) * y + std::sin(roll) * z).transpose(), (std::cos(roll) * z - std::sin(roll) * y).transpose();
+  return axes;
+}
+
 Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
   const auto nodes = mesh.cell(cell);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
@@ -98,10 +113,7 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
       throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
                   "give the stiffness of a spring in global axes");
     }
-    const Eigen::Vector3d x = along / length;
-    const double level = std::hypot(x[0], x[1]);
-    const Eigen::Vector3d y = level > 0.0 ? Eigen::Vector3d(-x[1] / level, x[0] / level, 0.0) : Eigen::Vector3d::UnitY();
-    axes << x.transpose(), y.transpose(), x.cross(y).transpose();
+    return level_axes(along, roll);
   }
   if (roll == 0.0) return axes;
   return (Eigen::AngleAxisd(roll, axes.row(0).transpose()).toRotationMatrix() * axes.transpose()).transpose();

@@ -22,9 +22,12 @@ struct DiscreteStiffness {
 /// In which axes the values of a discrete stiffness are given.
 enum class DiscreteFrame : std::uint8_t { global, local };
 
-/// Own axes (rows) of a cell. A segment's first axis runs from its first node to its second; without a roll its second axis is
-/// horizontal (in the plane of the global X and Y), and is Y for a segment along Z: yaw and pitch of U4.42.01, ORIENTATION. `roll`
-/// then turns the second and third axes about the first, in radians. A point has the global axes, turned by `roll` about X.
+/// Axes (rows) along a direction that is not zero, the second horizontal (in the plane of the global X and Y), and Y where the first is along Z but for
+/// rounding; the second and third are then turned about the first by `roll`, in radians.
+Eigen::Matrix3d level_axes(const Eigen::Vector3d& along, double roll = 0.0);
+
+/// Own axes (rows) of a cell. A segment has level_axes() from its first node to its second: yaw, pitch and roll of U4.42.01, ORIENTATION.
+/// A point has the global axes, turned by `roll` about X.
 /// Throws Error `distorted-cell` for a segment without length.
 Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll = 0.0);
 

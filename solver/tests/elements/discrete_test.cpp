@@ -53,6 +53,11 @@ TEST_CASE("own axes of segments are right-handed, the first along the segment, t
     CHECK(axes(1, 2) == 0.0);
   }
   CHECK_THROWS_AS(own_axes(*segment({1, 1, 1}, {1, 1, 1}), 0), Error);
+  // Coordinates that are rounding turn nothing.
+  for (const Point& lean : {Point{0, 1e-16, 0}, Point{-3e-12, 0, 0}, Point{1e-17, -1e-16, 0}}) {
+    for (const double way : {1.0, -1.0})
+      CHECK(own_axes(*segment({0, 0, 0}, {lean[0], lean[1], 2 * way}), 0, 0.3) == own_axes(*segment({0, 0, 0}, {0, 0, 2 * way}), 0, 0.3));
+  }
 }
 
 TEST_CASE("springs in space with rotations keep their energy under a change of frame", "[elements]") {
