@@ -107,6 +107,30 @@ Eigen::VectorXd solve(const Body& body, const Eigen::VectorXd& force, Held&& hel
   return u;
 }
 
+TEST_CASE("the stiffness of a plate does not depend on the unit of length", "[elements]") {
+  constexpr double unit = 1e-4;
+  for (const Formulation formulation : both) {
+    for (const CellType type : {CellType::tria3, CellType::quad4}) {
+      CAPTURE(name_of(type));
+      const auto stiffness = [&](double scale) {
+        const PlateSection section{.thickness = 1e-3 * scale, .offset = 2e-4 * scale, .direction = Eigen::Vector3d::UnitX(), .drilling = 0.0};
+        return plate(rectangle(type, 0.3 * scale, 0.2 * scale, 1, 1, 0.0, {}), formulation, section).dense_stiffness();
+      };
+      const Eigen::MatrixXd one = stiffness(1.0), other = stiffness(unit);
+      // Translations by translations, translations by rotations, rotations by rotations.
+      std::array<double, 3> largest{}, off{};
+      for (Eigen::Index i = 0; i < one.rows(); ++i) {
+        for (Eigen::Index j = 0; j < one.cols(); ++j) {
+          const std::size_t rotations = (i % 6 >= 3) + (j % 6 >= 3);
+          largest[rotations] = std::max(largest[rotations], std::abs(one(i, j)));
+          off[rotations] = std::max(off[rotations], std::abs(one(i, j) - other(i, j) / std::pow(unit, 1.0 + static_cast<double>(rotations))));
+        }
+      }
+      for (std::size_t kind = 0; kind < 3; ++kind) CHECK(off[kind] <= 2e-14 * largest[kind]);
+    }
+  }
+}
+
 TEST_CASE("plates have constant strains and curvatures exactly, on distorted meshes, in the axes asked for", "[elements]") {
   const Place place = tilted();
   const Eigen::Vector3d e(1e-4, -3e-4, 2e-4), k(2e-3, 1e-3, -3e-3);
