@@ -30,6 +30,15 @@ void require_initial_places(const Keywords& excitation, const solver::Load& load
                         excitation.span_of("CHARGE"), "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
 }
 
+// What grows with the distance from an axis or has axes that turn with the body is another force on the deformed body.
+void require_no_others_that_follow(const Keywords& excitation, const solver::Load& load) {
+  const bool turn = std::ranges::any_of(load.beam_forces, [](const solver::BeamForce& each) { return each.axes == solver::BeamAxes::own; }) ||
+                    std::ranges::any_of(load.plate_forces, [](const solver::PlateForce& each) { return each.in_own_axes; });
+  if (load.rotations.empty() && !turn) return;
+  throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + (turn ? " has forces in the axes of beams or plates" : " has centrifugal forces (ROTATION)") + ", which comma does not let follow the body",
+                        excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where displacements are small");
+}
+
 // TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces and displacements of single nodes are the same on any geometry.
 void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
   const solver::Load& load = *applied.load;
@@ -38,6 +47,7 @@ void add_following(const Keywords& excitation, const solver::AppliedLoad& applie
     throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + " has relations between displacements other than LIAISON_SOLIDE, which comma does not let follow large rotations yet",
                           excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where rotations are small");
   }
+  require_no_others_that_follow(excitation, load);
   auto following = std::make_shared<solver::Load>();
   following->pressures = load.pressures;
   auto dead = std::make_shared<solver::Load>(load);

@@ -1,7 +1,6 @@
 #include "solver/elements/follower_forces.hpp"
 
 #include "solver/elements/external_forces.hpp"
-#include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
 #include "solver/mesh/place.hpp"
 
@@ -34,15 +33,6 @@ Matrix3d normal_change(const CellPoint& now, const CellSample& sample, Eigen::In
   return sample.derivatives(b, 1) * cross_matrix(now.tangents.col(0)) - sample.derivatives(b, 0) * cross_matrix(now.tangents.col(1));
 }
 
-void require_pressures_alone(const Load& load) {
-  const bool others = !load.relations.empty() || !load.nodal_forces.empty() || !load.distributed_forces.empty() || !load.beam_forces.empty() ||
-                      !load.gravities.empty() || !load.rotations.empty() || !load.initial_strains.empty() || !load.initial_slender_strains.empty() || !load.initial_plate_strains.empty() ||
-                      !load.initial_strain_fields.empty() || !load.initial_stress_fields.empty() || !load.plate_forces.empty();
-  if (!others) return;
-  throw Error("unsupported", "of loads that follow the body comma knows pressures alone, and this one has something else",
-              "put pressures into a load of their own, and let the rest act on the initial geometry");
-}
-
 }  // namespace
 
 /// What acts on a unit of reference measure, but for the radius.
@@ -55,7 +45,6 @@ struct FollowerForces::Traction {
 FollowerForces::FollowerForces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads)
     : model_(model), dofs_(dofs), loads_(loads) {
   for (const AppliedLoad& applied : loads) {
-    require_pressures_alone(*applied.load);
     for (const PressureLoad& pressure : applied.load->pressures) check_pressure(model, pressure);
   }
 }

@@ -19,8 +19,7 @@ namespace comma::solver {
 /// the deformed radius.
 class FollowerForces {
  public:
-  /// Keeps references to its arguments. Throws Error `unsupported` for a load that has more than pressures, and what check_pressure()
-  /// throws (external_forces.hpp).
+  /// Keeps references to its arguments. Of the loads the pressures alone count. Throws what check_pressure() throws (external_forces.hpp).
   FollowerForces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads);
 
   bool empty() const { return loads_.empty(); }

@@ -122,11 +122,3 @@ TEST_CASE("on the body at rest pressures that follow are those that do not", "[l
     CHECK((scene.forces.at(lifted) - fixed).norm() < 1e-13 * fixed.norm());
   }
 }
-
-TEST_CASE("loads other than pressures do not follow", "[loads]") {
-  const Body body(with_skin(CellType::quad4, 0.0), Formulation::plane_strain, dense(1.0, 0.3, 1.0));
-  Load load;
-  load.nodal_forces.push_back({0, Component::dx, 1.0, {}});
-  const std::vector<AppliedLoad> loads = applied(load);
-  CHECK_THROWS_AS(FollowerForces(body.model, *body.dofs, loads), Error);
-}
