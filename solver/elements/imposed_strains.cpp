@@ -16,8 +16,14 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
 
-void check_continuum(const Model& model, int cell) {
+void check_continuum(const Model& model, const InitialStrain& load) {
+  const int cell = load.cell;
   const int body = continuum_dimension(model.formulations[cell]);
+  const bool leads_out = load.strain[4] != 0.0 || load.strain[5] != 0.0 || load.functions[4] || load.functions[5];
+  if (body == 2 && leads_out) {
+    throw Error("unknown-component", fmt::format("an initial strain of the plane cell {} has EPXZ or EPYZ, which lead out of the plane", model.mesh->cell_name(cell)),
+                "leave them out");
+  }
   if (body > 0 && dimension(model.mesh->cell_types[cell]) == body) return;
   throw Error("unsupported",
               fmt::format("an initial strain is given in cell {}, a {}, which is no part of a solid or plane body",
@@ -69,7 +75,7 @@ ImposedStrains::ImposedStrains(const Model& model, std::span<const AppliedLoad> 
     if (!gives_initial_strains(*applied.load)) continue;
     const double factor = applied.multiplier ? applied.multiplier(time) : 1.0;
     for (const InitialStrain& strain : applied.load->initial_strains) {
-      check_continuum(model, strain.cell);
+      check_continuum(model, strain);
       continuum_[strain.cell].push_back({&strain, factor});
     }
     for (const InitialSlenderStrain& strain : applied.load->initial_slender_strains) {
