@@ -198,7 +198,7 @@ void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableS
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
 }
 
-void ElementBlock::add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const {
+void ElementBlock::add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const {
   throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
 }
 
@@ -259,7 +259,7 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
     const Formulation formulation = model_.formulations[cell];
     if (continuum_dimension(formulation) == 0 || mixed_field_count(formulation) > 0) {
       try {
-        block->add_geometric_stiffness(u, state_, starts, matrix.valuePtr());
+        block->add_geometric_stiffness(stresses_of(*block, u, state_, imposed_.get()), state_, starts, matrix.valuePtr());
       } catch (const Error& error) {
         throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)), error.hint());
       }
@@ -269,7 +269,7 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
       throw Error("unsupported", fmt::format("cell {}: the stiffness that stresses add is not known of cells with one point of integration", model_.mesh->cell_name(cell)));
     const int nodes = static_cast<int>(model_.mesh->cell(cell).size());
     const ElementMap map(blocks_->pattern, dofs_, model_.components_of(cell), nodes, gather_nodes(*model_.mesh, block->cells()));
-    add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map, stresses_of(*block, u, state_, nullptr), starts, matrix.valuePtr());
+    add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map, stresses_of(*block, u, state_, imposed_.get()), starts, matrix.valuePtr());
   }
   return matrix;
 }

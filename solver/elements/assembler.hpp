@@ -52,7 +52,7 @@ class Assembler {
   /// The same as if materials could only answer elastically from where they are.
   SymmetricMatrix elastic_stiffness(const Eigen::VectorXd& u) const;
 
-  /// Lower triangle of what the stresses at u add to the stiffness of small displacements from there (initial stress stiffness, R7.05.01).
+  /// Lower triangle of what the stresses at u, less those of the strains that impose_strains() has given, add to the stiffness of small displacements from there (initial stress stiffness, R7.05.01).
   /// Throws Error `unsupported` where an element knows none.
   SymmetricMatrix geometric_stiffness(const Eigen::VectorXd& u) const;
 

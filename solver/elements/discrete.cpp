@@ -35,7 +35,7 @@ class DiscreteBlock final : public ElementBlock {
     }
   }
 
-  void add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const override {}
+  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
   bool is_symmetric() const override { return symmetric_; }
 

@@ -48,7 +48,7 @@ class DiscreteContact final : public ElementBlock {
     }
   }
 
-  void add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const override {}
+  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
   bool is_symmetric() const override {
     return std::ranges::none_of(members_, [](const Member& each) { return each.spring->friction > 0.0 && each.spring->tangential > 0.0; });

@@ -35,7 +35,7 @@ class DiscreteLaw final : public ElementBlock {
   void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) add(element, elastic(element, state), column_starts, values);
   }
-  void add_geometric_stiffness(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const override {}
+  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element) add(element, answer(element, u, state).force, forces);

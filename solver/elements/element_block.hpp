@@ -54,9 +54,11 @@ class ElementBlock {
   virtual void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const { add_internal_forces(u, state, forces); }
   /// The forces at u with which the elastic material would hold up the strains of the command variables; 0 of elements with a memory that know none.
   virtual void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const;
-  /// What the stresses at u add to the stiffness when the element turns, in small displacements from u (R7.05.01). Throws Error `unsupported`
-  /// where the element knows none.
-  virtual void add_geometric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const;
+  /// What stresses, laid out as in stresses(), add to the stiffness when the element turns, in small displacements (R7.05.01). Throws Error
+  /// `unsupported` where the element knows none.
+  virtual void add_geometric_stiffness(std::span<const double> stresses, const VariableState& state, std::span<const int> column_starts, double* values) const;
+  /// By what the rows that are no forces are multiplied to be of the size of forces; other rows are left alone.
+  virtual void weigh_rows(const VariableState&, std::span<double>) const {}
   /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory. In plane stress
   /// with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
   virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {

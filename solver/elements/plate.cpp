@@ -167,7 +167,10 @@ class PlateBlock final : public ElementBlock {
     }
   }
 
+  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    for (const int cell : cells_)
+      if (imposed_ != nullptr && imposed_->acts_on(cell)) throw Error("unsupported", fmt::format("cell {}: the energy of plates is not known beside initial strains (PRE_EPSI)", mesh_.cell_name(cell)));
     std::array<int, size> dofs;
     Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -370,6 +373,7 @@ class PlateBlock final : public ElementBlock {
   std::vector<int> cells_;
   ElementMap map_;
   Quadrature points_;
+  const ImposedStrains* imposed_ = nullptr;
   std::vector<Plate<Nodes>> plates_;
   std::vector<Matrix> matrices_;  ///< where the material is constant
 };

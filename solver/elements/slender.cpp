@@ -125,9 +125,7 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  void add_geometric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
-    std::vector<double> forces(cells_.size() * static_cast<std::size_t>(point_count()) * stress_names().size());
-    stresses(u, state, forces);
+  void add_geometric_stiffness(std::span<const double> forces, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own = forces.data() + static_cast<std::size_t>(element * point_count()) * stress_names().size();
       const Matrix k = named(element, [&] { return geometric_matrix(element, own, state); });
@@ -171,7 +169,8 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  /// 1/2 u K u - u f + 1/2 E A strain^2 L with the forces f and the axial strain of the command variables.
+  /// 1/2 u K u - u f + 1/2 E A strain^2 L with the forces f and the axial strain of the command variables; of initial strains the work of the
+  /// section forces on them is taken off besides.
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -185,12 +184,14 @@ class SlenderBlock final : public ElementBlock {
       // `force` lacks f, so that u . force = u K u - u f: half of u f is missing still.
       const double length = members_[element].segment.length;
       out[element] = 0.5 * (work - expansion.force * (elongation - expansion.strain * length));
+      if (imposed_ != nullptr && imposed_->acts_on(cells_[element])) out[element] -= work_on_imposed(*imposed_, element, mean_forces(element, force), state);
     }
   }
 
   bool is_linear() const override { return true; }
   bool is_constant() const override { return constant_; }
 
+  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -226,9 +227,6 @@ class SlenderBlock final : public ElementBlock {
  private:
   /// N, MFY and MFZ of the imposed strain at the middle of an element.
   Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element, const VariableState& state) const {
-    const auto nodes = map_.nodes(element);
-    const Eigen::Vector3d middle = 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
-                                          Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data()));
     const Member& member = members_[element];
     if (varies(*member.section) && imposed.acts_on(cells_[element])) {
       throw Error("unsupported", fmt::format("an initial strain acts on the beam of cell {}, whose section varies", mesh_.cell_name(cells_[element])),
@@ -236,10 +234,26 @@ class SlenderBlock final : public ElementBlock {
     }
     const double young = named(element, [&] { return member.material->young(material_point(element, state)); });
     const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0, is_beam ? member.section->inertia_z : 0.0);
-    return young * section.cwiseProduct(imposed.slender(cells_[element], middle));
+    return young * section.cwiseProduct(imposed_strain(imposed, element));
+  }
+  Eigen::Vector3d imposed_strain(const ImposedStrains& imposed, int element) const {
+    const auto nodes = map_.nodes(element);
+    return imposed.slender(cells_[element], 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) + Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data())));
   }
 
   using Forces = std::array<long double, size>;
+
+  /// N, MFY and MFZ of the displacements, by their mean over the element.
+  Eigen::Vector3d mean_forces(int element, const Forces& force) const {
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3 && i < Components; ++i) pull[i] = static_cast<double>(force[Components + i]);
+    for (int i = 3; i < Components; ++i) moment[i - 3] = 0.5 * static_cast<double>(force[Components + i] - force[i]);
+    return {axes(element).row(0).dot(pull), axes(element).row(1).dot(moment), axes(element).row(2).dot(moment)};
+  }
+  /// By what initial strains lessen the elastic energy of an element with these forces: 1/2 r e^2 is left of them alone.
+  double work_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces, const VariableState& state) const {
+    return members_[element].segment.length * imposed_strain(imposed, element).dot(forces - 0.5 * imposed_resultants(imposed, element, state));
+  }
 
   /// The axial strain of the command variables, and the compression that holding it back takes.
   struct Expansion {
@@ -354,6 +368,7 @@ class SlenderBlock final : public ElementBlock {
   bool constant_ = true;
   std::vector<int> cells_;
   ElementMap map_;
+  const ImposedStrains* imposed_ = nullptr;
   std::vector<Member> members_;
   std::vector<Matrix> matrices_;  ///< where the material is constant
 };

@@ -81,6 +81,15 @@ const IsotropicElasticity& isotropic(const FieldInput& input, int cell) {
               fmt::format("the bar or beam on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
 }
 
+/// Elongation and curvatures in the middle of a cell.
+Eigen::Vector3d initial_strain(const FieldInput& input, const ImposedStrains* imposed, int cell) {
+  if (imposed == nullptr || !imposed->acts_on(cell)) return Eigen::Vector3d::Zero();
+  const Mesh& mesh = *input.model.mesh;
+  const auto nodes = mesh.cell(cell);
+  const Point &first = mesh.nodes[static_cast<std::size_t>(nodes[0])], &second = mesh.nodes[static_cast<std::size_t>(nodes[1])];
+  return imposed->slender(cell, 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data())));
+}
+
 }  // namespace
 
 ElementField force_stresses(const FieldInput& input, const ElementField& forces) {
@@ -105,14 +114,15 @@ ElementField extreme_stresses(const FieldInput& input, const ElementField& force
                     });
 }
 
-ElementField generalised_strains(const FieldInput& input, const ElementField& forces) {
+ElementField generalised_strains(const FieldInput& input, const ElementField& forces, const ImposedStrains* imposed) {
   return on_members(input, forces, "EPSI_R", {"EPXX", "GAXY", "GAXZ", "GAT", "KY", "KZ"},
                     [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
                       const MaterialPoint at = middle_point(input, cell);
+                      const Eigen::Vector3d initial = initial_strain(input, imposed, cell);
                       const IsotropicElasticity& material = isotropic(input, cell);
                       const IsotropicModuli m = moduli(material, at);
                       const double shear = m.young / (2 * (1 + m.poisson));
-                      target[0] = f.n / (m.young * section.area) + inelastic_axial_strain(material, at);
+                      target[0] = f.n / (m.young * section.area) + inelastic_axial_strain(material, at) + initial[0];
                       const Formulation formulation = input.model.formulations[cell];
                       if (!is_beam(formulation)) return;
                       if (formulation == Formulation::timoshenko_beam) {
@@ -120,8 +130,8 @@ ElementField generalised_strains(const FieldInput& input, const ElementField& fo
                         target[2] = f.vz * section.shear_z / (shear * section.area);
                       }
                       target[3] = f.mt / (shear * section.torsion);
-                      target[4] = f.mfy / (m.young * section.inertia_y);
-                      target[5] = f.mfz / (m.young * section.inertia_z);
+                      target[4] = f.mfy / (m.young * section.inertia_y) + initial[1];
+                      target[5] = f.mfz / (m.young * section.inertia_z) + initial[2];
                     });
 }
 

@@ -2,6 +2,7 @@
 // U4.81.04).
 #pragma once
 
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 
@@ -18,8 +19,8 @@ ElementField force_stresses(const FieldInput& input, const ElementField& forces)
 /// the rim of a circle. Throws Error `unsupported` naming a beam of general section, whose outline is not known.
 ElementField extreme_stresses(const FieldInput& input, const ElementField& forces);
 
-/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, thermal elongation included. Shear angles are 0 in Euler's
+/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, those of command variables and `imposed` ones (null: none) included. Shear angles are 0 in Euler's
 /// beams.
-ElementField generalised_strains(const FieldInput& input, const ElementField& forces);
+ElementField generalised_strains(const FieldInput& input, const ElementField& forces, const ImposedStrains* imposed = nullptr);
 
 }  // namespace comma::solver

@@ -245,14 +245,16 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 Field FieldComputation::section_strains(std::size_t step) {
   const ElementField forces = section_forces(element_field("SIEF_ELNO", step));
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
-  if (!names_one("NXX")) return generalised_strains(input(), forces);
+  const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
+  if (!names_one("NXX")) return generalised_strains(input(), forces, &imposed);
   if (assembler_.imposes_strains()) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
   const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
-  return names_one("N") ? side_by_side(generalised_strains(input(), forces), of_plates) : of_plates;
+  return names_one("N") ? side_by_side(generalised_strains(input(), forces, &imposed), of_plates) : of_plates;
 }
 
 Field FieldComputation::section_strains_at_points(std::size_t step) {
-  return generalised_strains(input(), element_field("EFGE_ELGA", step));
+  const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
+  return generalised_strains(input(), element_field("EFGE_ELGA", step), &imposed);
 }
 
 Field FieldComputation::total_strains(std::size_t step) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/generalised_eigen.hpp"
 
@@ -65,6 +66,8 @@ bool is_instability(const StabilityAnalysis& analysis, double value) {
 void require_modes(const StabilityAnalysis& analysis, const StaticProblem& problem) {
   if (problem.contact || !problem.unilateral.empty() || !problem.followers.empty())
     throw Error("unsupported", "modes of buckling are not known together with contact, unilateral conditions or loads that follow", "leave out CRIT_STAB");
+  if (std::ranges::any_of(problem.driven, [](const AppliedLoad& each) { return gives_initial_strains(*each.load); }))
+    throw Error("unsupported", "modes of buckling are not known together with initial strains (PRE_EPSI) whose intensity PILOTAGE finds", "leave out CRIT_STAB");
   if (!problem.behaviours || !analysis.geometric) return;
   for (std::size_t cell = 0; cell < problem.behaviours->size(); ++cell) {
     if (problem.model->formulations[cell] == Formulation::none || (*problem.behaviours)[cell].kinematics == Kinematics::small) continue;

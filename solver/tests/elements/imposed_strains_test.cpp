@@ -80,7 +80,7 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
     mesh->add_cell(CellType::seg2, std::array{0, 1});
     ElementProperties properties;
     properties.sections[0] = {.area = 0.5, .inertia_y = 0.02, .inertia_z = 0.03, .torsion = 0.01, .shear_y = 1.2, .shear_z = 1.3, .roll = 0.3};
-    const Body body(mesh, std::vector{formulation}, elastic(100.0, 0.25), properties);
+    Body body(mesh, std::vector{formulation}, elastic(100.0, 0.25), properties);
     const double elongation = 1e-3, curvature_y = beam ? 2e-3 : 0.0, curvature_z = beam ? -3e-3 : 0.0;
     Load load;
     load.initial_slender_strains.push_back({0, {elongation, curvature_y, curvature_z}, {}});
@@ -98,6 +98,13 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
     CHECK((body.assembler->internal_forces(u) - body.assembler->external_forces(applied(load), 0.0)).norm() < 1e-14);
     CHECK(largest_stress(body.assembler->stresses(u, applied(load), 0.0)) < 1e-14);
     CHECK(body.assembler->stresses(body.zero(), applied(load), 0.0).at(0, 0, 0) == exactly(-100.0 * 0.5 * elongation));
+    // No energy where there is no stress; held back, that of what the section bears.
+    const auto loads = applied(load);
+    body.assembler->impose_strains(loads, 0.0);
+    const double held = 0.5 * 2.0 * 100.0 * (0.5 * elongation * elongation + 0.02 * curvature_y * curvature_y + 0.03 * curvature_z * curvature_z);
+    CHECK(std::abs(body.assembler->elastic_energies(u).values[0]) <= 1e-14 * held);
+    CHECK(body.assembler->elastic_energies(body.zero()).values[0] == Approx(held).epsilon(1e-13));
+    CHECK(body.assembler->geometric_stiffness(u).norm() <= 1e-13);
     if (beam) continue;
     load.initial_slender_strains[0].strain[1] = 1.0;
     CHECK_THROWS_WITH(body.assembler->external_forces(applied(load), 0.0), Catch::Contains("curvature"));
@@ -165,8 +172,8 @@ TEST_CASE("initial strains are refused where there is no such strain", "[loads]"
   beam.initial_slender_strains.push_back({0, {1.0, 0, 0}, {}});
   CHECK_THROWS_WITH(body.assembler->external_forces(applied(skin), 0.0), Catch::Contains("M2"));
   CHECK_THROWS_WITH(body.assembler->external_forces(applied(beam), 0.0), Catch::Contains("M1"));
-}
   const Body plane(single_cell(CellType::quad4), Formulation::axisymmetric, elastic(100.0, 0.25));
   Load out;
   out.initial_strains.push_back({0, {0, 0, 0, 0, 1e-3, 0}, {}});
   CHECK_THROWS_WITH(plane.assembler->external_forces(applied(out), 0.0), Catch::Contains("EPXZ"));
+}
