@@ -294,6 +294,13 @@ Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
   return state_.empty() && !imposed_ ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
 }
 
+Eigen::VectorXd Assembler::residual_weights() const {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(dofs_.size());
+  for (const auto& block : blocks_->list) block->weigh_rows(state_, {weights.data(), static_cast<std::size_t>(weights.size())});
+  if (weights.isZero(0.0)) return {};
+  return (weights.array() > 0.0).select(weights, 1.0);
+}
+
 Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) {

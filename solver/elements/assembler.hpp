@@ -65,6 +65,11 @@ class Assembler {
   /// the equilibrium of a stiff body held by weak springs is not drowned in rounding.
   Eigen::VectorXd internal_forces(const Eigen::VectorXd& u) const;
 
+  /// By what residuals (n) are multiplied before they are measured beside forces: 1 for forces; Young's modulus over the size of the cell
+  /// where the balance is one of volumes (the pressure's), one over that size where it is one of stresses times volumes (the swelling's). Empty
+  /// where all are forces.
+  Eigen::VectorXd residual_weights() const;
+
   /// The internal forces (n) of a field of stresses as stresses() gives it. Where materials have no memory, those of u.
   Eigen::VectorXd forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
 

@@ -89,6 +89,22 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override { add_internal_forces(u, state, forces); }
 
+  void weigh_rows(const VariableState& state, std::span<double> weights) const override {
+    std::array<int, most_unknowns> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      const Coordinates x = this->coordinates(element);
+      const double length = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+      const Constants constants(*this, element, 0, x, state);
+      const double bulk = constants.plastic->bulk, shear = constants.plastic->shear;
+      const double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+      unknowns_.dofs(this->map_.nodes(element), dofs.data());
+      for (int k = 0; k < unknowns_.count(); ++k) {
+        double& weight = weights[static_cast<std::size_t>(dofs[static_cast<std::size_t>(k)])];
+        weight = std::max(weight, (k < corners_ ? young : 1.0) / length);
+      }
+    }
+  }
+
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
     if (!has_memory()) return add_internal_forces(u, state, forces);
     add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient, const Fields& fields) {

@@ -18,6 +18,22 @@ double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, 
   return variable_forces.size() ? std::max(size, largest_component(internal + variable_forces)) : size;
 }
 
+void RowWeights::take(const Assembler& assembler, const Elimination& elimination) {
+  all_ = assembler.residual_weights();
+  if (all_.size()) reduced_ = all_(elimination.kept());
+}
+
+Eigen::VectorXd RowWeights::weighed(const Eigen::VectorXd& reduced_residual) const {
+  if (!all_.size()) return reduced_residual;
+  return reduced_.cwiseProduct(reduced_residual);
+}
+
+double RowWeights::load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) const {
+  if (!all_.size()) return solver::load_size(loads, internal, variable_forces);
+  const Eigen::VectorXd pushed = variable_forces.size() ? Eigen::VectorXd(all_.cwiseProduct(variable_forces)) : variable_forces;
+  return solver::load_size(all_.cwiseProduct(loads), all_.cwiseProduct(internal), pushed);
+}
+
 ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred, std::optional<double> by_component) const {
   Measure result;
   result.absolute = residual;

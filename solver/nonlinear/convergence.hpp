@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "solver/constraints/elimination.hpp"
+#include "solver/elements/assembler.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
@@ -11,6 +13,20 @@ namespace comma::solver {
 /// What a residual is measured against: the largest of the loads, of what they leave to supports and contact, and of these and the forces of the command
 /// variables together, which the internal ones balance (R5.03.01). `variable_forces`: as Assembler::variable_forces() gives them.
 double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces);
+
+/// Measures residuals beside forces where some rows are none: see Assembler::residual_weights().
+class RowWeights {
+ public:
+  /// Those of the assembler's instant.
+  void take(const Assembler& assembler, const Elimination& elimination);
+  Eigen::VectorXd weighed(const Eigen::VectorXd& reduced_residual) const;
+  /// load_size() with weights.
+  double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) const;
+
+ private:
+  Eigen::VectorXd all_;  ///< empty: 1
+  Eigen::VectorXd reduced_;
+};
 
 /// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
 /// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks

@@ -123,6 +123,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces(state.u);
+  weights_.take(assembler_, elimination_);
   if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
@@ -174,12 +175,12 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
   residual_ = elimination_.transformation().transpose() * (loads - internal);
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = load_size(loads, internal, variable_forces_);
+  load_ = weights_.load_size(loads, internal, variable_forces_);
   applied_ = largest_component(loads);
 }
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
-  return criterion_.measure(largest_component(residual_), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
+  return criterion_.measure(largest_component(weights_.weighed(residual_)), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that the loads are lost in them: a body
@@ -375,7 +376,7 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
   line.iteration = iteration;
   line.relative_residual = measure.relative;
   line.absolute_residual = measure.absolute;
-  line.worst = worst_place(residual_, elimination_, dofs_, mesh_);
+  line.worst = worst_place(weights_.weighed(residual_), elimination_, dofs_, mesh_);
   line.active_conditions = mixed_ ? mixed_->closed_count() : static_cast<int>(active_.size());
   line.contact_changes = changes;
   line.penetration = penetration(state);

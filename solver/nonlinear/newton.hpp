@@ -146,6 +146,7 @@ class NewtonSolver {
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
   Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push (all unknowns); empty where there are none
+  RowWeights weights_;
   double load_ = 0.0;
   double applied_ = 0.0;  ///< the largest component of the external forces
   int steps_ = 0;                    ///< accepted so far

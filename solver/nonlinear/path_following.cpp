@@ -67,6 +67,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   time_ = time;
   start_ = u;
   variable_forces_ = assembler_.variable_forces(u);
+  weights_.take(assembler_, elimination_);
   intensity_ = accepted_;
   ended_ = false;
   if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
@@ -97,7 +98,7 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
-    const auto measure = criterion_.measure(largest_component(residual_), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
+    const auto measure = criterion_.measure(largest_component(weights_.weighed(residual_)), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -292,7 +293,7 @@ void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const V
   const VectorXd forces = loads.fixed + intensity * loads.driven;
   const VectorXd internal = assembler_.internal_forces(u);
   residual_ = elimination_.transformation().transpose() * (forces - internal);
-  load_ = load_size(forces, internal, variable_forces_);
+  load_ = weights_.load_size(forces, internal, variable_forces_);
 }
 
 IterationReport PathFollowing::report(int iteration, const ConvergenceCriterion::Measure& measure) const {

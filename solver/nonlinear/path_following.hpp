@@ -109,6 +109,7 @@ class PathFollowing {
   Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push in this step
   Eigen::VectorXd last_step_;  ///< increment of the last accepted step; empty before it
   Eigen::VectorXd residual_;   ///< reduced
+  RowWeights weights_;
   double load_ = 0.0;
   int steps_ = 0;
   bool ended_ = false;

@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "scene.hpp"
 #include "solver/error.hpp"
@@ -222,6 +225,36 @@ TEST_CASE("steps that extrapolate the flow are linear, and their error is of the
   CHECK(elastic.at_first_point("SIEF_ELGA", "SIYY", 1) == exactly(4.0));
   Square moving(0.01, {Kinematics::small, Relation::kinematic_linear});
   CHECK_THROWS_WITH(moving.scene.solve(1, options), Catch::Contains("IMPLEX"));
+}
+
+TEST_CASE("the verdict on mixed elements does not depend on the unit of stress") {
+  // A free ring that is heated, in logarithmic strains: every length grows by the factor exp(alpha (T - T_ref)).
+  constexpr double expansion = 5e-4, heating = 100.0;
+  for (const double unit : {1.0, 1e5, 2e11}) {
+    CAPTURE(unit);
+    Scene scene;
+    std::vector<int> nodes;
+    for (const auto& [x, y] : {std::pair{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.5, 0.0}, {2.0, 0.5}, {1.5, 1.0}, {1.0, 0.5}})
+      nodes.push_back(scene.node("N" + std::to_string(nodes.size()), x, y));
+    scene.cell("ring", CellType::quad8, nodes, Formulation::axisymmetric_swelling);
+    scene.impose({nodes[0], nodes[4], nodes[1]}, Component::dy, 0.0);
+    IsotropicElasticity elasticity{unit, 0.3};
+    elasticity.expansion = expansion;
+    Material material;
+    material.elasticity = elasticity;
+    CommandVariable temperature;
+    temperature.reference = 20.0;
+    for (const double time : {0.0, 1.0})
+      temperature.snapshots.push_back({time, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(nodes.size(), 20.0 + heating * time)})});
+    MaterialField materials;
+    materials.by_cell = {std::make_shared<const Material>(material)};
+    materials.variables = {temperature};
+    scene.problem.materials = std::make_shared<const MaterialField>(materials);
+    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(1, CellBehaviour{Kinematics::logarithmic, Relation::elastic});
+    scene.solve(1);
+    CHECK(scene.displacement(nodes[2], Component::dy) == Approx(std::expm1(expansion * heating)).epsilon(1e-6));
+    CHECK(scene.displacement(nodes[2], Component::dx) == Approx(2.0 * std::expm1(expansion * heating)).epsilon(1e-6));
+  }
 }
 
 }  // namespace plasticity_test
