@@ -55,10 +55,12 @@ Field at_time(const CommandVariable& variable, double time) {
   return share == 0.0 ? before : blend(before, *variable.snapshots[first + 1].field, share, variable.variable);
 }
 
+/// From the first value, so that one that is the same everywhere stays it to the last bit: strains are made from differences to a reference.
 double interpolate(std::span<const double> shape, auto&& value_at) {
+  const double first = value_at(0);
   double sum = 0.0;
-  for (std::size_t a = 0; a < shape.size(); ++a) sum += shape[a] * value_at(a);
-  return sum;
+  for (std::size_t a = 1; a < shape.size(); ++a) sum += shape[a] * (value_at(a) - first);
+  return first + sum;
 }
 
 }  // namespace

@@ -44,6 +44,16 @@ TEST_CASE("command variables are linear in time and place", "[materials]") {
   CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == exactly(400.0));
 }
 
+TEST_CASE("a uniform command variable is uniform to the last bit", "[materials]") {
+  const Mesh mesh = two_bars();
+  CommandVariable variable;
+  variable.reference = 20.1;
+  variable.snapshots = {{0.0, nodal({20.1, 20.1, 20.1})}};
+  const std::vector variables = {variable};
+  const VariableState state(mesh, variables, 0.0);
+  for (double share = 0.0; share <= 1.0; share += 0.0617) CHECK(temperature(mesh, state, 0, share) == 20.1);
+}
+
 TEST_CASE("a command variable may run through its instants at a pace of its own", "[materials]") {
   const Mesh mesh = two_bars();
   std::vector variables = {heating()};
