@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <map>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
@@ -40,6 +44,18 @@ const std::map<std::string, Formulation, std::less<>>& formulations() {
   return table;
 }
 
+// Plane elements see X and Y alone, and loads on their edges the length in space.
+void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assignment) {
+  constexpr double largest_slope = 1e-3;  // the error in lengths is half of its square
+  Eigen::AlignedBox3d box;
+  for (const int node : mesh.cell(cell)) box.extend(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data())));
+  const Eigen::Vector3d size = box.sizes();
+  if (!(size[2] > largest_slope * size.head<2>().norm())) return;
+  throw interpreter::DiagnosticError("out-of-plane",
+                                     fmt::format("AFFE_MODELE: cell {} of a plane model does not lie in a plane Z = constant: Z varies by {:.3g} over it", mesh.cell_name(cell), size[2]),
+                                     assignment.span, "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
+}
+
 }  // namespace
 
 Product affe_modele(const Call& call, Context&) {
@@ -53,6 +69,7 @@ Product affe_modele(const Call& call, Context&) {
     for (const int cell : selected_cells(assignment, mesh)) {
       // A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay as they are.
       if (!solver::has_element(formulation, mesh.cell_types[cell])) continue;
+      if (solver::continuum_dimension(formulation) == 2) require_flat_cell(mesh, cell, assignment);
       model->formulations[cell] = formulation;
       ++assigned;
     }
