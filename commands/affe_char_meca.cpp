@@ -1,5 +1,12 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "commands/commands.hpp"
 #include "commands/load_building.hpp"
+#include "commands/selection.hpp"
+#include "solver/mesh/orientation.hpp"
 
 namespace comma::commands {
 
@@ -10,6 +17,29 @@ Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load)
   product->load = std::move(load);
   product->model = call.data<ModelConcept>("MODELE").model;
   return product;
+}
+
+// Where the sign of a load is that of the normals. Faces between two bodies have no outer side.
+void warn_of_inward_normals(const Keywords& occurrence, const char* keyword, const LoadedModel& target, Context& context) {
+  std::vector<int> skin = selected_cells(occurrence, target.mesh);
+  std::erase_if(skin, [&](int cell) { return !target.model.is_skin(cell); });
+  const std::vector<int> inward = solver::inward_skin(target.mesh, skin);
+  if (inward.empty()) return;
+  const std::string groups = occurrence.given("GROUP_MA") ? fmt::format(" of {}", fmt::join(occurrence.texts("GROUP_MA"), ", ")) : "";
+  context.diagnostics.alarm("inward-normal",
+                            fmt::format("{}: the normals of {} of the {} cells{} point into the body, that of {} for one: what acts along them has the other sign there", keyword,
+                                        inward.size(), skin.size(), groups, target.mesh.cell_name(inward.front())),
+                            occurrence.span, "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
+}
+
+void check_normals(const Call& call, const LoadedModel& target, Context& context) {
+  if (call.text("VERI_NORM") == "NON") return;
+  for (const Keywords& pressure : call.factors("PRES_REP")) warn_of_inward_normals(pressure, "PRES_REP", target, context);
+  for (const Keywords& imposed : call.factors("FACE_IMPO")) {
+    if (!imposed.given("DNOR")) continue;
+    const Amount amount = amount_of(imposed, "DNOR");
+    if (amount.value != 0.0 || amount.function) warn_of_inward_normals(imposed, "FACE_IMPO/DNOR", target, context);
+  }
 }
 
 }  // namespace
@@ -26,6 +56,7 @@ Product affe_char_meca(const Call& call, Context& context) {
   for (const Keywords& imposed : call.factors("LIAISON_OBLIQUE")) add_oblique_displacements(imposed, target, *load);
   add_relations(call, target, *load);
   add_forces(call, target, *load);
+  check_normals(call, target, context);
   return load_concept(call, std::move(load));
 }
 
