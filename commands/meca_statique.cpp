@@ -49,6 +49,7 @@ Product meca_statique(const Call& call, Context& context) {
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
+  warn_of_missing_data(call, product->problem, context);
   const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
   warn_of_repeated_loads(call, context);

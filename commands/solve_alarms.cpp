@@ -1,8 +1,11 @@
 #include "commands/solve_alarms.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +16,9 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/locking.hpp"
+#include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
+#include "solver/materials/behaviour/hardening.hpp"
 
 namespace comma::commands {
 
@@ -205,6 +210,105 @@ bool has_flow(const solver::StaticProblem& problem) {
 }
 
 }  // namespace
+
+namespace {
+
+bool has_mass(const solver::Model& model, int cell) {
+  const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
+  return !model.is_skin(cell) && (solver::continuum_dimension(formulation) > 0 || solver::is_bar(formulation) || solver::is_beam(formulation) || solver::is_plate(formulation));
+}
+
+/// As given; null where none is.
+const solver::Elasticity* elasticity_of(const solver::StaticProblem& problem, int cell) {
+  const auto& material = problem.materials->by_cell[static_cast<std::size_t>(cell)];
+  return material && material->elasticity ? &*material->elasticity : nullptr;
+}
+
+bool is_missing(const solver::Property& property) { return property.is_constant() && property(solver::MaterialPoint()) == 0.0; }
+
+bool lacks_density(const solver::StaticProblem& problem, int cell) {
+  const solver::Elasticity* elasticity = has_mass(*problem.model, cell) ? elasticity_of(problem, cell) : nullptr;
+  return elasticity != nullptr && std::visit([](const auto& each) { return is_missing(each.density); }, *elasticity);
+}
+
+void warn_of_missing_density(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  std::set<int> weightless;
+  const auto look_at = [&](const std::vector<int>& cells) {
+    std::ranges::copy_if(cells, std::inserter(weightless, weightless.end()), [&](int cell) { return lacks_density(problem, cell); });
+  };
+  for (const auto* loads : {&problem.loads, &problem.driven}) {
+    for (const solver::AppliedLoad& applied : *loads) {
+      for (const solver::GravityLoad& each : applied.load->gravities) look_at(each.cells);
+      for (const solver::RotationLoad& each : applied.load->rotations) look_at(each.cells);
+    }
+  }
+  if (weightless.empty()) return;
+  context.diagnostics.alarm("no-density",
+                            fmt::format("{}: PESANTEUR or ROTATION acts on {} cell{} whose material has no RHO, {} the first: no force comes of it", call.command, weightless.size(),
+                                        weightless.size() == 1 ? "" : "s", problem.model->mesh->cell_name(*weightless.begin())),
+                            call.span, "give RHO in DEFI_MATERIAU (ELAS)");
+}
+
+/// A variable of which a material that is constant takes a strain or nothing.
+struct StrainingVariable {
+  solver::Parameter parameter;
+  const char* name;
+  solver::Property solver::IsotropicElasticity::*coefficient;
+  const char* keyword;
+};
+
+constexpr std::array<StrainingVariable, 2> straining_variables = {
+    {{solver::Parameter::temperature, "TEMP", &solver::IsotropicElasticity::expansion, "ALPHA"}, {solver::Parameter::drying, "SECH", &solver::IsotropicElasticity::drying_shrinkage, "K_DESSIC"}}};
+
+bool ignores(const solver::StaticProblem& problem, int cell, const StrainingVariable& variable) {
+  const solver::Elasticity* elasticity = has_mass(*problem.model, cell) ? elasticity_of(problem, cell) : nullptr;
+  const auto* isotropic = elasticity != nullptr ? std::get_if<solver::IsotropicElasticity>(elasticity) : nullptr;
+  if (isotropic == nullptr || !is_missing(isotropic->*variable.coefficient)) return false;
+  const solver::Relation relation = problem.behaviours && !problem.behaviours->empty() ? (*problem.behaviours)[static_cast<std::size_t>(cell)].relation : solver::Relation::elastic;
+  return solver::is_constant(*isotropic, problem.materials->by_cell[static_cast<std::size_t>(cell)]->plasticity, relation);
+}
+
+void warn_of_missing_expansion(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  for (const StrainingVariable& variable : straining_variables) {
+    for (const solver::CommandVariable& given : problem.materials->variables) {
+      if (given.variable != variable.parameter) continue;
+      const auto idle = [&](int cell) { return ignores(problem, cell, variable); };
+      std::vector<int> cells = given.cells;
+      if (cells.empty())
+        for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) cells.push_back(cell);
+      const auto first = std::ranges::find_if(cells, idle);
+      if (first == cells.end()) continue;
+      context.diagnostics.alarm("no-expansion",
+                                fmt::format("{}: {} is given on {}, whose material has no {} and nothing that depends on it: no strain comes of it", call.command, variable.name,
+                                            problem.model->mesh->cell_name(*first), variable.keyword),
+                                call.span, fmt::format("give {} in DEFI_MATERIAU (ELAS)", variable.keyword));
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void warn_of_missing_data(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.materials) return;
+  warn_of_missing_density(call, problem, context);
+  warn_of_missing_expansion(call, problem, context);
+}
+
+void warn_of_strained_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant, Context& context) {
+  if (problem.initial || !problem.materials || problem.materials->variables.empty()) return;
+  const solver::VariableState state(*problem.model->mesh, problem.materials->variables, instant);
+  const solver::FieldInput input{*problem.model, *problem.materials, *problem.properties, state};
+  const solver::ElementField strains = solver::variable_strain_field(input);
+  constexpr double rounding = 1e-12;
+  const auto found = std::ranges::find_if(strains.values, [](double value) { return std::abs(value) > rounding; });
+  if (found == strains.values.end()) return;
+  context.diagnostics.alarm("strained-start",
+                            fmt::format("{}: at the first instant, {:.6g}, command variables differ from their reference values (strain {:.3g}): elasticity without a memory takes the whole strain, "
+                                        "laws with a memory and large strains what changes from there",
+                                        call.command, instant, *found),
+                            call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
+}
 
 void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   const auto gives_strains = [](const solver::AppliedLoad& each) { return solver::gives_initial_strains(*each.load); };

@@ -16,6 +16,12 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
 /// Alarm `repeated-load`: a load that EXCIT names more than once.
 void warn_of_repeated_loads(const interpreter::Call& call, Context& context);
 
+/// Alarms `no-density`, where weight or rotation acts on a material without one, and `no-expansion`, where nothing depends on a temperature or drying that is given.
+void warn_of_missing_data(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+
+/// Alarm `strained-start`: a computation begins at an instant where command variables strain the body already, without an initial state.
+void warn_of_strained_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant, Context& context);
+
 /// Alarm `no-behaviour`: cells that COMPORTEMENT leaves out.
 void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver::Model& model, Context& context);
 

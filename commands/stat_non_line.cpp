@@ -223,6 +223,8 @@ Product stat_non_line(const Call& call, Context& context) {
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
   warn_of_locking(call, product->problem, context);
+  warn_of_missing_data(call, product->problem, context);
+  warn_of_strained_start(call, product->problem, steps.instants.front(), context);
   warn_of_cells_without_behaviour(call, *product->problem.model, context);
   warn_of_repeated_loads(call, context);
   warn_of_initial_strains(call, product->problem, context);
