@@ -29,6 +29,8 @@ constexpr double residual_tolerance = 1e-12;
 constexpr double stagnation_tolerance = 1e-9;
 /// Or this share of what the forces could do to the jumps.
 constexpr double jump_rounding_share = 1e-13;
+/// Or what the rounding of pressures makes of lengths by a small augmentation, up to this share of the jumps.
+constexpr double most_law_rounding = 1e-6;
 /// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
 /// rounding of displacements.
 constexpr double rounding_scale = 1e-6;
@@ -72,38 +74,24 @@ class CondensedSolver {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
     bool solved = start_as_expected() && settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    const auto otherwise = [&](const auto& attempt) {
+      if (solved) return;
+      restart(multipliers);
+      solved = attempt();
+    };
     bool led_away = false;
-    if (!solved) {
-      restart(multipliers);
-      solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    otherwise([&] {
+      const bool settled = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
       led_away = led_away_;
-    }
-    if (!solved) {
-      restart(multipliers);
-      solved = settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations);
-    }
-    if (!solved) {
-      restart(multipliers);
-      solved = follow_smoothed(solution.iterations);
-    }
-    if (!solved) {
-      restart(multipliers);
-      solved = descend(solution.iterations);
-    }
-    if (!solved) {
-      restart(multipliers);
-      solved = relax() && settle(Rubbing::by_law, solution.iterations);
-    }
-    if (!solved && led_away) {
-      restart(multipliers);
-      solved = settle(Rubbing::by_law, solution.iterations);
-    }
-    if (!solved) {
-      restart(multipliers);
-      solved = raise_friction(solution.iterations);
-    }
-    solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
-    solution.forces = forces_;
+      return settled;
+    });
+    otherwise([&] { return settle(Rubbing::never_slides, solution.iterations) && settle(Rubbing::by_law, solution.iterations); });
+    otherwise([&] { return follow_smoothed(solution.iterations); });
+    otherwise([&] { return descend(solution.iterations); });
+    otherwise([&] { return relax() && settle(Rubbing::by_law, solution.iterations); });
+    if (led_away) otherwise([&] { return settle(Rubbing::by_law, solution.iterations); });
+    otherwise([&] { return raise_friction(solution.iterations); });
+    conclude(solution, solved);
     for (std::size_t p = 0; p < start_.size(); ++p) solution.changes += start_[p] != state_.statuses[p];
     return solution;
   }
@@ -117,16 +105,14 @@ class CondensedSolver {
       restart(multipliers);
       solved = descend(solution.iterations);
     }
-    solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
-    solution.forces = forces_;
+    conclude(solution, solved);
     return solution;
   }
 
   /// From nowhere in particular, by laws that are smooth at first.
   CondensedSolution smooth(Augmentations augmentations) {
     CondensedSolution solution;
-    solution.verdict = follow_smoothed(solution.iterations, augmentations) ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
-    solution.forces = forces_;
+    conclude(solution, follow_smoothed(solution.iterations, augmentations));
     return solution;
   }
 
@@ -156,6 +142,11 @@ class CondensedSolver {
     require_columns();
     jumps_ = balanced_jumps();
     return true;
+  }
+
+  void conclude(CondensedSolution& solution, bool solved) const {
+    solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution.forces = forces_;
   }
 
   void restart(const Eigen::VectorXd& multipliers) {
@@ -472,23 +463,20 @@ class CondensedSolver {
     Eigen::VectorXd residual, weight;
     Eigen::VectorXd share_weight;  ///< by which a share is known to its own rounding
     Eigen::VectorXd open;          ///< augmentation of open points, a pressure over a length, or 0
-    Eigen::VectorXd rounding;      ///< what the rounding of pressures and shears makes of the residual
   };
 
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate() {
     forces_.setZero();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(state_.multipliers.size());
-    LawBalance law{none, none, none, none, none};
+    LawBalance law{none, none, none, none};
     for (std::size_t p = 0; p < problem_.points.size(); ++p) {
       const CondensedPoint& point = problem_.points[p];
       const ContactLawValue value = law_at(p);
-      const Vector3d rounding = law_rounding(p);
       for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
       for (int i = 0; i < point.node_count; ++i)
         for (int c = 0; c < problem_.components; ++c) {
           const int index = multiplier_index(point.nodes[i], c);
-          law.rounding[index] += point.weight * std::abs(point.shape[i]) * rounding[c];
           law.residual[index] += point.weight * point.shape[i] * value.residual[c];
           law.weight[index] += point.weight * std::abs(point.shape[i]);
           if (c == 0 && state_.statuses[p] == ContactStatus::open) law.open[index] = law_of(p).augmentation;
@@ -505,21 +493,8 @@ class CondensedSolver {
     if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = remainder_ = std::numeric_limits<double>::infinity();
   }
 
-  /// Of lengths that are differences of pressures or shears over an augmentation, which may be small beside the stiffness of the bodies.
-  Vector3d law_rounding(std::size_t p) const {
-    const CondensedPoint& point = problem_.points[p];
-    Vector3d sums = Vector3d::Zero();
-    for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < problem_.components; ++c) sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
-    const ContactLaw law = law_of(p);
-    const bool is_open = state_.statuses[p] == ContactStatus::open, sticks = state_.statuses[p] == ContactStatus::sticking;
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const double along = sticks ? 0.0 : epsilon / law.friction_augmentation;
-    return {is_open ? epsilon / law.augmentation * sums[0] : 0.0, along * sums[1], along * sums[2]};
-  }
-
   void measure(const LawBalance& law, const Eigen::VectorXd& balanced) {
-    residual_ = law_rounding_ = 0.0;
+    residual_ = 0.0;
     double squares = 0.0;
     const auto count = [&](double left, double counts) {
       residual_ = std::max(residual_, left);
@@ -530,7 +505,6 @@ class CondensedSolver {
     const double flexibility = pressure > 0.0 ? scale_ / pressure : 0.0;
     for (Index i = 0; i < law.residual.size(); ++i) {
       if (multiplier_unknowns_[i] < 0 || !(law.weight[i] > 0.0)) continue;
-      law_rounding_ = std::max(law_rounding_, law.rounding[i] / law.weight[i]);
       const double weight = law.weight[i] + (scale_ > 0.0 ? law.share_weight[i] / scale_ : 0.0);
       // The pressure of an open point is worth what the bodies give way under it, not what a small augmentation would.
       count(std::abs(law.residual[i]) / weight, law.open[i] > 0.0 ? std::min(1.0, law.open[i] * flexibility) : 1.0);
@@ -565,8 +539,43 @@ class CondensedSolver {
     return stagnates && is_rounding();
   }
 
+  /// Of lengths at a point that are differences of pressures or shears over an augmentation, which may be small beside the stiffness of the bodies.
+  Vector3d law_rounding(std::size_t p) const {
+    const CondensedPoint& point = problem_.points[p];
+    Vector3d sums = Vector3d::Zero();
+    for (int i = 0; i < point.node_count; ++i)
+      for (int c = 0; c < problem_.components; ++c) sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
+    const ContactLaw law = law_of(p);
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double normal = state_.statuses[p] == ContactStatus::open ? epsilon / law.augmentation : 0.0;
+    const double along = state_.statuses[p] == ContactStatus::sticking ? 0.0 : epsilon / law.friction_augmentation;
+    return {normal * sums[0], along * sums[1], along * sums[2]};
+  }
+
+  /// The largest of what that makes of the equations of a multiplier.
+  double law_rounding() const {
+    Eigen::VectorXd rounding = Eigen::VectorXd::Zero(state_.multipliers.size()), weight = rounding;
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+      const CondensedPoint& point = problem_.points[p];
+      const Vector3d each = law_rounding(p);
+      for (int i = 0; i < point.node_count; ++i)
+        for (int c = 0; c < problem_.components; ++c) {
+          const double share = point.weight * std::abs(point.shape[i]);
+          rounding[multiplier_index(point.nodes[i], c)] += share * each[c];
+          weight[multiplier_index(point.nodes[i], c)] += share;
+        }
+    }
+    double largest = 0.0;
+    for (Index i = 0; i < rounding.size(); ++i)
+      if (multiplier_unknowns_[i] >= 0 && weight[i] > 0.0) largest = std::max(largest, rounding[i] / weight[i]);
+    return largest;
+  }
+
   /// Where corrections bring no more.
-  bool is_rounding() const { return residual_ <= std::max({stagnation_tolerance * scale_, jump_rounding_share * largest_response(), law_rounding_}); }
+  bool is_rounding() const {
+    if (residual_ <= std::max(stagnation_tolerance * scale_, jump_rounding_share * largest_response())) return true;
+    return residual_ <= std::min(law_rounding(), most_law_rounding * scale_);
+  }
 
   /// Whether a status that the law asks for differs from the present one by more than rounding.
   bool is_meant(std::size_t p, ContactStatus now, ContactStatus wanted) const {
@@ -621,7 +630,6 @@ class CondensedSolver {
   int unknowns_ = 0;
   double residual_ = 0.0;
   double remainder_ = 0.0;  ///< what is left of all equations, by the root of squares (a length)
-  double law_rounding_ = 0.0;
   double last_residual_ = 0.0;
   double scale_ = 0.0;
   double pressure_scale_ = 0.0;

@@ -117,7 +117,6 @@ class SharedFriction {
     take(Shears::as_they_are);
     CondensedSolution solution = solve_once(state, methods_.stand_in);
     if (solution.verdict == CondensedVerdict::solved) return solution;
-    state = start;
     if (!lets_creep()) {
       state = start;
       solution = methods_.solve(given_, state);

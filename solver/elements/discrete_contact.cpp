@@ -264,10 +264,7 @@ class DiscreteContact final : public ElementBlock {
 }  // namespace
 
 std::unique_ptr<ElementBlock> make_discrete_contact_block(const BlockInput& input, std::vector<int> cells) {
-  if (input.behaviour_of(cells.front()).kinematics != Kinematics::small) {
-    throw Error("unsupported", fmt::format("cell {}: contact inside discrete elements knows small displacements only", input.model.mesh->cell_name(cells.front())),
-                "give these cells DEFORMATION='PETIT'");
-  }
+  require_small_displacements(input, cells.front(), "contact inside discrete elements knows");
   return std::make_unique<DiscreteContact>(input, std::move(cells));
 }
 

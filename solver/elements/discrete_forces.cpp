@@ -26,6 +26,11 @@ std::span<const std::string_view> discrete_force_names(Formulation formulation) 
   }
 }
 
+void require_small_displacements(const BlockInput& input, int cell, std::string_view subject) {
+  if (input.behaviour_of(cell).kinematics == Kinematics::small) return;
+  throw Error("unsupported", fmt::format("cell {}: {} small displacements only", input.model.mesh->cell_name(cell), subject), "give these cells DEFORMATION='PETIT'");
+}
+
 int discrete_translations(Formulation formulation) {
   return formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ? 2 : 3;
 }

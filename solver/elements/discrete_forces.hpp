@@ -17,6 +17,9 @@ int discrete_translations(Formulation formulation);
 /// The stiffness of the discrete element on a cell. Throws Error `missing-properties`, `wrong-size`.
 const DiscreteStiffness& discrete_stiffness(const BlockInput& input, int cell);
 
+/// Throws Error `unsupported` where a cell has another DEFORMATION. `subject`: what knows none, with its verb.
+void require_small_displacements(const BlockInput& input, int cell, std::string_view subject);
+
 /// Contact with friction inside discrete elements, in small displacements (Relation::contact_spring). The stiffness of the element holds rotations
 /// alone; translations are those of the contact spring of its material, along and across the first own axis: between the nodes of a segment, whose gap is the
 /// difference of their places less the two distances, or from the node of a point to an obstacle, whose gap is displacement + clearance - first distance.

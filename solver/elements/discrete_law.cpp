@@ -249,8 +249,7 @@ class DiscreteLaw final : public ElementBlock {
 }  // namespace
 
 std::unique_ptr<ElementBlock> make_discrete_law_block(const BlockInput& input, std::vector<int> cells) {
-  if (input.behaviour_of(cells.front()).kinematics != Kinematics::small)
-    throw Error("unsupported", fmt::format("cell {}: laws of discrete elements know small displacements only", input.model.mesh->cell_name(cells.front())), "give these cells DEFORMATION='PETIT'");
+  require_small_displacements(input, cells.front(), "laws of discrete elements know");
   return std::make_unique<DiscreteLaw>(input, std::move(cells));
 }
 

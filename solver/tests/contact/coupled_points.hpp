@@ -21,29 +21,33 @@ inline CondensedPoint point_on_node(int node, int rows, double friction) {
   return point;
 }
 
+inline RowMatrix identity_rows(int size) {
+  RowMatrix rows(size, size);
+  rows.setIdentity();
+  return rows;
+}
+
+/// A problem of `count` multipliers and points of three rows each, all open and without forces; the points are still to come.
+inline void make_room(int count, CondensedProblem& problem, CondensedState& state) {
+  problem.node_count = count;
+  problem.components = 3;
+  problem.free = problem.held = Eigen::VectorXd::Zero(3 * count);
+  state.multipliers = Eigen::VectorXd::Zero(3 * count);
+  state.statuses.assign(static_cast<std::size_t>(count), ContactStatus::open);
+}
+
 /// `count` points of three rows each, coupled by a compliance that is dense and positive definite.
 struct Coupled {
   CondensedProblem problem;
   CondensedState state;
   SchurComplement schur;
 
-  Coupled(int count, double friction) : schur(identity(3 * count), compliance(3 * count)) {
-    problem.node_count = count;
-    problem.components = 3;
-    problem.free = Eigen::VectorXd::Zero(3 * count);
-    problem.held = Eigen::VectorXd::Zero(3 * count);
+  Coupled(int count, double friction) : schur(identity_rows(3 * count), compliance(3 * count)) {
+    make_room(count, problem, state);
     for (int p = 0; p < count; ++p) {
       problem.points.push_back(point_on_node(p, 3, friction));
       problem.free.segment<3>(3 * p) << -1.0 + 0.3 * p, 0.2 * p, 0.5;
     }
-    state.multipliers = Eigen::VectorXd::Zero(3 * count);
-    state.statuses.assign(static_cast<std::size_t>(count), ContactStatus::open);
-  }
-
-  static RowMatrix identity(int size) {
-    RowMatrix rows(size, size);
-    rows.setIdentity();
-    return rows;
   }
 
   static SchurComplement::ApplyInverse compliance(int size) {

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/contact/coupled_points.hpp"
+
 using namespace comma::solver;
 
 namespace {
@@ -16,35 +18,18 @@ struct Surface {
   CondensedState state;
   SchurComplement schur;
 
-  explicit Surface(int edge) : schur(identity(3 * edge * edge), inverse(edge)) {
+  explicit Surface(int edge) : schur(identity_rows(3 * edge * edge), inverse(edge)) {
     const int count = edge * edge;
-    problem.node_count = count;
-    problem.components = 3;
-    problem.free = Eigen::VectorXd::Zero(3 * count);
-    problem.held = Eigen::VectorXd::Zero(3 * count);
+    make_room(count, problem, state);
     for (int p = 0; p < count; ++p) {
-      CondensedPoint point;
-      point.first_row = 3 * p;
-      point.rows = point.components = 3;
-      point.nodes[0] = p;
-      point.shape[0] = 1.0;
-      point.node_count = 1;
+      CondensedPoint point = point_on_node(p, 3, friction);
       point.weight = 1.0 / count;
-      point.law.friction = friction;
       point.law.augmentation = point.law.friction_augmentation = count;
       problem.points.push_back(point);
       // Pressed on one side more than on the other, which stands open, and pulled along.
       const double x = static_cast<double>(p % edge) / edge;
       problem.free.segment<3>(3 * p) << -1.0 + 1.3 * x, 0.3, 0.1 * std::sin(p);
     }
-    state.multipliers = Eigen::VectorXd::Zero(3 * count);
-    state.statuses.assign(static_cast<std::size_t>(count), ContactStatus::open);
-  }
-
-  static RowMatrix identity(int size) {
-    RowMatrix rows(size, size);
-    rows.setIdentity();
-    return rows;
   }
 
   static SchurComplement::ApplyInverse inverse(int edge) {
