@@ -24,6 +24,12 @@ Eigen::Matrix<double, 4, 3> pattern_derivatives(const ReferencePoint& at) {
 
 Matrix3d jacobian(const Hourglass::Places& places, const ReferencePoint& at) { return shape_derivatives(CellType::hexa8, at).transpose() * places; }
 
+/// The orthonormal axes nearest to the reference axes at the middle, one a row. Whichever corner the cell is numbered from, they are the same but for their names and signs.
+Matrix3d own_axes(const Matrix3d& jacobian) {
+  const Eigen::JacobiSVD<Matrix3d> svd(jacobian.rowwise().normalized(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 /// Poisson's ratio of an isotropic law.
 double poisson_of(const Matrix6d& law) { return law(0, 1) / (law(0, 0) + law(0, 1)); }
 
@@ -68,27 +74,34 @@ void add_deviatoric(const Eigen::Matrix<double, 4, 3>& g, StrainRows& rows) {
 
 Hourglass::Hourglass(const Places& places) {
   constexpr ReferencePoint centre = {0.0, 0.0, 0.0};
-  const Places gradients = shape_derivatives(CellType::hexa8, centre) * jacobian(places, centre).inverse().transpose();
+  const Matrix3d middle = jacobian(places, centre);
+  axes_ = own_axes(middle);
+  const Places gradients = shape_derivatives(CellType::hexa8, centre) * middle.inverse().transpose();
   const auto corners = reference_nodes(CellType::hexa8);
   for (int a = 0; a < 8; ++a) gamma_.row(a) = patterns_at(corners[static_cast<std::size_t>(a)]).transpose();
   gamma_ = (0.125 * (gamma_ - gradients * (places.transpose() * gamma_))).eval();
   std::size_t k = 0;
   for (const QuadraturePoint& point : quadrature(CellType::hexa8, "FPG8")) {
     const Matrix3d map = jacobian(places, point.at);
-    points_[k++] = {point.weight * std::abs(map.determinant()), pattern_derivatives(point.at) * map.inverse().transpose()};
+    points_[k++] = {point.weight * std::abs(map.determinant()), pattern_derivatives(point.at) * map.inverse().transpose() * axes_.transpose()};
   }
 }
 
 Hourglass::Stiffness Hourglass::stiffness(const Matrix6d& law, Projection projection) const {
+  const Matrix6d to_global = strain_rotation(axes_.transpose());
+  const Matrix6d own_law = to_global.transpose() * law * to_global;
   Stiffness sum = Stiffness::Zero();
   for (const Point& point : points_) {
     StrainRows rows = StrainRows::Zero();
     add_shears(point.gradients, rows);
-    if (projection == Projection::bending) add_bending_patterns(point.gradients, poisson_of(law), rows);
+    if (projection == Projection::bending) add_bending_patterns(point.gradients, poisson_of(own_law), rows);
     else add_deviatoric(point.gradients, rows);
-    sum += point.weight * rows.transpose() * law * rows;
+    sum += point.weight * rows.transpose() * own_law * rows;
   }
-  return sum;
+  Stiffness turned;
+  for (int row = 0; row < 12; row += 3)
+    for (int column = 0; column < 12; column += 3) turned.block<3, 3>(row, column) = axes_.transpose() * sum.block<3, 3>(row, column) * axes_;
+  return turned;
 }
 
 Eigen::Matrix<double, 24, 24> Hourglass::nodal_stiffness(const Stiffness& stiffness) const {

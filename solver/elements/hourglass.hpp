@@ -12,7 +12,8 @@
 namespace comma::solver {
 
 /// With xi, eta, zeta the reference coordinates, the patterns h are eta zeta, xi zeta, xi eta and xi eta zeta. The displacements of the nodes leave of each what is
-/// orthogonal to linear fields, g (pattern, axis), and the displacements that go with it are the sum of h g.
+/// orthogonal to linear fields, g (pattern, axis), and the displacements that go with it are the sum of h g. Which strains of a pattern count depends on its
+/// direction: along the cell's own axes, as in the paper's section on corotation.
 class Hourglass {
  public:
   using Places = Eigen::Matrix<double, 8, 3>;     ///< one node a row; also displacements and forces
@@ -39,9 +40,10 @@ class Hourglass {
  private:
   struct Point {
     double weight;
-    Patterns gradients;  ///< of the patterns by x, y, z
+    Patterns gradients;  ///< of the patterns along the own axes
   };
 
+  Eigen::Matrix3d axes_;  ///< the cell's own, one a row
   Eigen::Matrix<double, 8, 4> gamma_;
   std::array<Point, 8> points_;
 };

@@ -17,6 +17,8 @@ Hourglass::Places box(const Eigen::Vector3d& half_edges, double bend = 0.0) {
   return places;
 }
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
 constexpr double young = 1000.0, poisson = 0.3;
 const Matrix6d law = solid_stiffness(IsotropicModuli{young, poisson});
 
@@ -45,6 +47,47 @@ TEST_CASE("Without change of volume the stiffness does not know the bulk modulus
   const Hourglass hourglass(box({1.0, 1.0, 1.0}));
   const auto stiffness = [&](double nu) { return hourglass.stiffness(solid_stiffness(IsotropicModuli{2.0 * (1.0 + nu), nu}), Hourglass::Projection::deviatoric); };
   CHECK((stiffness(0.1) - stiffness(0.49)).norm() < 1e-12 * stiffness(0.1).norm());  // of the same shear modulus
+}
+
+using Stiffness = Eigen::Matrix<double, 24, 24>;
+
+Stiffness stiffness_of(const Hourglass::Places& places, Hourglass::Projection projection, const Matrix6d& of_law = law) {
+  const Hourglass hourglass(places);
+  return hourglass.nodal_stiffness(hourglass.stiffness(of_law, projection));
+}
+
+TEST_CASE("A distorted cell is as stiff from whichever corner its nodes are numbered") {
+  const Hourglass::Places places = box({1.0, 2.0, 0.5}, 0.1);
+  const std::array numberings = {std::array{1, 2, 3, 0, 5, 6, 7, 4}, std::array{0, 3, 7, 4, 1, 2, 6, 5}, std::array{5, 4, 7, 6, 1, 0, 3, 2}};
+  for (const auto projection : {Hourglass::Projection::bending, Hourglass::Projection::deviatoric}) {
+    const Stiffness first = stiffness_of(places, projection);
+    for (const auto& nodes : numberings) {
+      Hourglass::Places renumbered;
+      for (int a = 0; a < 8; ++a) renumbered.row(a) = places.row(nodes[static_cast<std::size_t>(a)]);
+      const Stiffness other = stiffness_of(renumbered, projection);
+      double apart = 0.0;
+      for (int a = 0; a < 8; ++a)
+        for (int b = 0; b < 8; ++b)
+          apart = std::max(apart, (other.block<3, 3>(3 * a, 3 * b) - first.block<3, 3>(3 * nodes[static_cast<std::size_t>(a)], 3 * nodes[static_cast<std::size_t>(b)])).norm());
+      CHECK(apart < 1e-12 * first.norm());
+    }
+  }
+}
+
+TEST_CASE("A cell that is turned has its stiffness turned, also where its material flows in one direction") {
+  const Hourglass::Places places = box({1.0, 2.0, 0.5}, 0.1);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  Vector6d flow;
+  flow << 2.0, -1.0, -1.0, 0.5, 0.3, -0.7;
+  const Vector6d rises = law * flow;
+  const Matrix6d tangent = law - 0.8 * rises * rises.transpose() / rises.dot(flow);
+  const Matrix6d back = strain_rotation(turn.transpose());
+  const Stiffness first = stiffness_of(places, Hourglass::Projection::deviatoric, tangent);
+  const Stiffness turned = stiffness_of(places * turn.transpose(), Hourglass::Projection::deviatoric, back.transpose() * tangent * back);
+  double apart = 0.0;
+  for (int a = 0; a < 8; ++a)
+    for (int b = 0; b < 8; ++b) apart = std::max(apart, (turned.block<3, 3>(3 * a, 3 * b) - turn * first.block<3, 3>(3 * a, 3 * b) * turn.transpose()).norm());
+  CHECK(apart < 1e-12 * first.norm());
 }
 
 TEST_CASE("Forces on patterns do work on them alone") {
