@@ -502,7 +502,7 @@ class StaticAnalysis {
     std::optional<GeometryUpdates> geometry;
     if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
     for (int update = 0;; ++update) {
-      if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time, geometry ? &*geometry : nullptr);
+      if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time, update == 0 ? start_ : now_.state.u, geometry ? &*geometry : nullptr);
       ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
       if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
         resize_multipliers(next);
@@ -547,12 +547,13 @@ class StaticAnalysis {
     return problem_.contact && std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.thickness_changes; });
   }
 
-  void pair(double time, GeometryUpdates* updates) {
+  /// The surfaces as the displacements `u` have them: at first those with which the step begins, whatever is guessed of its end.
+  void pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates) {
     now_.paired = true;
     if (!problem_.contact) return;
     // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11).
-    if (problem_.contact->geometry_update == GeometryUpdate::none) now_.reference = Eigen::VectorXd::Zero(now_.state.u.size());
-    else now_.reference = updates ? updates->relaxed(now_.reference, now_.state.u) : now_.state.u;
+    if (problem_.contact->geometry_update == GeometryUpdate::none) now_.reference = Eigen::VectorXd::Zero(u.size());
+    else now_.reference = updates ? updates->relaxed(now_.reference, u) : u;
     const double margin = updates ? updates->margin() : 0.0;
     const std::vector<Vector3d> places = positions_at(now_.reference, mesh_, dofs_);
     if (mixed_) {
@@ -613,7 +614,7 @@ class StaticAnalysis {
 
   /// How the surfaces stand before anything presses.
   NodalField initial_contact_state(double instant) {
-    pair(instant, nullptr);
+    pair(instant, now_.state.u, nullptr);
     now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
     resize_multipliers(now_.conditions);
     return contact_state();
