@@ -7,20 +7,28 @@ namespace {
 
 /// Of the squares of all rows of a point: what is less along a direction is the rounding of conditions.
 constexpr double dead_share = 1e-14;
+/// A traction that does nothing is one of shear if this share of it lies along the surface.
+constexpr double least_along = 0.1;
 
 }  // namespace
 
 void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPoint>& points) {
   for (CondensedPoint& point : points) {
     if (point.rows < 3 || !(point.law.friction > 0.0)) continue;
-    const auto row = [&](int c) { return reduced_rows.row(point.first_row + c); };
-    const double both = row(1).dot(row(2));
-    Eigen::Matrix2d squares;
-    squares << row(1).squaredNorm(), both, both, row(2).squaredNorm();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> motions(squares);
-    const double dead = dead_share * (row(0).squaredNorm() + squares.trace());
+    const auto rows = reduced_rows.middleRows(point.first_row, 3);
+    Eigen::Matrix3d squares;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) squares(a, b) = rows.row(a).dot(rows.row(b));
+    const double dead = dead_share * squares.trace();
+    if (squares.bottomRightCorner<2, 2>().trace() <= dead) {
+      point.law.friction = 0.0;
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> motions(squares);
+    const Eigen::Vector2d along = motions.eigenvectors().col(0).tail<2>();
+    if (motions.eigenvalues()[0] > dead || along.norm() < least_along) continue;
     if (motions.eigenvalues()[1] <= dead) point.law.friction = 0.0;
-    else if (motions.eigenvalues()[0] <= dead) point.law.dead = motions.eigenvectors().col(0);
+    else point.law.dead = along.normalized();
   }
 }
 

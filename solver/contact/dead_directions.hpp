@@ -7,8 +7,8 @@
 
 namespace comma::solver {
 
-/// Along one direction of the surface (on a plane of symmetry) a shear of any size leaves the slip as it is: the law of the point gets it as its dead one. Where conditions hold
-/// them along all of the surface there is no friction. `reduced_rows`: those of the points, on the unknowns that conditions leave.
+/// A traction along a direction in which both bodies are held (normal to a plane of symmetry) does nothing, and a shear that is its part along the surface does no more than a
+/// pressure: the law of the point gets it as its dead one, also where the surface lies askew. Where they are held in two directions there is no friction. `reduced_rows`: those of the points, on the unknowns that conditions leave.
 void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPoint>& points);
 
 }  // namespace comma::solver
