@@ -54,10 +54,13 @@ constexpr int most_short_steps = 3;
 /// Jumps that grow by more are those of a body that nothing holds any more.
 constexpr double most_growth = 1e6;
 
+bool has_penalty(const CondensedProblem& problem) {
+  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
+}
+
 /// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
 int direct_rows(const CondensedProblem& problem) {
-  const bool has_penalty = std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
-  return problem.one_step || has_penalty ? std::max(problem.direct_rows, problem.most_direct_rows) : problem.direct_rows;
+  return problem.one_step || has_penalty(problem) ? std::max(problem.direct_rows, problem.most_direct_rows) : problem.direct_rows;
 }
 
 class CondensedSolver {
@@ -100,9 +103,13 @@ class CondensedSolver {
   CondensedSolution refine() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
+    if (has_penalty(problem_)) balance_jumps();  // forces of penalties come from jumps, not from multipliers
+    const Eigen::VectorXd jumps = jumps_, forces = forces_;
     bool solved = settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
     if (!solved) {
       restart(multipliers);
+      jumps_ = jumps;
+      forces_ = forces;
       solved = descend(solution.iterations);
     }
     conclude(solution, solved);
@@ -137,11 +144,16 @@ class CondensedSolver {
   bool start_as_expected() {
     if (problem_.components == 1 || problem_.expected.size() != state_.multipliers.size()) return false;
     state_.multipliers = problem_.expected;
+    balance_jumps();
+    return true;
+  }
+
+  /// Jumps as the multipliers have them.
+  void balance_jumps() {
     forces_ = multiplier_forces(problem_, state_, forces_.size());
     number_unknowns();
     require_columns();
     jumps_ = balanced_jumps();
-    return true;
   }
 
   void conclude(CondensedSolution& solution, bool solved) const {
@@ -663,7 +675,8 @@ Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const Condens
     const CondensedPoint& point = problem.points[p];
     if (point.rows == 0 || state.statuses[p] == ContactStatus::open) continue;
     const Vector3d multiplier = multiplier_at(problem, state, point);
-    for (int c = 0; c < point.rows; ++c) forces[point.first_row + c] = (c == 0 ? 1.0 : -1.0) * point.weight * multiplier[c];
+    const double of_shear = point.law.share_pressure > 0.0 ? std::max(0.0, multiplier[0]) / point.law.share_pressure : 1.0;
+    for (int c = 0; c < point.rows; ++c) forces[point.first_row + c] = (c == 0 ? 1.0 : -of_shear) * point.weight * multiplier[c];
   }
   return forces;
 }

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/contact/coupled_points.hpp"
+
 using namespace comma::solver;
 
 namespace {
@@ -47,4 +49,22 @@ TEST_CASE("A solution by shears says that it is one where none by shares of the 
     REQUIRE(solution.verdict == CondensedVerdict::solved);
     CHECK(solution.by_shears == !finds_shares);
   }
+}
+
+TEST_CASE("A solution with penalties is gone on from by its forces, not from gaps that no force has closed") {
+  // Bodies overlap by 1 before they push; penalties are a thousand times as stiff as they are.
+  Coupled bodies(8, 0.5);
+  for (std::size_t p = 0; p < bodies.problem.points.size(); ++p) {
+    CondensedPoint& point = bodies.problem.points[p];
+    point.law.penalised = point.law.friction_penalised = true;
+    point.law.augmentation = 1000.0;
+    point.share_augmentation = 2000.0;
+    bodies.problem.free.segment<3>(3 * static_cast<Eigen::Index>(p)) << -1.0, 0.01, -0.02;
+  }
+  bodies.state.statuses.assign(8, ContactStatus::sticking);
+  const CondensedSolution solution = solve_condensed(bodies.schur, bodies.problem, bodies.state);
+  REQUIRE(solution.verdict == CondensedVerdict::solved);
+  CHECK_FALSE(solution.by_shears);
+  CHECK(std::ranges::count(bodies.state.statuses, ContactStatus::sticking) == 8);
+  CHECK(solution.iterations <= 12);
 }
