@@ -8,6 +8,7 @@
 #include <set>
 
 #include "solver/contact/frictionless.hpp"
+#include "solver/contact/interpolated_step.hpp"
 #include "solver/contact/nodal_step.hpp"
 #include "solver/contact/relaxation.hpp"
 #include "solver/contact/shared_friction.hpp"
@@ -353,17 +354,16 @@ class CondensedSolver {
   void correct() {
     require_columns();
     if (unknowns_ == 0 || (is_nodal_ && correct_at_nodes())) return;
-    matrix_ = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+    InterpolatedStep equations(unknown_rows_, unknowns_);
     forces_.setZero();
-    balance_ = Eigen::VectorXd::Zero(unknowns_);
-    for (std::size_t p = 0; p < problem_.points.size(); ++p) add_point(p);
+    Eigen::VectorXd balance = Eigen::VectorXd::Zero(unknowns_);
+    for (std::size_t p = 0; p < problem_.points.size(); ++p) add_point(p, equations, balance);
     for (const CondensedSpring& spring : problem_.springs) {
       forces_[spring.row] += spring.stiffness * jumps_[spring.row];
-      add_force_derivative(spring.row, row_unknowns_[spring.row], spring.stiffness);
+      equations.add_force_derivative(row_unknowns_[spring.row], row_unknowns_[spring.row], spring.stiffness);
     }
-    balance_.head(static_cast<Index>(unknown_rows_.size())) = unbalanced_jumps();
-    for (std::size_t k = 0; k < unknown_rows_.size(); ++k) matrix_(static_cast<Index>(k), static_cast<Index>(k)) += 1.0;
-    const Eigen::VectorXd step = solve_dense(matrix_, balance_);
+    balance.head(static_cast<Index>(unknown_rows_.size())) = unbalanced_jumps();
+    const Eigen::VectorXd step = solved(equations, balance);
     for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= step[static_cast<Index>(k)];
     for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i)
       if (multiplier_unknowns_[i] >= 0) state_.multipliers[static_cast<Index>(i)] -= step[multiplier_unknowns_[i]];
@@ -414,52 +414,43 @@ class CondensedSolver {
     return result;
   }
 
-  void add_point(std::size_t p) {
+  /// Many rows by products with the compliance where these lead anywhere.
+  Eigen::VectorXd solved(const InterpolatedStep& equations, const Eigen::VectorXd& balance) {
+    if (static_cast<int>(unknown_rows_.size()) > direct_rows_)
+      if (const auto step = equations.solve_by_products(schur_, balance, {.tolerance = product_tolerance, .most_products = problem_.most_products})) return *step;
+    return equations.solve(schur_, balance);
+  }
+
+  void add_point(std::size_t p, InterpolatedStep& equations, Eigen::VectorXd& balance) {
     const CondensedPoint& point = problem_.points[p];
     const ContactLawValue value = law_at(p);
     for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
-    if (state_.statuses[p] != ContactStatus::open) add_traction_derivatives(point, value);
-    add_law_rows(point, value);
+    if (state_.statuses[p] != ContactStatus::open) add_traction_derivatives(point, value, equations);
+    add_laws(point, value, equations, balance);
   }
 
-  /// d balance / d(unknown) where the force on a row is `derivative` times the unknown.
-  void add_force_derivative(int row, int unknown, double derivative) {
-    if (derivative == 0.0 || unknown < 0) return;
-    const SchurComplement::Column column = schur_.column(row);
-    for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
-      matrix_(static_cast<Index>(k), unknown) -= column[unknown_rows_[k]] * derivative;
-  }
-
-  void add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value) {
+  void add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations) const {
     for (int a = 0; a < point.rows; ++a) {
-      const int row = point.first_row + a;
-      for (int b = 0; b < point.rows; ++b)
-        add_force_derivative(row, row_unknowns_[point.first_row + b], point.weight * value.traction_by_jump(a, b));
+      const int place = row_unknowns_[point.first_row + a];
+      for (int b = 0; b < point.rows; ++b) equations.add_force_derivative(place, row_unknowns_[point.first_row + b], point.weight * value.traction_by_jump(a, b));
       for (int i = 0; i < point.node_count; ++i)
         for (int b = 0; b < problem_.components; ++b)
-          add_force_derivative(row, multiplier_unknowns_[multiplier_index(point.nodes[i], b)],
-                               point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
+          equations.add_force_derivative(place, multiplier_unknowns_[multiplier_index(point.nodes[i], b)], point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
     }
   }
 
-  void add_law_rows(const CondensedPoint& point, const ContactLawValue& value) {
-    for (int i = 0; i < point.node_count; ++i) {
+  void add_laws(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations, Eigen::VectorXd& balance) const {
+    for (int i = 0; i < point.node_count; ++i)
       for (int a = 0; a < problem_.components; ++a) {
         const int equation = multiplier_unknowns_[multiplier_index(point.nodes[i], a)];
         if (equation < 0) continue;
         const double weight = point.weight * point.shape[i];
-        balance_[equation] += weight * value.residual[a];
-        for (int b = 0; b < point.rows; ++b) {
-          const int unknown = row_unknowns_[point.first_row + b];
-          if (unknown >= 0) matrix_(equation, unknown) += weight * value.residual_by_jump(a, b);
-        }
+        balance[equation] += weight * value.residual[a];
+        for (int b = 0; b < point.rows; ++b) equations.add_law_derivative(equation, row_unknowns_[point.first_row + b], weight * value.residual_by_jump(a, b));
         for (int j = 0; j < point.node_count; ++j)
-          for (int b = 0; b < problem_.components; ++b) {
-            const int unknown = multiplier_unknowns_[multiplier_index(point.nodes[j], b)];
-            if (unknown >= 0) matrix_(equation, unknown) += weight * point.shape[j] * value.residual_by_multiplier(a, b);
-          }
+          for (int b = 0; b < problem_.components; ++b)
+            equations.add_law_derivative(equation, multiplier_unknowns_[multiplier_index(point.nodes[j], b)], weight * point.shape[j] * value.residual_by_multiplier(a, b));
       }
-    }
   }
 
   /// The jumps that go with the present forces.
@@ -634,8 +625,6 @@ class CondensedSolver {
   const int direct_rows_;
   NearInverse own_near_inverse_;
   Eigen::VectorXd balanced_forces_, balanced_;
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd balance_;
   std::vector<int> row_unknowns_;         ///< unknown of a row of the Schur complement, or -1
   std::vector<int> multiplier_unknowns_;  ///< the same of a multiplier
   std::vector<int> unknown_rows_;

@@ -107,13 +107,6 @@ VectorXd NodalStep::solve(const SchurComplement& schur, const VectorXd& balance)
   return jumps;
 }
 
-/// What forces on the unknown rows do to their jumps.
-VectorXd NodalStep::response(SchurComplement& schur, const VectorXd& forces) const {
-  VectorXd all = VectorXd::Zero(schur.size());
-  all(rows_) = forces;
-  return schur.times_roughly(all)(rows_);
-}
-
 /// Of equations that are pressures: as forces.
 VectorXd NodalStep::weighted(VectorXd pressures) const {
   for (const Point& point : points_) pressures.segment(point.first, point.rows) *= point.weight;
@@ -144,7 +137,7 @@ std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, con
   near.update(schur, blocks());
   const GmresSolution solution = solve_gmres(
       [&](const VectorXd& forces) {
-        responses.push_back(response(schur, forces));
+        responses.push_back(schur.times_roughly(rows_, forces));
         return combined(forces, responses.back());
       },
       [&](const VectorXd& b) { return near(b); }, weighted(rhs(balance)), options);

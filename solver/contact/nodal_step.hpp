@@ -55,7 +55,6 @@ class NodalStep {
 
   Eigen::VectorXd rhs(const Eigen::VectorXd& balance) const;
   Eigen::VectorXd weighted(Eigen::VectorXd pressures) const;
-  Eigen::VectorXd response(SchurComplement& schur, const Eigen::VectorXd& forces) const;
   Eigen::VectorXd combined(const Eigen::VectorXd& forces, const Eigen::VectorXd& jumps) const;
   std::vector<ForceBlock> blocks() const;
   void take_multipliers(const Eigen::VectorXd& forces, const Eigen::VectorXd& jumps);

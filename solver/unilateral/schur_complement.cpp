@@ -137,6 +137,12 @@ Eigen::VectorXd SchurComplement::times_roughly(const Eigen::VectorXd& x) {
   return single_ * x;
 }
 
+Eigen::VectorXd SchurComplement::times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(size());
+  all(rows) = x;
+  return times_roughly(all)(rows);
+}
+
 void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen::VectorXd softness) {
   rows.makeCompressed();
   softness_ = std::move(softness);

@@ -51,6 +51,8 @@ class SchurComplement {
   Eigen::VectorXd times(const Eigen::VectorXd& x);
   /// The same to single precision, in half the time or less where all columns are known and many.
   Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
+  /// The entries on some rows of S x for an x on these rows alone (one a row).
+  Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
   bool known(int index) const { return whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0; }
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing

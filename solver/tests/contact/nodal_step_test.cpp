@@ -43,6 +43,22 @@ struct Surface {
     return [matrix](Eigen::Ref<Eigen::MatrixXd> columns) { columns = matrix * columns; };
   }
 
+  /// Multipliers on a grid twice as coarse, from which they are interpolated to the points.
+  void share_multipliers(int edge) {
+    const int cells = edge / 2;
+    problem.node_count = (cells + 1) * (cells + 1);
+    state.multipliers = Eigen::VectorXd::Zero(3 * problem.node_count);
+    for (int p = 0; p < edge * edge; ++p) {
+      const int column = p % edge, row = p / edge;
+      const int first = row / 2 * (cells + 1) + column / 2;
+      const double x = column % 2 ? 0.75 : 0.25, y = row % 2 ? 0.75 : 0.25;
+      CondensedPoint& point = problem.points[static_cast<std::size_t>(p)];
+      point.node_count = 4;
+      point.nodes = {first, first + 1, first + cells + 1, first + cells + 2};
+      point.shape = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    }
+  }
+
   std::array<int, 3> counts() const {
     std::array<int, 3> result{};
     for (const ContactStatus status : state.statuses) ++result[static_cast<std::size_t>(status)];
@@ -64,6 +80,24 @@ TEST_CASE("Contact solved by products with the compliance is that of the direct 
   CHECK(by_products.state.statuses == direct.state.statuses);
   CHECK((solution.forces - expected.forces).norm() < 1e-10 * expected.forces.norm());
   CHECK((by_products.state.multipliers - direct.state.multipliers).norm() < 1e-10 * direct.state.multipliers.norm());
+}
+
+TEST_CASE("So is contact whose multipliers are interpolated to points between nodes") {
+  Surface direct(12), by_products(12), followed(12);
+  for (Surface* each : {&direct, &by_products, &followed}) each->share_multipliers(12);
+  for (Surface* each : {&by_products, &followed}) each->problem.direct_rows = 0;
+  followed.problem.most_products = 1;
+  const CondensedSolution expected = solve_condensed(direct.schur, direct.problem, direct.state);
+  REQUIRE(expected.verdict == CondensedVerdict::solved);
+  for (const int count : direct.counts()) CHECK(count > 0);
+  for (Surface* each : {&by_products, &followed}) {
+    const CondensedSolution solution = solve_condensed(each->schur, each->problem, each->state);
+    REQUIRE(solution.verdict == CondensedVerdict::solved);
+    CHECK(each->state.statuses == direct.state.statuses);
+    CHECK((solution.forces - expected.forces).norm() < 1e-9 * expected.forces.norm());
+  }
+  CHECK(followed.state.multipliers == direct.state.multipliers);
+  CHECK(by_products.state.multipliers != direct.state.multipliers);
 }
 
 TEST_CASE("Where products with the compliance lead nowhere, the direct way follows, or no solution") {
