@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
+#include "solver/elements/plate_axes.hpp"
 
 namespace comma::commands {
 
@@ -56,9 +57,31 @@ void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assig
                                      assignment.span, "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
 }
 
+// A plate is the projection of its cell: rigid rotations of a warped one are not quite free of strain.
+void warn_of_warped_plates(const Call& call, const solver::Model& model, Context& context) {
+  int count = 0, worst = -1;
+  double largest = 0.0;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    const Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
+    const bool is_plate = formulation == Formulation::thin_plate || formulation == Formulation::shear_plate;
+    if (!is_plate || model.mesh->cell_types[static_cast<std::size_t>(cell)] != solver::CellType::quad4) continue;
+    const double warp = solver::warp_of_plate(*model.mesh, cell);
+    if (warp <= solver::little_warp) continue;
+    ++count;
+    if (warp <= largest) continue;
+    largest = warp;
+    worst = cell;
+  }
+  if (worst < 0) return;
+  context.diagnostics.alarm("warped-plates",
+                            fmt::format("AFFE_MODELE: {} plate{} not flat, {} by the most: a corner lies off the plane of the others by {:.2g} of the cell's size. Each is taken for its projection on its mean plane",
+                                        count, count == 1 ? " is" : "s are", model.mesh->cell_name(worst), largest),
+                            call.span, "take triangles, or smaller cells; VERI_PLAN='NON' says that they are meant so");
+}
+
 }  // namespace
 
-Product affe_modele(const Call& call, Context&) {
+Product affe_modele(const Call& call, Context& context) {
   auto model = std::make_shared<solver::Model>();
   model->mesh = call.data<MeshConcept>("MAILLAGE").mesh;
   const solver::Mesh& mesh = *model->mesh;
@@ -79,6 +102,7 @@ Product affe_modele(const Call& call, Context&) {
           assignment.span, "name cells of the right dimension: faces for D_PLAN and C_PLAN, TRIA3 and QUAD4 for DKT and DST, segments or points for 2D_DIS_T");
     }
   }
+  if (call.text("VERI_PLAN") == "OUI") warn_of_warped_plates(call, *model, context);
   auto product = std::make_shared<ModelConcept>();
   product->model = std::move(model);
   return product;

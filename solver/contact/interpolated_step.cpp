@@ -1,5 +1,7 @@
 #include "solver/contact/interpolated_step.hpp"
 
+#include <algorithm>
+
 #include "solver/linear/dense_solve.hpp"
 
 namespace comma::solver {
@@ -20,10 +22,12 @@ InterpolatedStep::SparseColumns InterpolatedStep::matrix(Index height, Index wid
 /// S F between unknown rows.
 MatrixXd InterpolatedStep::responses(const SchurComplement& schur, const SparseColumns& forces) const {
   MatrixXd result = MatrixXd::Zero(row_count(), forces.cols());
+  const bool is_whole = row_count() == schur.size() && std::ranges::is_sorted(rows_);
   for (Index unknown = 0; unknown < forces.cols(); ++unknown)
     for (SparseColumns::InnerIterator force(forces, unknown); force; ++force) {
       const SchurComplement::Column column = schur.column(rows_[static_cast<std::size_t>(force.row())]);
-      for (int k = 0; k < row_count(); ++k) result(k, unknown) += force.value() * column[rows_[static_cast<std::size_t>(k)]];
+      if (is_whole) result.col(unknown) += force.value() * column;
+      else for (int k = 0; k < row_count(); ++k) result(k, unknown) += force.value() * column[rows_[static_cast<std::size_t>(k)]];
     }
   return result;
 }

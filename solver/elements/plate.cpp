@@ -19,9 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 
-/// A corner off the plane of the others by more than this share of the cell's size makes a cell that a flat plate cannot stand for.
-constexpr double largest_warp = 1e-3;
-
 template <int Nodes>
 struct Plate {
   Eigen::Matrix3d axes;  ///< rows
@@ -57,11 +54,6 @@ Plate<Nodes> make_plate(const BlockInput& input, int cell) {
   const auto corners = relative_corners<Nodes>(mesh, cell);
   const PlateSection& section = section_of(input, cell);
   Plate<Nodes> plate{plate_axes(mesh, cell, section), {}, &section, &isotropic_material(input, cell)};
-  const double size = corners.colwise().norm().maxCoeff();
-  if ((plate.axes.row(2) * corners).cwiseAbs().maxCoeff() > largest_warp * size) {
-    throw Error("distorted-cell", fmt::format("the corners of plate {} do not lie in one plane", mesh.cell_name(cell)),
-                "mesh curved surfaces with triangles or smaller cells");
-  }
   plate.corners = plate.axes.template topRows<2>() * corners;
   return plate;
 }

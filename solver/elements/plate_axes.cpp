@@ -1,5 +1,8 @@
 #include "solver/elements/plate_axes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -11,11 +14,12 @@ namespace {
 /// The reference direction must have at least this sine with the normal, or rounding would turn the axes.
 constexpr double smallest_axis_sine = 1e-6;
 
+Eigen::Vector3d corner(const Mesh& mesh, int cell, std::size_t number) { return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[mesh.cell(cell)[number]].data()); }
+
 /// Of any length; of a quadrangle across its diagonals.
 Eigen::Vector3d plate_normal(const Mesh& mesh, int cell) {
-  const auto nodes = mesh.cell(cell);
-  const auto place = [&](std::size_t corner) -> Eigen::Vector3d { return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[corner]].data()); };
-  if (nodes.size() == 3) return (place(1) - place(0)).cross(place(2) - place(0));
+  const auto place = [&](std::size_t number) { return corner(mesh, cell, number); };
+  if (mesh.cell(cell).size() == 3) return (place(1) - place(0)).cross(place(2) - place(0));
   return (place(2) - place(0)).cross(place(3) - place(1));
 }
 
@@ -34,6 +38,17 @@ Eigen::Matrix3d plate_axes(const Mesh& mesh, int cell, const PlateSection& secti
   Eigen::Matrix3d axes;
   axes << x.transpose(), z.cross(x).transpose(), z.transpose();
   return axes;
+}
+
+double warp_of_plate(const Mesh& mesh, int cell) {
+  const Eigen::Vector3d normal = plate_normal(mesh, cell).normalized();
+  double size = 0.0, off = 0.0;
+  for (std::size_t number = 1; number < mesh.cell(cell).size(); ++number) {
+    const Eigen::Vector3d side = corner(mesh, cell, number) - corner(mesh, cell, 0);
+    size = std::max(size, side.norm());
+    off = std::max(off, std::abs(normal.dot(side)));
+  }
+  return size > 0.0 ? off / size : 0.0;
 }
 
 }  // namespace comma::solver
