@@ -9,6 +9,7 @@
 #include "solver/io/gmsh_mesh_file.hpp"
 #include "solver/io/ideas_mesh_file.hpp"
 #include "solver/io/med_file.hpp"
+#include "solver/mesh/repeated_cells.hpp"
 
 namespace comma::commands {
 
@@ -44,12 +45,24 @@ solver::Mesh read(const Call& call, Context& context) {
   return solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
 }
 
+void warn_of_double_cells(const Call& call, const solver::Mesh& mesh, Context& context) {
+  const std::vector<solver::RepeatedCell> doubles = solver::repeated_cells(mesh);
+  if (doubles.empty()) return;
+  const auto [first, again] = doubles.front();
+  const std::string others = doubles.size() > 1 ? fmt::format(", the first of {} cells that repeat others", doubles.size()) : "";
+  context.diagnostics.alarm("double-cells",
+                            fmt::format("LIRE_MAILLAGE: {} {} has the nodes of {}{}: where both are in a model or under a load, both count", solver::name_of(mesh.cell_types[again]),
+                                        mesh.cell_name(again), mesh.cell_name(first), others),
+                            call.span, "leave doubles out of the mesh file; VERI_MAIL=_F(VERIF='NON') where they are meant");
+}
+
 }  // namespace
 
 Product lire_maillage(const Call& call, Context& context) {
   auto product = std::make_shared<MeshConcept>();
   product->mesh = std::make_shared<solver::Mesh>(read(call, context));
   const solver::Mesh& mesh = *product->mesh;
+  if (call.factors("VERI_MAIL").front().text("VERIF") == "OUI") warn_of_double_cells(call, mesh, context);
   context.console.detail("  " + std::to_string(mesh.node_count()) + " nodes, " + std::to_string(mesh.cell_count()) +
                          " cells, " + std::to_string(mesh.cell_groups.size()) + " cell groups, " +
                          std::to_string(mesh.node_groups.size()) + " node groups");
