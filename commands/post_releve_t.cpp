@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "commands/angles.hpp"
 #include "commands/commands.hpp"
@@ -15,6 +16,7 @@
 #include "solver/fields/rotation.hpp"
 #include "solver/fields/statistics.hpp"
 #include "solver/mesh/axes.hpp"
+#include "solver/mesh/groups.hpp"
 
 namespace comma::commands {
 
@@ -114,6 +116,20 @@ Row head_of_action(const Keywords& action, const FieldSource& source) {
   Row head = {{"INTITULE", action.has("INTITULE") ? action.text("INTITULE") : ""}};
   head.insert(head.end(), source.columns.begin(), source.columns.end());
   return head;
+}
+
+// Tangents and means along a line come of the order of the nodes.
+void warn_of_order(const Keywords& action, const Reading& reading, Context& context) {
+  const auto operations = action.texts("OPERATION");
+  const bool by_axes = action.text("REPERE") == "LOCAL" && !action.has("RESULTANTE");
+  if (!by_axes && std::ranges::find(operations, "MOYENNE") == operations.end()) return;
+  const auto node = solver::node_out_of_order(reading.mesh, reading.nodes);
+  if (!node) return;
+  const char* keyword = by_axes ? "REPERE" : "OPERATION";
+  context.diagnostics.alarm("nodes-out-of-order",
+                            fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {}='{}' takes them to: the way turns back at {}", keyword,
+                                        by_axes ? "LOCAL" : "MOYENNE", reading.mesh.node_name(*node)),
+                            action.span_of(keyword), "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
 }
 
 Reading read(const Keywords& action, const FieldSource& source) {
@@ -342,12 +358,14 @@ void act(Table& table, const Keywords& action, Context& context) {
   check_line(action);
   check_resultant(action);
   warn_of_missing_instants(action, context);
+  bool first = true;
   for (const FieldSource& source : field_sources(action)) {
     if (action.text("MOYE_NOEUD") == "NON") {
       extract_by_cells(table, action, source);
       continue;
     }
     const Reading reading = read(action, source);
+    if (std::exchange(first, false)) warn_of_order(action, reading, context);
     for (const std::string& operation : action.texts("OPERATION")) {
       if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
       if (operation == "EXTRACTION" && !action.has("RESULTANTE")) extract(table, action, reading);

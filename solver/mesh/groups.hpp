@@ -63,6 +63,10 @@ std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Poin
 std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start = {},
                                   std::optional<int> end = {}, std::optional<Point> direction = {});
 
+/// The first of the nodes at which the way from one to the next turns back (by more than 90 degrees), and does not go along edges of
+/// cells before and behind it; none where they follow each other along a line.
+std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes);
+
 double distance(const Point& a, const Point& b);
 
 /// The nodes sorted by their distance from `start` along the straight line to `end`. Throws Error `not-a-line` naming a

@@ -159,6 +159,24 @@ TEST_CASE("a fork is not a line") {
   CHECK_THROWS_AS(nodes_along_line(mesh, Group{4}), Error);
 }
 
+TEST_CASE("nodes that follow each other along a line are told from nodes that do not") {
+  const Mesh mesh = quadratic_line();
+  const Group along = nodes_along_line(mesh, cells_of_type(mesh, Group{0, 1, 2}, CellType::seg3));
+  CHECK_FALSE(node_out_of_order(mesh, along));
+  CHECK_FALSE(node_out_of_order(mesh, Group{along[0], along[2], along[4]}));
+  CHECK(node_out_of_order(mesh, Group{along[0], along[4], along[2], along[6]}) == along[4]);
+  Mesh crack;
+  crack.nodes = {{1, 0.1, 0}, {0, 0, 0}, {1, -0.1, 0}};
+  crack.add_cell(CellType::seg2, Group{0, 1});
+  crack.add_cell(CellType::seg2, Group{1, 2});
+  CHECK_FALSE(node_out_of_order(crack, Group{0, 1, 2}));
+  Mesh face;
+  face.nodes = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+  face.add_cell(CellType::quad4, Group{0, 1, 2, 3});
+  CHECK_FALSE(node_out_of_order(face, Group{0, 1, 2, 3}));
+  CHECK(node_out_of_order(face, Group{0, 1, 3, 2}) == 1);
+}
+
 TEST_CASE("nodes on a straight line are sorted along it") {
   const Mesh mesh = quadratic_line();
   CHECK(nodes_along_segment(mesh, Group{3, 6, 0, 5}, 6, 0, 1e-9) == Group{6, 5, 3, 0});
