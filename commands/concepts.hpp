@@ -1,6 +1,7 @@
 // What the concepts of a command file hold: thin handles on the solver's data.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -106,6 +107,8 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const solver::Model> model;
   /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
+  /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null where there are none.
+  std::function<std::vector<double>()> multipliers = {};
 
   /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
   /// sous_point, numbers from 1 (U1.03.02); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().

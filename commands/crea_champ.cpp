@@ -165,6 +165,26 @@ void take_support(FieldConcept& product, const FieldConcept& from) {
   product.model = from.model;
 }
 
+// Of a sum of displacements, where all of them have as many.
+std::function<std::vector<double>()> multipliers_of_terms(const Call& call) {
+  std::vector<std::pair<double, std::function<std::vector<double>()>>> terms;
+  for (const Keywords& occurrence : call.factors("COMB")) {
+    const auto& field = occurrence.data<FieldConcept>("CHAM_GD");
+    if (!field.multipliers) return {};
+    terms.emplace_back(occurrence.real("COEF_R"), field.multipliers);
+  }
+  return [terms] {
+    std::vector<double> sum;
+    for (const auto& [factor, multipliers] : terms) {
+      const std::vector<double> own = multipliers();
+      if (sum.empty()) sum.resize(own.size());
+      if (own.size() != sum.size()) return std::vector<double>();
+      for (std::size_t i = 0; i < own.size(); ++i) sum[i] += factor * own[i];
+    }
+    return sum;
+  };
+}
+
 FieldPtr from_terms(const Call& call) {
   auto product = std::make_shared<FieldConcept>();
   std::vector<solver::FieldTerm> terms;
@@ -174,6 +194,7 @@ FieldPtr from_terms(const Call& call) {
     terms.push_back({&data.field, occurrence.real("COEF_R")});
   }
   product->field = solver::linear_combination(terms);
+  product->multipliers = multipliers_of_terms(call);
   return product;
 }
 

@@ -52,6 +52,17 @@ solver::Field read_result(const Call& call, const solver::Result& result) {
   return between ? interpolated(call, result) : field_of(call, only_step(call, result, "a field is taken of one"));
 }
 
+// A step's displacements stand beside multipliers.
+std::function<std::vector<double>()> multipliers_beside(const Call& call) {
+  if (call.text("NOM_CHAM") != "DEPL" || call.has("TYPE_MAXI") || call.text("INTERPOL") == "LIN") return {};
+  auto data = std::dynamic_pointer_cast<const ResultConcept>(call.concept_of("RESULTAT")->data);
+  const int order = only_step(call, data->result, "a field is taken of one").order;
+  return [data, order] {
+    const auto step = std::ranges::find(data->result.steps, order, &solver::ResultStep::order);
+    return step == data->result.steps.end() ? std::vector<double>() : multipliers_of(*data, *step);
+  };
+}
+
 // --- of a table -------------------------------------------------------------------------------------------------------------
 
 // Names are texts or, where a table was read from a file, numbers.
@@ -180,6 +191,7 @@ std::shared_ptr<FieldConcept> field_of_result(const Call& call) {
   product->mesh = result.model ? std::shared_ptr<const solver::Mesh>(result.model->mesh) : result.bare_mesh;
   try {
     product->field = read_result(call, result);
+    product->multipliers = multipliers_beside(call);
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("NOM_CHAM"), error.hint());
   }

@@ -9,6 +9,8 @@
 
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_computation.hpp"
+#include "solver/fields/relation_multipliers.hpp"
 #include "solver/fields/variable_names.hpp"
 
 namespace comma::commands {
@@ -124,6 +126,14 @@ const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) 
   throw DiagnosticError("unknown-field", fmt::format("step INST={} of the result holds no {}", step.instant, name),
                         keywords.span_of("NOM_CHAM"),
                         fmt::format("it holds {}; CALC_CHAMP computes more", fmt::join(known, ", ")));
+}
+
+std::vector<double> multipliers_of(const ResultConcept& data, const ResultStep& step) {
+  const solver::StaticProblem& problem = data.problem_of(step);
+  if (!problem.model || !problem.materials) return {};
+  solver::FieldComputation computation(problem, data.result);
+  const solver::Field reactions = computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
+  return solver::relation_multipliers(solver::DofMap(*problem.model), problem.loads, std::get<solver::NodalField>(reactions));
 }
 
 solver::Field by_variable_names(const Keywords& keywords, const solver::Field& field, const solver::BehaviourOfCells* behaviours) {

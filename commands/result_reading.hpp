@@ -31,6 +31,9 @@ std::vector<const solver::ResultStep*> steps_with_field(const interpreter::Keywo
 /// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.
 const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
 
+/// The multipliers of AFFE_CHAR_MECA that stand among the values of DEPL (ssnp140a); none without a computation behind the result.
+std::vector<double> multipliers_of(const ResultConcept& data, const solver::ResultStep& step);
+
 /// A field of internal variables with their names as components, for NOM_VARI. Throws DiagnosticError `incompatible-field` at NOM_CHAM for another field.
 solver::Field by_variable_names(const interpreter::Keywords& keywords, const solver::Field& field, const solver::BehaviourOfCells* behaviours);
 

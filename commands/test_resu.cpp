@@ -13,8 +13,6 @@
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_computation.hpp"
-#include "solver/fields/relation_multipliers.hpp"
 
 namespace comma::commands {
 
@@ -69,7 +67,7 @@ std::vector<int> components_tested(const Keywords& test, const std::vector<std::
   return all;
 }
 
-// What stands beside the values at nodes: see multipliers_in.
+// What stands beside the values at nodes: see takes_multipliers_in.
 double nodal_value(const Keywords& test, const NodalField& field, const solver::Mesh& mesh, const Values& others) {
   const auto components = components_tested(test, field.components);
   if (test.given("TYPE_TEST")) {
@@ -207,21 +205,15 @@ void report(const Keywords& test, const std::string& label, const TestedValue& v
 }
 
 // The multipliers of AFFE_CHAR_MECA stand among the values of DEPL: a test of all of them at once takes them in (ssnp140a).
-Values multipliers_in(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
-  if (!test.given("TYPE_TEST") || test.given("NOM_CMP") || names_a_place(test) || test.text("NOM_CHAM") != "DEPL") return {};
-  const solver::StaticProblem& problem = data.problem_of(step);
-  if (!problem.model || !problem.materials) return {};
-  solver::FieldComputation computation(problem, data.result);
-  const solver::Field reactions = computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
-  return solver::relation_multipliers(solver::DofMap(*problem.model), problem.loads, std::get<NodalField>(reactions));
-}
+bool takes_multipliers_in(const Keywords& test) { return test.given("TYPE_TEST") && !test.given("NOM_CMP") && !names_a_place(test); }
 
 TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
   if (test.given("PARA")) return parameter_value(test, step);
   const solver::Field& held = field_of(test, step);
   const solver::Mesh& mesh = data.result.mesh();
   if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem.behaviours.get()), mesh));
-  return as_reference(test, field_value(test, held, mesh, multipliers_in(test, data, step)));
+  const bool all = takes_multipliers_in(test) && test.text("NOM_CHAM") == "DEPL";
+  return as_reference(test, field_value(test, held, mesh, all ? multipliers_of(data, step) : Values()));
 }
 
 void test_result(const Keywords& test, Context& context) {
@@ -234,7 +226,9 @@ void test_result(const Keywords& test, Context& context) {
 
 void test_field(const Keywords& test, Context& context) {
   const FieldConcept& data = number_field(test.concept_of("CHAM_GD"), test, "CHAM_GD");
-  report(test, label_of(test, test.concept_of("CHAM_GD")->name), as_reference(test, field_value(test, data.field, *data.mesh)), context);
+  const std::string label = label_of(test, test.concept_of("CHAM_GD")->name);
+  const Values others = data.multipliers && takes_multipliers_in(test) ? data.multipliers() : Values();
+  report(test, label, as_reference(test, field_value(test, data.field, *data.mesh, others)), context);
 }
 
 }  // namespace
