@@ -34,6 +34,7 @@ Product defi_contact(const Call& call, Context& context);
 Product defi_fichier(const Call& call, Context& context);
 Product defi_fonction(const Call& call, Context& context);
 Product defi_group(const Call& call, Context& context);
+Product defi_list_enti(const Call& call, Context& context);
 Product defi_list_inst(const Call& call, Context& context);
 Product defi_list_reel(const Call& call, Context& context);
 Product defi_materiau(const Call& call, Context& context);

@@ -41,6 +41,11 @@ Value ListConcept::method(std::string_view name, const std::vector<Value>& argum
   return ConceptData::method(name, arguments, keywords);
 }
 
+Value IntegerListConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if ((name == "Valeurs" || name == "getValues") && arguments.empty() && keywords.empty()) return Value::list({values.begin(), values.end()});
+  return ConceptData::method(name, arguments, keywords);
+}
+
 Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return extracted_table(table);
   return ConceptData::method(name, arguments, keywords);

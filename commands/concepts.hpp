@@ -67,6 +67,12 @@ struct ListConcept : ConceptData {
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
 };
 
+struct IntegerListConcept : ConceptData {
+  std::vector<std::int64_t> values;
+  /// Valeurs() and getValues(): the numbers as a list.
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+};
+
 /// Instants with rules on how steps are cut and adapted.
 struct StepPlanConcept : ConceptData {
   solver::StepPlan plan;

@@ -34,6 +34,7 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"DEFI_FICHIER", defi_fichier},
     {"DEFI_FONCTION", defi_fonction},
     {"DEFI_GROUP", defi_group},
+    {"DEFI_LIST_ENTI", defi_list_enti},
     {"DEFI_LIST_INST", defi_list_inst},
     {"DEFI_LIST_REEL", defi_list_reel},
     {"DEFI_MATERIAU", defi_materiau},

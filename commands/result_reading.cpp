@@ -62,11 +62,11 @@ const ResultStep& step_at(const Keywords& keywords, const solver::Result& result
                         known_instants(result));
 }
 
-const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& result, std::int64_t order) {
+const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& result, std::int64_t order, const char* keyword) {
   for (const ResultStep& step : result.steps) {
     if (step.order == order) return step;
   }
-  throw DiagnosticError("unknown-step", fmt::format("no step of the result has NUME_ORDRE={}", order), keywords.span_of("NUME_ORDRE"),
+  throw DiagnosticError("unknown-step", fmt::format("no step of the result has NUME_ORDRE={}", order), keywords.span_of(keyword),
                         known_instants(result));
 }
 
@@ -85,7 +85,9 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
       if (const ResultStep* step = find_step(keywords, result, instant)) steps.push_back(step);
     if (steps.empty() && !wanted.empty()) steps.push_back(&step_at(keywords, result, wanted.front()));
   } else if (keywords.given("NUME_ORDRE")) {
-    for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order));
+    for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order, "NUME_ORDRE"));
+  } else if (keywords.given("LIST_ORDRE")) {
+    for (const auto order : keywords.data<IntegerListConcept>("LIST_ORDRE").values) steps.push_back(&step_numbered(keywords, result, order, "LIST_ORDRE"));
   } else {
     for (const ResultStep& step : result.steps) steps.push_back(&step);
   }

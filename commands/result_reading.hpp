@@ -10,7 +10,7 @@
 
 namespace comma::commands {
 
-/// The steps that NUME_ORDRE, INST (with PRECISION and CRITERE) or TOUT_ORDRE name; those of LIST_INST that the result has; all when none is given.
+/// The steps that NUME_ORDRE, LIST_ORDRE, INST (with PRECISION and CRITERE) or TOUT_ORDRE name; those of LIST_INST that the result has; all when none is given.
 /// Throws DiagnosticError `unknown-step` listing the steps there are.
 std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keywords& keywords, const solver::Result& result);
 
