@@ -32,6 +32,7 @@ std::shared_ptr<const solver::TabulatedFunction> row_of(const Keywords& occurren
 Product defi_nappe(const Call& call, Context&) {
   solver::TabulatedFunction edges;
   edges.parameter = call.text("NOM_PARA");
+  edges.result = call.text("NOM_RESU");
   edges.x = call.reals("PARA");
   check_rising(call, "PARA", edges.x);
   read_shape(call, edges);

@@ -155,6 +155,12 @@ double SurfaceConcept::evaluate(std::span<const double> at) const {
   return between(edges_.y_scale, low, high, share);
 }
 
+const solver::TabulatedFunction& SurfaceConcept::row_near(double value, double reach, const Span& span) const {
+  const auto found = std::ranges::find_if(edges_.x, [&](double each) { return std::abs(each - value) <= reach; });
+  if (found != edges_.x.end()) return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
+  throw DiagnosticError("unknown-step", fmt::format("the function of two parameters has none for {}", value), span, fmt::format("it has them for {}", fmt::join(edges_.x, ", ")));
+}
+
 solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {
   auto function = function_behind(handle);
   places_of(*function, handle->name, {"INST"}, span);

@@ -76,6 +76,8 @@ class SurfaceConcept : public FunctionConcept {
   double evaluate(std::span<const double> at) const override;
   const solver::TabulatedFunction& edges() const { return edges_; }
   const std::vector<std::shared_ptr<const solver::TabulatedFunction>>& rows() const { return rows_; }
+  /// The table that belongs to the value of the first parameter which lies within `reach`. Throws DiagnosticError `unknown-step` at `span`, listing the values there are.
+  const solver::TabulatedFunction& row_near(double value, double reach, const interpreter::Span& span) const;
 
  private:
   solver::TabulatedFunction edges_;

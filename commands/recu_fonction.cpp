@@ -127,13 +127,7 @@ void read_surface(const Call& call, solver::TabulatedFunction& function) {
   const auto& surface = call.data<SurfaceConcept>("NAPPE");
   const double wanted = call.real("VALE_PARA_FONC");
   const double reach = call.real("PRECISION") * (call.text("CRITERE") == "RELATIF" ? std::abs(wanted) : 1.0);
-  const auto& values = surface.edges().x;
-  const auto found = std::ranges::find_if(values, [&](double value) { return std::abs(value - wanted) <= reach; });
-  if (found == values.end()) {
-    throw DiagnosticError("unknown-step", fmt::format("RECU_FONCTION: the surface has no function for {}", wanted), call.span_of("VALE_PARA_FONC"),
-                          fmt::format("it has them for {}", fmt::join(values, ", ")));
-  }
-  function = *surface.rows()[static_cast<std::size_t>(found - values.begin())];
+  function = surface.row_near(wanted, reach, call.span_of("VALE_PARA_FONC"));
 }
 
 // The rows that have a number in both columns.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -30,10 +32,55 @@ void test_value(const Keywords& test, Context& context) {
   for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
 }
 
+const char* word_of(solver::Extension extension) {
+  if (extension == solver::Extension::excluded) return "EXCLU";
+  return extension == solver::Extension::constant ? "CONSTANT" : "LINEAIRE";
+}
+
+const char* word_of(solver::Scale scale) { return scale == solver::Scale::linear ? "LIN" : "LOG"; }
+
+std::string attribute_of(const solver::TabulatedFunction& table, const std::string& name) {
+  if (name == "NOM_PARA") return table.parameter;
+  if (name == "NOM_RESU") return table.result;
+  if (name == "PROL_GAUCHE") return word_of(table.left);
+  if (name == "PROL_DROITE") return word_of(table.right);
+  return fmt::format("{} {}", word_of(table.x_scale), word_of(table.y_scale));
+}
+
+// The one of PARA, else the first: they have the parameter in common.
+const solver::TabulatedFunction& row_of(const Keywords& test, const SurfaceConcept& surface) {
+  if (!test.given("PARA")) return *surface.rows().front();
+  const double wanted = test.real("PARA");
+  return surface.row_near(wanted, test.real("PREC_PARA") * (test.text("CRIT_PARA") == "RELATIF" ? std::abs(wanted) : 1.0), test.span_of("PARA"));
+}
+
+std::string attribute(const Keywords& test) {
+  const auto& function = test.data<FunctionConcept>("FONCTION");
+  const auto* surface = dynamic_cast<const SurfaceConcept*>(&function);
+  const std::string& name = test.text("ATTR");
+  const bool of_rows = name.ends_with("_FONC");
+  if (surface != nullptr) return of_rows ? attribute_of(row_of(test, *surface), name.substr(0, name.size() - 5)) : attribute_of(surface->edges(), name);
+  if (function.table() != nullptr && !of_rows) return attribute_of(*function.table(), name);
+  throw DiagnosticError("wrong-type", fmt::format("TEST_FONCTION: {} has no attribute {}", test.concept_of("FONCTION")->name, name), test.span_of("ATTR"),
+                        of_rows ? "functions of two parameters (DEFI_NAPPE) have it" : "functions that are given by points have it");
+}
+
+// One interpolation stands for that of the parameter and of the value.
+std::string attribute_expected(const Keywords& test) {
+  const std::string& expected = test.text("ATTR_REFE");
+  return expected == "LIN" || expected == "LOG" ? expected + " " + expected : expected;
+}
+
+void test_attribute(const Keywords& test, Context& context) {
+  const std::string label = fmt::format("{} {}", test.concept_of("FONCTION")->name, test.text("ATTR"));
+  context.report(judge_text(test, "TEST_FONCTION", label, attribute_expected(test), attribute(test)));
+}
+
 }  // namespace
 
 Product test_fonction(const Call& call, Context& context) {
   for (const Keywords& test : call.factors("VALEUR")) test_value(test, context);
+  for (const Keywords& test : call.factors("ATTRIBUT")) test_attribute(test, context);
   return nullptr;
 }
 

@@ -56,16 +56,21 @@ TestedValue tested_value(const interpreter::Value& value) {
   return value.is_none() ? "" : value.repr();
 }
 
+Verdict verdict_at(const Keywords& test, const std::string& command, const std::string& label, const TestedValue& computed) {
+  Verdict verdict;
+  verdict.file = test.span ? test.span.file->path() : "";
+  verdict.line = test.span ? test.span.file->position(test.span.begin).line : 0;
+  verdict.command = command;
+  verdict.label = label;
+  verdict.computed = computed;
+  return verdict;
+}
+
 }  // namespace
 
 std::vector<Verdict> judge(const Keywords& test, const std::string& command, const std::string& label,
                            const TestedValue& computed) {
-  Verdict common;
-  common.file = test.span ? test.span.file->path() : "";
-  common.line = test.span ? test.span.file->position(test.span.begin).line : 0;
-  common.command = command;
-  common.label = label;
-  common.computed = computed;
+  Verdict common = verdict_at(test, command, label, computed);
   common.relative = test.texts("CRITERE").empty() || test.texts("CRITERE").front() == "RELATIF";
   if (test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI" && std::holds_alternative<double>(computed)) {
     common.computed = std::abs(std::get<double>(computed));
@@ -95,6 +100,16 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
     verdicts.push_back(std::move(verdict));
   }
   return verdicts;
+}
+
+Verdict judge_text(const Keywords& test, const std::string& command, const std::string& label, const std::string& expected, const std::string& computed) {
+  Verdict verdict = verdict_at(test, command, label, computed);
+  verdict.kind = "VALE_REFE";
+  verdict.reference_type = test.has("REFERENCE") ? test.text("REFERENCE") : "NON_DEFINI";
+  verdict.reference = expected;
+  verdict.relative = false;
+  compare(verdict);
+  return verdict;
 }
 
 namespace {

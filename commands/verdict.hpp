@@ -35,6 +35,10 @@ struct Verdict {
 std::vector<Verdict> judge(const interpreter::Keywords& test, const std::string& command, const std::string& label,
                            const TestedValue& computed);
 
+/// Judges a text against the one that the file expects: kind VALE_REFE.
+Verdict judge_text(const interpreter::Keywords& test, const std::string& command, const std::string& label, const std::string& expected,
+                   const std::string& computed);
+
 /// The verdict of a claim that the file makes itself (CA.TestCase): kind VALE_REFE, reference type ASSERTION. Values that are
 /// no numbers stand as the language writes them.
 Verdict verdict_of(const interpreter::Assertion& assertion);
