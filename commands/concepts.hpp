@@ -113,6 +113,7 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const solver::Model> model;
   /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
+  std::shared_ptr<const solver::BehaviourOfCells> behaviours = {};  ///< of a result from which the field was taken: they name internal variables
   /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null where there are none.
   std::function<std::vector<double>()> multipliers = {};
 

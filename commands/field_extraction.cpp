@@ -192,6 +192,7 @@ std::shared_ptr<FieldConcept> field_of_result(const Call& call) {
   try {
     product->field = read_result(call, result);
     product->multipliers = multipliers_beside(call);
+    product->behaviours = call.data<ResultConcept>("RESULTAT").problem.behaviours;
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("NOM_CHAM"), error.hint());
   }

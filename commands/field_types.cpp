@@ -37,6 +37,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
       {"DERA", {"DCHA_V", "DCHA_T", "IND_DCHA", "VAL_DCHA", "RADI_V", "ERR_RADI"}},
       {"CACOQU", {"EP", "ALPHA", "BETA", "CTOR", "EXCENT", "KAPPA"}},
       {"NBSP", {"COQ_NCOU"}},
+      {"CONT", {"CONT", "JEU", "PRES", "COEFSURF", "PRESCOOR"}},
       {"INFC", {"CONT", "JEU", "RN", "RNX", "RNY", "RNZ", "GLIX", "GLIY", "GLI", "RTAX", "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ", "RX",
                 "RY", "RZ", "R", "HN", "I", "IX", "IY", "IZ", "PT_X", "PT_Y", "PT_Z", "PROJ_X", "PROJ_Y", "PROJ_Z"}},
   };
@@ -55,7 +56,11 @@ FieldType field_type(const std::string& word) {
                                                                         {"ELEM", FieldPlace::cell},
                                                                         {"ELNO", FieldPlace::element_node},
                                                                         {"ELGA", FieldPlace::gauss_point}};
-  return {places.at(word.substr(0, 4)), word.substr(5, word.size() - 7), word.back() == 'F', word.back() == 'I'};
+  // Quantities of one kind that have a name of their own in one place: VARI_NOEU and CONT_ELEM (U4.72.04).
+  static const std::map<std::string, std::string, std::less<>> elsewhere = {{"VAR2", "VARI"}, {"CLAC", "CONT"}};
+  std::string quantity = word.substr(5, word.size() - 7);
+  if (const auto found = elsewhere.find(quantity); found != elsewhere.end()) quantity = found->second;
+  return {places.at(word.substr(0, 4)), std::move(quantity), word.back() == 'F', word.back() == 'I'};
 }
 
 namespace {
