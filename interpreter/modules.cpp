@@ -191,6 +191,7 @@ constexpr std::array modules = {
     ModuleRow{"code_aster", members_of_code_aster, true},
     ModuleRow{"code_aster.CA", members_of_code_aster, true},
     ModuleRow{"code_aster.Commands", members_of_commands, true},
+    ModuleRow{"code_aster.Cata.Syntax", members_of_commands},
     ModuleRow{"code_aster.Utilities", nothing},
     ModuleRow{"aster", exceptions_of_commands},
     ModuleRow{"aster_core", nothing},
