@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "commands/result_tables.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -23,6 +25,14 @@ Cell parameter_of(const solver::ResultStep& step, const std::string& name) {
   return found == step.parameters.end() ? Cell() : Cell(found->second);
 }
 
+void warn_of_unknown_parameters(const Call& call, const solver::Result& result, Context& context) {
+  for (const std::string& name : call.texts("NOM_PARA")) {
+    const auto has = [&](const solver::ResultStep& step) { return !std::holds_alternative<std::monostate>(parameter_of(step, name)); };
+    if (std::ranges::any_of(result.steps, has)) continue;
+    context.diagnostics.alarm("unknown-parameter", fmt::format("RECU_TABLE: {} has no parameter {}, and the column is empty", call.concept_of("CO")->name, name), call.span_of("NOM_PARA"));
+  }
+}
+
 Table parameter_table(const Call& call, const solver::Result& result) {
   Table table;
   for (const solver::ResultStep& step : result.steps) {
@@ -44,8 +54,9 @@ Table named_table(const Call& call, const ResultConcept& data) {
 
 }  // namespace
 
-Product recu_table(const Call& call, Context&) {
+Product recu_table(const Call& call, Context& context) {
   const ResultConcept& data = result_of(call);
+  if (call.has("NOM_PARA")) warn_of_unknown_parameters(call, data.result, context);
   auto product = std::make_shared<TableConcept>();
   product->table = call.has("NOM_TABLE") ? named_table(call, data) : parameter_table(call, data.result);
   return product;

@@ -208,6 +208,13 @@ solver::IterationObserver live_table(const Context& context) {
   };
 }
 
+// What the last iteration of a step leaves of the equations; the initial state has had none.
+void keep_residuals(const solver::IterationReport& last, solver::ResultStep& step) {
+  if (last.iteration == 0) return;
+  step.parameters["RESI_GLOB_MAXI"] = last.absolute_residual;
+  if (last.relative_residual >= 0.0) step.parameters["RESI_GLOB_RELA"] = last.relative_residual;
+}
+
 }  // namespace
 
 Product stat_non_line(const Call& call, Context& context) {
@@ -234,10 +241,16 @@ Product stat_non_line(const Call& call, Context& context) {
   const Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
+  solver::IterationReport last;
+  const auto iterated = [&last, show = live_table(context)](const solver::IterationReport& report) {
+    if (report.event.empty()) last = report;
+    if (show) show(report);
+  };
   // What goes on with steps that are there has no initial one.
   const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
     if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
     ++number;
+    keep_residuals(last, result.steps.back());
     archive.update(result);
   };
   options.stability = stability_analysis(call, *product);
@@ -245,7 +258,7 @@ Product stat_non_line(const Call& call, Context& context) {
   if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON") options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
-    return solver::solve_static(product->problem, steps, options, product->result, context.counters, live_table(context), after_step);
+    return solver::solve_static(product->problem, steps, options, product->result, context.counters, iterated, after_step);
   };
   const auto doubts = solve();
   warn_of_unconverged_steps(call, unconverged, context);
