@@ -16,14 +16,17 @@ namespace comma::commands {
 
 enum class Verbosity : std::uint8_t { quiet, normal, verbose };
 
-/// Plain text lines, on standard output.
+/// Plain text lines, on standard output, written out as they come: a run that is stopped leaves all that it said.
 class Console {
  public:
   explicit Console(Verbosity verbosity) : verbosity_(verbosity) {}
 
   Verbosity verbosity() const { return verbosity_; }
   /// Text as it is: what the file's own print() says.
-  void print(std::string_view text) const { std::fwrite(text.data(), 1, text.size(), stdout); }
+  void print(std::string_view text) const {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+  }
   /// A line that every run shows; `detail` one that only -v shows, `progress` one that -q leaves out.
   void line(std::string_view text) const { print_line(text); }
   void progress(std::string_view text) const {
@@ -37,6 +40,7 @@ class Console {
   static void print_line(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stdout);
     std::fputc('\n', stdout);
+    std::fflush(stdout);
   }
   Verbosity verbosity_;
 };
