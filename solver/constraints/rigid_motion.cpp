@@ -164,6 +164,12 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
   return result;
 }
 
+std::string describe(std::span<const FreePart> parts, const Mesh& mesh) {
+  std::vector<std::string> texts;
+  for (const FreePart& part : parts) texts.push_back(describe(part, mesh));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 Error singular_matrix_error(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
                             const SymmetricMatrix& reduced_stiffness, const FactorReport& report, int singular_digits) {
   const std::vector<FreePart> parts =
@@ -173,10 +179,7 @@ Error singular_matrix_error(const Mesh& mesh, const DofMap& dofs, const Eliminat
                  fmt::format("the stiffness is singular: {} unknowns have no stiffness", report.null_rows.size()),
                  "look for nodes that no element and no condition holds");
   }
-  std::vector<std::string> texts;
-  for (const FreePart& part : parts) texts.push_back(describe(part, mesh));
-  return Error("singular-matrix", fmt::format("the stiffness is singular: {}", fmt::join(texts, "; ")),
-               parts.front().remedy);
+  return Error("singular-matrix", "the stiffness is singular: " + describe(parts, mesh), parts.front().remedy);
 }
 
 }  // namespace comma::solver

@@ -32,6 +32,9 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
 
 inline constexpr std::size_t most_free_parts = 5;
 
+/// "nothing holds N1, N2 (2 nodes): translation along X; nothing holds ...".
+std::string describe(std::span<const FreePart> parts, const Mesh& mesh);
+
 /// The error `singular-matrix` that a factorisation's report calls for: nodes, motions, and in the hint what would hold
 /// them.
 Error singular_matrix_error(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,

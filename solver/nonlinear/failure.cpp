@@ -22,28 +22,39 @@ std::string table(std::span<const IterationReport> history) {
 /// Of a linear problem, a residual beyond this share of the loads is not what rounding leaves.
 constexpr double unbalanced_share = 1e-2;
 
+/// Of a nonlinear one, a residual below this share of the loads is.
+constexpr double rounding_share = 1e-12;
+
 bool is_unbalanced(const IterationReport& last, bool is_linear) { return is_linear && last.relative_residual > unbalanced_share; }
 
-std::string likely_cause(std::span<const IterationReport> history, bool is_linear) {
+bool is_rounding(const IterationReport& last) { return last.relative_residual >= 0.0 && last.relative_residual < rounding_share && last.contact_changes == 0; }
+
+std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
+  if (is_unbalanced(last, is_linear) && !unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
   if (is_unbalanced(last, is_linear))
     return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
   if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
+  if (is_rounding(last)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
   if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
     return "the residual grows: the step is too large for Newton's method";
   return "the residual shrinks too slowly for the iterations allowed";
 }
 
-std::string remedy(std::span<const IterationReport> history, bool is_linear) {
+std::string remedy(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
+  if (is_unbalanced(last, is_linear) && !unheld.empty())
+    return "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point";
   if (is_unbalanced(last, is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
-  if (is_linear) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (is_linear || is_rounding(last)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
 }
+
+std::string but_for_contact(const std::string& unheld) { return unheld.empty() ? "" : "; but for contact " + unheld; }
 
 }  // namespace
 
@@ -62,13 +73,13 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
 }
 
 void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
-                          bool is_linear) {
+                          bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   throw Error("no-convergence",
-              fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}, largest residual {:.3e} ({}){}", time,
-                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, is_linear), last.absolute_residual,
+              fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}{}, largest residual {:.3e} ({}){}", time,
+                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, is_linear, unheld), but_for_contact(unheld), last.absolute_residual,
                           last.worst, table(history)),
-              remedy(history, is_linear));
+              remedy(history, is_linear, unheld));
 }
 
 void throw_active_set_limit(int limit, bool by_gradients) {
@@ -79,14 +90,16 @@ void throw_active_set_limit(int limit, bool by_gradients) {
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
 }
 
-void throw_condensed_limit(int limit, double friction, bool has_negative_weight) {
-  const std::string message = fmt::format("the contact status did not settle within {} iterations on the contact rows", limit);
+void throw_condensed_limit(int limit, double friction, bool has_negative_weight, const std::string& unheld) {
+  const std::string message = fmt::format("the contact status did not settle within {} iterations on the contact rows{}", limit, but_for_contact(unheld));
   if (has_negative_weight)
     throw Error("contact-cycling", message + "; a point of negative weight pulls where it is closed, and no set of statuses need hold",
                 "take another order of Gauss's rule: on triangles that of ORDRE_INT=3 has such points, those of 2 and 4 have not");
   constexpr double strong_friction = 1.0;
   if (friction < strong_friction)
-    throw Error("contact-cycling", message, "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)");
+    throw Error("contact-cycling", message,
+                unheld.empty() ? "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)"
+                               : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point, or take smaller steps");
   throw Error("contact-cycling",
               fmt::format("{}; with COULOMB = {:g} friction is stronger than the pressure that causes it, and a state of rest need not exist, "
                           "or be the only one",

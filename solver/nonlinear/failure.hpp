@@ -16,16 +16,16 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
 /// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);
 
-/// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
+/// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause. `unheld`: in words, what nothing but contact holds, or empty.
 [[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
-                                       bool is_linear);
+                                       bool is_linear, const std::string& unheld = {});
 
 /// Error `contact-cycling`: the active set needed more changes than allowed.
 [[noreturn]] void throw_active_set_limit(int limit, bool by_gradients);
 
 /// Error `contact-cycling`: the statuses of the mixed formulation did not settle. `friction`: the strongest of all zones. `has_negative_weight`: of a point, by its
-/// rule of integration.
-[[noreturn]] void throw_condensed_limit(int limit, double friction, bool has_negative_weight);
+/// rule of integration. `unheld`: in words, what nothing but contact holds, or empty.
+[[noreturn]] void throw_condensed_limit(int limit, double friction, bool has_negative_weight, const std::string& unheld);
 
 /// How far the geometry moved at each update, relative (RESI_GEOM), and whether pairings came back.
 struct GeometryHistory {

@@ -501,7 +501,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
     if (schur_->is_exact()) {
       const bool negative = std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
-      throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_), negative);
+      throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_), negative, tangent_.unheld());
     }
     state_ = earlier;
     return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,9 @@ class TangentSystem {
 
   /// The reduced unknowns that hold a spring to the ground, and its stiffness.
   const std::vector<std::pair<int, double>>& springs() const { return springs_; }
+
+  /// In words, what nothing but whoever allowed springs holds; empty where there are none, or where the tangent changes with the displacement.
+  std::string unheld() const;
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);

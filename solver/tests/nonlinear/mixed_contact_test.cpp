@@ -9,6 +9,7 @@
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet.hpp"
 #include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -78,6 +79,27 @@ TEST_CASE("Mixed contact holds a block that nothing else holds, and lets it go a
     CHECK(pressure(stack.scene, node) == Approx(200.0).epsilon(1e-8));
     CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.101).epsilon(1e-9));
   }
+}
+
+TEST_CASE("Mixed contact: a failure names what nothing but contact holds") {
+  Stack stack(4, 4);
+  for (const int node : stack.upper.nodes.back()) {
+    stack.scene.force(node, Component::dx, 10.0);
+    stack.scene.force(node, Component::dy, -100.0);
+  }
+  CHECK_THROWS_WITH(stack.scene.solve(1), Catch::Contains("but for contact nothing holds") && Catch::Contains("translation along X, translation along Y, rotation about Z"));
+}
+
+TEST_CASE("Newton's method: a limit below rounding is told from a slow residual") {
+  const auto after = [](double relative, double absolute) {
+    IterationReport first, last;
+    first.absolute_residual = 1e6;
+    last.relative_residual = relative;
+    last.absolute_residual = absolute;
+    return std::vector{first, last};
+  };
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-15, 5e-6), {}, false), Catch::Contains("more than rounding allows"));
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-5, 5e4), {}, false), Catch::Contains("shrinks too slowly"));
 }
 
 TEST_CASE("Mixed contact stays open over a gap that the load does not close") {
