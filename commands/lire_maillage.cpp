@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
 #include <optional>
 
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
 #include "solver/io/aster_mesh_file.hpp"
 #include "solver/io/gibi_mesh_file.hpp"
 #include "solver/io/gmsh_mesh_file.hpp"
@@ -34,6 +37,16 @@ solver::Mesh read_names_aside(const Call& call, const std::string& path, Context
   return mesh;
 }
 
+// Which text format a file begins as; none for another one.
+std::string text_format_of(const std::string& path) {
+  static constexpr std::pair<const char*, const char*> marks[] = {{"COOR_2D", "ASTER"}, {"COOR_3D", "ASTER"}, {"$MeshFormat", "GMSH"}, {"$NOD", "GMSH"}, {"ENREGISTREMENT DE TYPE", "GIBI"}, {"    -1\n", "IDEAS"}};
+  std::ifstream file(path, std::ios::binary);
+  std::string beginning(4096, '\0');
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  const auto found = std::ranges::find_if(marks, [&](const auto& mark) { return beginning.find(mark.first) != std::string::npos; });
+  return found == std::end(marks) ? "" : found->second;
+}
+
 solver::Mesh read(const Call& call, Context& context) {
   const std::string& format = call.text("FORMAT");
   const std::string path = context.files.input(static_cast<int>(call.integer("UNITE")), extensions().at(format)).string();
@@ -42,7 +55,13 @@ solver::Mesh read(const Call& call, Context& context) {
   if (format == "GMSH") return solver::read_gmsh_mesh(path);
   if (format == "IDEAS") return solver::read_ideas_mesh(path);
   if (format == "GIBI") return solver::read_gibi_mesh(path);
-  return solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
+  try {
+    return solver::read_med_mesh(path, call.has("NOM_MED") ? call.text("NOM_MED") : "");
+  } catch (const solver::Error& error) {
+    const std::string likely = text_format_of(path);
+    if (likely.empty()) throw;
+    throw interpreter::DiagnosticError(error.code(), std::string("LIRE_MAILLAGE: ") + error.what(), call.span_of("FORMAT"), fmt::format("it looks like FORMAT='{}'", likely));
+  }
 }
 
 void warn_of_double_cells(const Call& call, const solver::Mesh& mesh, Context& context) {

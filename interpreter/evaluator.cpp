@@ -48,6 +48,7 @@ void Evaluator::run(const Ast& ast) {
     }
   } const restore{*this, outermost};
   file_ = ast.file;
+  if (outermost) tree_ = &ast;
   try {
     execute(ast.statements);
   } catch (const RaisedError& error) {
@@ -162,6 +163,18 @@ const Value* Evaluator::math_name(std::string_view name) const {
   return strict_ > 0 ? math_value(name) : common_math_value(name);
 }
 
+/// Where the file itself gives the name a value behind this use; 0 if it does not.
+int Evaluator::line_of_later_definition(const NameNode& name) const {
+  if (tree_ == nullptr || tree_->file != file_) return 0;
+  for (const StatementPtr& statement : tree_->statements) {
+    if (statement->kind != StatementKind::assign || statement->begin <= name.begin) continue;
+    for (const NodePtr& target : static_cast<const AssignStatement&>(*statement).targets) {
+      if (target->kind == NodeKind::name && static_cast<const NameNode&>(*target).id == name.id) return file_->position(statement->begin).line;
+    }
+  }
+  return 0;
+}
+
 /// A name is reported once; its later uses belong to the same mistake.
 Value Evaluator::unknown_name(const NameNode& name, bool called) {
   const auto& word = name.id;
@@ -179,6 +192,7 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   std::string hint = !near.empty() ? fmt::format("did you mean {}?", near) : "";
   if (math_value(word) != nullptr) hint = fmt::format("write 'from math import {}' before", word);
   if (!refusal.empty()) hint = refusal;
+  if (const int line = line_of_later_definition(name); line > 0) hint = fmt::format("it is defined later, in line {}", line);
   const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
                                               : fmt::format("'{}' is not part of the command language", word);
   if (reported_names_.contains(word)) return Value::unknown();

@@ -92,6 +92,7 @@ class Evaluator {
   Value load_global(const NameNode& name);
   const Value* math_name(std::string_view name) const;
   Value unknown_name(const NameNode& name, bool called = false);
+  int line_of_later_definition(const NameNode& name) const;
   void store(const NameNode& name, Value value);
   void assign(const Node& target, const Value& value);
   void assign_items(const SequenceNode& target, const Value& value);
@@ -148,6 +149,7 @@ class Evaluator {
   std::unordered_map<std::string, Value> globals_;
   const VariableLookup* lookup_ = nullptr;
   std::shared_ptr<const SourceFile> file_;
+  const Ast* tree_ = nullptr;  ///< of the command file, without those that it includes
   std::shared_ptr<Frame> frame_;
   std::vector<std::weak_ptr<Frame>>
       closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
