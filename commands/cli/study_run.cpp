@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 
 #include "commands/catalogue.hpp"
@@ -80,6 +81,21 @@ void StudyRun::run() {
     evaluator_->run(read(file));
   }
   session_.finish();
+  if (!diagnostics_.has_errors()) warn_of_unused_loads();
+}
+
+/// A load that was forgotten among those of a computation leaves no other trace.
+void StudyRun::warn_of_unused_loads() {
+  const auto& nodes = graph().nodes();
+  if (std::ranges::none_of(nodes, [](const interpreter::CommandNode& node) { return node.cost == interpreter::Cost::solve; })) return;
+  std::set<int> read;
+  for (const interpreter::CommandNode& node : nodes) {
+    for (const interpreter::Edge& edge : node.waits_for) read.insert(edge.from);
+  }
+  for (const interpreter::CommandNode& node : nodes) {
+    if (read.contains(node.id) || !node.product || !node.product->type.starts_with("char_")) continue;
+    diagnostics_.alarm("unused-load", fmt::format("{}: no command uses {}", node.call.command, node.product->name), node.call.span, "name it among EXCIT (or as CONTACT), or leave it out");
+  }
 }
 
 /// What can be read of a file is evaluated for its errors, even if the rest cannot.

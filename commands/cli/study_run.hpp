@@ -33,6 +33,7 @@ class StudyRun {
 
  private:
   interpreter::Ast read(const std::filesystem::path& file);
+  void warn_of_unused_loads();
   /// INCLUDE: runs another file at its place.
   void include(const interpreter::Call& call);
   /// POURSUITE: has nothing to do, but something must be there to go on from.
