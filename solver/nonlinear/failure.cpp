@@ -22,12 +22,25 @@ std::string table(std::span<const IterationReport> history) {
 /// Of a linear problem, a residual beyond this share of the loads is not what rounding leaves.
 constexpr double unbalanced_share = 1e-2;
 
-/// Of a nonlinear one, a residual below this share of the loads is.
-constexpr double rounding_share = 1e-12;
+/// Of a nonlinear one, a residual below the first share of the loads is; below the second, one that iterations no longer shrink.
+constexpr double rounding_share = 1e-12, resting_share = 1e-8;
 
 bool is_unbalanced(const IterationReport& last, bool is_linear) { return is_linear && last.relative_residual > unbalanced_share; }
 
-bool is_rounding(const IterationReport& last) { return last.relative_residual >= 0.0 && last.relative_residual < rounding_share && last.contact_changes == 0; }
+/// The later half of the iterations has not brought a tenth of what the earlier one left.
+bool is_at_rest(std::span<const IterationReport> history) {
+  constexpr std::size_t enough = 8;
+  if (history.size() < enough) return false;
+  const auto least = [](std::span<const IterationReport> part) { return std::ranges::min(part, {}, &IterationReport::absolute_residual).absolute_residual; };
+  const std::size_t half = history.size() / 2;
+  return least(history.subspan(half)) > 0.1 * least(history.first(half));
+}
+
+bool is_rounding(std::span<const IterationReport> history) {
+  const IterationReport& last = history.back();
+  if (last.relative_residual < 0.0 || last.contact_changes > 0) return false;
+  return last.relative_residual < rounding_share || (last.relative_residual < resting_share && is_at_rest(history));
+}
 
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
@@ -36,7 +49,7 @@ std::string likely_cause(std::span<const IterationReport> history, bool is_linea
   if (is_unbalanced(last, is_linear))
     return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
   if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
-  if (is_rounding(last)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
+  if (is_rounding(history)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
   if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
     return "the residual grows: the step is too large for Newton's method";
@@ -50,7 +63,7 @@ std::string remedy(std::span<const IterationReport> history, bool is_linear, con
     return "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point";
   if (is_unbalanced(last, is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
-  if (is_linear || is_rounding(last)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
 }
 

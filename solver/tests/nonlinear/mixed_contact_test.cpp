@@ -100,6 +100,18 @@ TEST_CASE("Newton's method: a limit below rounding is told from a slow residual"
   };
   CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-15, 5e-6), {}, false), Catch::Contains("more than rounding allows"));
   CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-5, 5e4), {}, false), Catch::Contains("shrinks too slowly"));
+  const auto iterations = [](double ratio) {
+    std::vector<IterationReport> history(20);
+    double share = 1e-9;
+    for (IterationReport& line : history) {
+      line.relative_residual = share;
+      line.absolute_residual = 1e5 * share;
+      share *= ratio;
+    }
+    return history;
+  };
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, iterations(0.99), {}, false), Catch::Contains("more than rounding allows"));
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, iterations(0.7), {}, false), Catch::Contains("shrinks too slowly"));
 }
 
 TEST_CASE("Mixed contact stays open over a gap that the load does not close") {
