@@ -42,6 +42,22 @@ void check_normals(const Call& call, const LoadedModel& target, Context& context
   }
 }
 
+// Nodes of no element are passed over, unless they all are.
+void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& context) {
+  for (const Keywords& force : call.factors("FORCE_NODALE")) {
+    const std::vector<int> nodes = selected_nodes(force, target.mesh);
+    const auto is_loose = [&](int node) {
+      return std::ranges::none_of(displacement_keywords, [&](const NamedComponent& named) { return target.dofs.dof(node, named.component) >= 0; });
+    };
+    const auto lost = std::ranges::count_if(nodes, is_loose);
+    if (lost == 0) continue;
+    context.diagnostics.alarm("lost-force",
+                              fmt::format("FORCE_NODALE: {} of the {} nodes belong to no element of the model, {} the first: what acts on them is lost", lost, nodes.size(),
+                                          target.mesh.node_name(*std::ranges::find_if(nodes, is_loose))),
+                              force.span, "leave them out of the group, or put them into the cells that bear the force");
+  }
+}
+
 }  // namespace
 
 Product affe_char_meca(const Call& call, Context& context) {
@@ -57,6 +73,7 @@ Product affe_char_meca(const Call& call, Context& context) {
   add_relations(call, target, *load);
   add_forces(call, target, *load);
   check_normals(call, target, context);
+  warn_of_lost_forces(call, target, context);
   return load_concept(call, std::move(load));
 }
 
