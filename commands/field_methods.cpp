@@ -4,7 +4,9 @@
 #include <numeric>
 
 #include "commands/concepts.hpp"
+#include "commands/diagnosed.hpp"
 #include "commands/method_arguments.hpp"
+#include "commands/ordered_set.hpp"
 #include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/host_object.hpp"
@@ -51,20 +53,17 @@ std::vector<int> every_place(int count) {
 /// Nodes of groups of nodes, or of cells.
 std::vector<int> nodes_of(const solver::Mesh& mesh, const std::vector<std::string>& groups) {
   if (groups.empty()) return every_place(mesh.node_count());
-  std::vector<int> nodes;
+  OrderedSet nodes(mesh.node_count());
   for (const std::string& group : groups)
-    for (const int node : mesh.node_groups.contains(group) || !mesh.cell_groups.contains(group) ? mesh.node_group(group) : mesh.nodes_of_cells(mesh.cell_group(group)))
-      if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
-  return nodes;
+    nodes.add_all(mesh.node_groups.contains(group) || !mesh.cell_groups.contains(group) ? mesh.node_group(group) : mesh.nodes_of_cells(mesh.cell_group(group)));
+  return nodes.take();
 }
 
 std::vector<int> cells_of(const solver::Mesh& mesh, const std::vector<std::string>& groups) {
   if (groups.empty()) return every_place(mesh.cell_count());
-  std::vector<int> cells;
-  for (const std::string& group : groups)
-    for (const int cell : mesh.cell_group(group))
-      if (std::ranges::find(cells, cell) == cells.end()) cells.push_back(cell);
-  return cells;
+  OrderedSet cells(mesh.cell_count());
+  for (const std::string& group : groups) cells.add_all(mesh.cell_group(group));
+  return cells.take();
 }
 
 Extract extract_of(const FieldConcept& data, const std::vector<std::string>& components, const std::vector<std::string>& groups) {
@@ -163,7 +162,7 @@ Value FieldConcept::method(std::string_view name, const std::vector<Value>& argu
                                                                           {"getComponents", {{}, own_components}}};
   const auto found = methods.find(name);
   if (found == methods.end()) return ConceptData::method(name, arguments, keywords);
-  return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
+  return diagnosed([&] { return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 
 }  // namespace comma::commands

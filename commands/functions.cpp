@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "commands/diagnosed.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
@@ -89,11 +90,7 @@ Value FunctionConcept::method(std::string_view name, const std::vector<Value>& a
 }
 
 Value FunctionConcept::call(const std::vector<Value>& arguments) const {
-  try {
-    return ConceptData::call(arguments);
-  } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), error.what(), {}, error.hint());
-  }
+  return diagnosed([&] { return ConceptData::call(arguments); });
 }
 
 TabulatedConcept::TabulatedConcept(solver::TabulatedFunction function)

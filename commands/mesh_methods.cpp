@@ -1,9 +1,11 @@
 // What a command file may ask a mesh for (U1.03.02, and the Python interface of recent versions).
 #include <algorithm>
-#include <numeric>
+#include <ranges>
 
 #include "commands/concepts.hpp"
+#include "commands/diagnosed.hpp"
 #include "commands/method_arguments.hpp"
+#include "commands/ordered_set.hpp"
 #include "interpreter/array.hpp"
 #include "interpreter/host_object.hpp"
 
@@ -43,15 +45,10 @@ Value described_groups(const Groups& groups, const Further& further) {
 
 /// The members of the groups named, each once, or all of `count` without names.
 Value members_of_groups(const std::vector<std::string>& groups, int count, const std::vector<int>& (Mesh::*group)(std::string_view) const, const Mesh& mesh) {
-  std::vector<int> chosen;
-  if (groups.empty()) {
-    chosen.resize(static_cast<std::size_t>(count));
-    std::iota(chosen.begin(), chosen.end(), 0);
-  }
-  for (const std::string& name : groups)
-    for (const int member : (mesh.*group)(name))
-      if (std::ranges::find(chosen, member) == chosen.end()) chosen.push_back(member);
-  return index_list(chosen);
+  OrderedSet chosen(count);
+  if (groups.empty()) chosen.add_all(std::views::iota(0, count));
+  for (const std::string& name : groups) chosen.add_all((mesh.*group)(name));
+  return index_list(chosen.take());
 }
 
 /// The places of the nodes: getValues() as one list, toNumpy() with a row a node.
@@ -120,7 +117,7 @@ const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
 Value MeshConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   const auto found = mesh_methods().find(name);
   if (found == mesh_methods().end()) return ConceptData::method(name, arguments, keywords);
-  return found->second.code(*mesh, MethodArguments(name, arguments, keywords, found->second.parameters));
+  return diagnosed([&] { return found->second.code(*mesh, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 
 }  // namespace comma::commands

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <set>
 
+#include "commands/ordered_set.hpp"
 #include "solver/error.hpp"
 
 namespace comma::commands {
@@ -11,26 +12,6 @@ using interpreter::DiagnosticError;
 using interpreter::Keywords;
 
 namespace {
-
-// A list without repetition that keeps its order of arrival.
-class OrderedSet {
- public:
-  explicit OrderedSet(int size) : seen_(static_cast<std::size_t>(size), false) {}
-  void add(int index) {
-    if (seen_[index]) return;
-    seen_[index] = true;
-    items_.push_back(index);
-  }
-  template <class Range>
-  void add_all(const Range& range) {
-    for (const int index : range) add(index);
-  }
-  std::vector<int> take() { return std::move(items_); }
-
- private:
-  std::vector<bool> seen_;
-  std::vector<int> items_;
-};
 
 bool takes(const Keywords& keywords, const std::string& name) { return !name.empty() && keywords.given(name); }
 
