@@ -50,11 +50,19 @@ void close_over(const Concept* handle, std::map<int, const Concept*>& closure) {
   for (const ConceptPtr& behind : handle->reads_through) close_over(behind.get(), closure);
 }
 
-/// A table or a function holds its own numbers; any other product refers to what it was made from.
-void remember_sources(const ConceptPtr& product, const std::vector<ConceptPtr>& sources) {
-  for (const ConceptPtr& source : sources)
-    if (source != product && std::ranges::find(product->reads_through, source) == product->reads_through.end())
-      product->reads_through.push_back(source);
+bool reads(const Concept& reader, const Concept& source) {
+  std::map<int, const Concept*> closure;
+  close_over(&reader, closure);
+  return closure.contains(source.id);
+}
+
+/// A table or a function holds its own numbers; any other product refers to what it was made from. What is changed in place by
+/// something made from it (a mesh by a field on it) does not: each would keep the other alive.
+void remember_sources(const ConceptPtr& product, const std::vector<ConceptPtr>& sources, bool in_place) {
+  for (const ConceptPtr& source : sources) {
+    if (std::ranges::find(product->reads_through, source) != product->reads_through.end()) continue;
+    if (source != product && !(in_place && reads(*source, *product))) product->reads_through.push_back(source);
+  }
 }
 
 int file_resource(int unit) {
@@ -123,7 +131,7 @@ CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage&
   for (const int unit : accesses.files_written) write(node, file_resource(unit), fmt::format("file {}", unit));
   if (product) write(node, product->id, product->name);
 
-  if (product && !page.standalone) remember_sources(product, accesses.concepts);
+  if (product && !page.standalone) remember_sources(product, accesses.concepts, call.reuse);
   node.call = std::move(call);
   return nodes_.emplace_back(std::move(node));
 }

@@ -76,6 +76,19 @@ TEST_CASE("A writer in place waits for earlier readers and the earlier writer; l
   CHECK(builder.waits(3) == Waits{"2 raw MA", "1 raw MO"});
 }
 
+TEST_CASE("What is changed in place by something made from it does not keep that alive") {
+  Builder builder;
+  const ConceptPtr mesh = builder.add("MESH", {}, "MA");
+  const ConceptPtr model = builder.add("MODEL", {{"MESH", Value(mesh)}}, "MO");
+  const std::weak_ptr<Concept> result = builder.add("SOLVE", {{"MODEL", Value(model)}}, "R");
+  builder.add("SHIFT", {{"reuse", Value(mesh)}, {"MESH", Value(mesh)}, {"BY", Value(result.lock())}});
+  builder.add("SOLVE", {{"MODEL", Value(model)}}, "AGAIN");
+  CHECK(builder.waits(3) == Waits{"0 raw MA", "1 raw MO", "2 raw R", "1 war MA", "2 war MA", "0 waw MA"});
+  CHECK(builder.waits(4) == Waits{"3 raw MA", "1 raw MO"});
+  builder.graph = CommandGraph();
+  CHECK(result.expired());
+}
+
 TEST_CASE("A standalone product does not hold on to what it was made from") {
   Builder builder;
   const ConceptPtr mesh = builder.add("MESH", {}, "MA");

@@ -29,6 +29,7 @@ produces: mesh
 reuse: {policy: compulsory, same_as: [MESH]}
 keywords:
   MESH: {type: mesh, required: true, doc: Mesh.}
+  BY: {type: result, doc: Result whose displacement moves it.}
 )";
 
 const char* const model_page = R"(
