@@ -12,6 +12,8 @@ namespace comma::interpreter {
 
 namespace {
 
+constexpr double largest_exact_integer = 9007199254740992.0;  // 2**53: the double format holds all integers up to there
+
 void append_number(const Value& value, std::vector<double>& data, bool& integers) {
   if (!is_numeric(value) || value.is_complex()) {
     raise(ErrorKind::type, fmt::format("an array is made of numbers, not of '{}'", value.type_name()), "use a list");
@@ -74,6 +76,16 @@ double apply(Operator op, double a, double b) {
       return a != b ? 1.0 : 0.0;
     default:
       raise(ErrorKind::type, fmt::format("arrays have no operator {} here", symbol_of(op)));
+  }
+}
+
+/// What integers have no integer for: numpy refuses such a power, and makes zeros of such quotients with a warning.
+void require_whole(Operator op, const std::vector<double>& values) {
+  for (const double value : values) {
+    if (op == Operator::power && value != std::trunc(value))
+      raise(ErrorKind::value, "Integers to negative integer powers are not allowed.", "take an array of float");
+    if ((op == Operator::floor_divide || op == Operator::modulo) && !std::isfinite(value))
+      raise(ErrorKind::zero_division, "integer division or modulo by zero");
   }
 }
 
@@ -169,9 +181,14 @@ Value make_array(const Value& source, Meter& meter) {
   return make_array(std::move(data), {rows.size(), width}, integers);
 }
 
-Value ArrayObject::item(std::size_t index) const {
-  return integers ? Value(static_cast<std::int64_t>(data[index])) : Value(data[index]);
+Value array_number(double value, bool integers) {
+  if (!integers) return Value(value);
+  if (!(std::abs(value) <= largest_exact_integer))
+    raise(ErrorKind::overflow, "an integer of an array lies beyond 2**53, where digits are lost", "compute with float, or without arrays");
+  return Value(static_cast<std::int64_t>(value));
 }
+
+Value ArrayObject::item(std::size_t index) const { return array_number(data[index], integers); }
 
 Value ArrayObject::rows() const {
   std::vector<Value> items;
@@ -210,7 +227,9 @@ Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter)
   std::vector<double> result(size);
   for (std::size_t i = 0; i < size; ++i) result[i] = apply(op, x.at(i), y.at(i));
   const bool compares = op >= Operator::less;
-  return make_array(std::move(result), shape, compares || (x.integers && y.integers && op != Operator::divide));
+  const bool integers = x.integers && y.integers && op != Operator::divide;
+  if (integers && !compares) require_whole(op, result);
+  return make_array(std::move(result), shape, compares || integers);
 }
 
 Value transposed(const ArrayObject& array) {

@@ -12,6 +12,9 @@
 
 namespace comma::interpreter {
 
+/// A number of an array as Python has it. Raises OverflowError for an integer of which a double may have lost digits.
+Value array_number(double value, bool integers);
+
 /// Row-major numbers. `integers` says whether they are shown and read as int, as numpy's dtype would.
 struct ArrayObject : Object {
   std::vector<double> data;

@@ -104,15 +104,11 @@ Value elementwise(Evaluator& evaluator, const CallArguments& arguments) {
   return make_array(std::move(data), source.shape, false);
 }
 
-Value number(double value, bool integers) {
-  return integers ? Value(static_cast<std::int64_t>(value)) : Value(value);
-}
-
 Value array_sum(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("sum", arguments, 1, 1);
   Value holder;
   const ArrayObject& source = array_of(evaluator, arguments[0], holder);
-  return number(std::accumulate(source.data.begin(), source.data.end(), 0.0), source.integers);
+  return array_number(std::accumulate(source.data.begin(), source.data.end(), 0.0), source.integers);
 }
 
 Value mean(Evaluator& evaluator, const CallArguments& arguments) {
@@ -130,7 +126,7 @@ Value array_extreme(Evaluator& evaluator, const CallArguments& arguments, bool l
   const auto found = largest ? std::max_element(source.data.begin(), source.data.end())
                              : std::min_element(source.data.begin(), source.data.end());
   if (place) return static_cast<std::int64_t>(found - source.data.begin());
-  return number(*found, source.integers);
+  return array_number(*found, source.integers);
 }
 
 Value array_max(Evaluator& evaluator, const CallArguments& arguments) {
@@ -166,7 +162,7 @@ Value dot(Evaluator& evaluator, const CallArguments& arguments) {
   std::vector<std::size_t> shape;
   if (a.shape.size() == 2) shape.push_back(rows);
   if (b.shape.size() == 2) shape.push_back(columns);
-  if (shape.empty()) return number(data[0], integers);
+  if (shape.empty()) return array_number(data[0], integers);
   return make_array(std::move(data), std::move(shape), integers);
 }
 

@@ -50,6 +50,24 @@ TEST_CASE("Ranges and reductions agree with their definitions", "[numpy]") {
   CHECK(printed("np.dot([[1, 2], [3, 4]], [1, 1]).tolist()") == "[3, 7]");
 }
 
+TEST_CASE("Arrays of integers give no integer that they do not hold exactly", "[numpy]") {
+  CHECK(printed("np.array([2**53]).tolist(), np.sum([2**52, 2**52])") == "[9007199254740992] 9007199254740992");
+  CHECK(printed("(np.array([2**53]) * 4.0).tolist()") == "[3.602879701896397e+16]");
+  for (const auto& [expression, code] : {std::pair{"np.array([2**53 + 2])[0]", "overflow"},
+                                         std::pair{"(np.arange(5) ** 40).tolist()", "overflow"},
+                                         std::pair{"np.sum([2**62, 2**62])", "overflow"},
+                                         std::pair{"np.dot([2**40, 1], [2**40, 1])", "overflow"},
+                                         std::pair{"np.array([float('nan')], dtype=int)[0]", "overflow"},
+                                         std::pair{"np.array([2]) ** -1", "value-error"},
+                                         std::pair{"np.array([1, 2]) // 0", "zero-division"},
+                                         std::pair{"np.array([1, 2]) % 0", "zero-division"}}) {
+    INFO(expression);
+    const Run run(std::string("import numpy as np\nprint(") + expression + ")\n");
+    REQUIRE(run.diagnostics.items().size() == 1);
+    CHECK(run.diagnostics.items()[0].code == code);
+  }
+}
+
 TEST_CASE("What numpy has and comma has not is told by name", "[numpy]") {
   const Run run("import numpy as np\nx = np.fft\n");
   REQUIRE(run.diagnostics.items().size() == 1);
