@@ -149,31 +149,22 @@ const char* keyword_of(Relation relation) {
   throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword), "give it in DEFI_MATERIAU");
 }
 
+/// A radius of the yield surface, and a trial stress that flow lowers: without them a point would count as elastic in silence.
+void check_surface(const PlasticPoint& point) {
+  for (const HardeningCurve* curve : {&point.curve, &point.compression}) {
+    const double yield = hardening(*curve, 0.0).first;
+    if (std::holds_alternative<NoYield>(*curve) || (yield >= 0.0 && std::isfinite(yield))) continue;
+    const std::string found = std::isnan(yield) ? "not a number" : fmt::format("{:.6g}", yield);
+    throw Error("invalid-material", fmt::format("the yield stress is {}, but must be a positive number or zero", found), "look at the constants of the hardening");
+  }
+  if (point.kinematic >= 0.0 || 3.0 * point.shear + 1.5 * point.kinematic > 0.0) return;
+  throw Error("invalid-material", fmt::format("the centre of the yield surface moves backwards by {:.6g} times the plastic strain, more than the material is stiff", -point.kinematic),
+              "look at the constant of PRAGER, or at D_SIGM_EPSI");
+}
+
 bool is_mixed(Relation relation) { return relation == Relation::mixed_linear || relation == Relation::mixed_traction; }
 
-}  // namespace
-
-std::pair<double, double> hardening(const HardeningCurve& curve, double p) {
-  if (const auto* piecewise = std::get_if<PiecewiseCurve>(&curve)) return on_piece(*piecewise, p);
-  if (const auto* power = std::get_if<PowerCurve>(&curve)) return on_power(*power, p);
-  if (const auto* nonlinear = std::get_if<NonlinearHardening>(&curve)) return on_nonlinear(*nonlinear, p);
-  return {std::numeric_limits<double>::infinity(), 0.0};
-}
-
-bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation) {
-  if (!elasticity.young.is_constant() || !elasticity.poisson.is_constant()) return false;
-  if (is_mixed(relation) && plasticity.prager && !plasticity.prager->is_constant()) return false;
-  switch (relation) {
-    case Relation::isotropic_linear:
-    case Relation::kinematic_linear:
-    case Relation::mixed_linear: return plasticity.linear && plasticity.linear->slope.is_constant() && plasticity.linear->yield.is_constant();
-    case Relation::isotropic_traction:
-    case Relation::mixed_traction: return plasticity.traction && plasticity.traction->curves.size() == 1;
-    default: return true;
-  }
-}
-
-PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
+PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
   const IsotropicModuli elastic = moduli(elasticity, at);
   PlasticPoint point;
   set_elasticity(elastic.young, elastic.poisson, point);
@@ -228,6 +219,34 @@ PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plastici
       point.curve = *plasticity.nonlinear;
       return point;
   }
+  return point;
+}
+
+}  // namespace
+
+std::pair<double, double> hardening(const HardeningCurve& curve, double p) {
+  if (const auto* piecewise = std::get_if<PiecewiseCurve>(&curve)) return on_piece(*piecewise, p);
+  if (const auto* power = std::get_if<PowerCurve>(&curve)) return on_power(*power, p);
+  if (const auto* nonlinear = std::get_if<NonlinearHardening>(&curve)) return on_nonlinear(*nonlinear, p);
+  return {std::numeric_limits<double>::infinity(), 0.0};
+}
+
+bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation) {
+  if (!elasticity.young.is_constant() || !elasticity.poisson.is_constant()) return false;
+  if (is_mixed(relation) && plasticity.prager && !plasticity.prager->is_constant()) return false;
+  switch (relation) {
+    case Relation::isotropic_linear:
+    case Relation::kinematic_linear:
+    case Relation::mixed_linear: return plasticity.linear && plasticity.linear->slope.is_constant() && plasticity.linear->yield.is_constant();
+    case Relation::isotropic_traction:
+    case Relation::mixed_traction: return plasticity.traction && plasticity.traction->curves.size() == 1;
+    default: return true;
+  }
+}
+
+PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
+  PlasticPoint point = point_of_relation(elasticity, plasticity, relation, at);
+  check_surface(point);
   return point;
 }
 

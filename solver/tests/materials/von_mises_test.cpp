@@ -203,6 +203,17 @@ TEST_CASE("a material that lacks what the law needs, or whose curve is off the e
   plasticity.traction->curves.front().x.front() *= 1.5;
   CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint()), Catch::Contains("elastic line"));
   plasticity = metal();
+  plasticity.linear->yield = -1.0;
+  for (const Relation relation : {Relation::isotropic_linear, Relation::kinematic_linear})
+    CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, relation, MaterialPoint()), Catch::Contains("the yield stress is -1,"));
+  plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = -1.0, .power = 0.5};
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()), Catch::Contains("not a number"));
+  plasticity.nonlinear->power_offset = 0.0;
+  CHECK_NOTHROW(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()));
+  plasticity = metal();
+  plasticity.prager = -10.0 * young;
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::mixed_linear, MaterialPoint()), Catch::Contains("moves backwards"));
+  plasticity = metal();
   plasticity.traction->curves.front().right = Extension::excluded;
   const PlasticPoint ended = plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint());
   Vector6d far = Vector6d::Zero();
