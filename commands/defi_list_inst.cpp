@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "commands/bounds.hpp"
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -90,6 +91,7 @@ solver::AdaptationRule adaptation_rule(const Call& call, const Keywords& given) 
 
 // With EVENEMENT='AUCUN' steps keep the length that they have.
 solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
+  require_order(list, "PAS_MINI", "PAS_MAXI");
   solver::StepAdaptation steps;
   if (list.has("PAS_MINI")) steps.shortest = list.real("PAS_MINI");
   if (list.has("PAS_MAXI")) steps.longest = list.real("PAS_MAXI");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/bounds.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -29,6 +30,8 @@ solver::PathChoice choice_of(const std::string& word) {
 }
 
 void take_bounds(const Keywords& keywords, solver::PathControl& control) {
+  require_order(keywords, "ETA_PILO_MIN", "ETA_PILO_MAX");
+  require_order(keywords, "ETA_PILO_R_MIN", "ETA_PILO_R_MAX");
   if (keywords.given("ETA_PILO_MIN")) control.least = keywords.real("ETA_PILO_MIN");
   if (keywords.given("ETA_PILO_MAX")) control.most = keywords.real("ETA_PILO_MAX");
   if (keywords.given("ETA_PILO_R_MIN")) control.least_sought = keywords.real("ETA_PILO_R_MIN");

@@ -7,6 +7,7 @@
 
 #include "commands/archiving.hpp"
 #include "commands/behaviour_reading.hpp"
+#include "commands/bounds.hpp"
 #include "commands/commands.hpp"
 #include "commands/initial_state.hpp"
 #include "commands/observation.hpp"
@@ -109,6 +110,7 @@ solver::LineSearch line_search(const Call& call) {
     throw DiagnosticError("contradictory-keywords", along_path ? "STAT_NON_LINE: RECH_LINEAIRE/METHODE='PILOTAGE' needs the keyword PILOTAGE" : "STAT_NON_LINE: with PILOTAGE the line search has a method of its own",
                           search.span, along_path ? "write METHODE='CORDE' or 'MIXTE'" : "write METHODE='PILOTAGE'");
   }
+  require_order(search, "RHO_MIN", "RHO_MAX");
   solver::LineSearch options;
   options.bracketed = search.text("METHODE") == "MIXTE";
   options.tolerance = search.real("RESI_LINE_RELA");
