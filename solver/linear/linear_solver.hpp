@@ -83,7 +83,7 @@ class LinearSolver {
   /// matrix.
   static constexpr double worst_residual = 1e-6;
   /// With so many digits lost, dependent conditions still show as such (unilateral/active_cholesky.hpp).
-  static constexpr int few_digits = 4;
+  static constexpr int few_digits = 3;
 };
 
 std::unique_ptr<LinearSolver> make_linear_solver(LinearMethod method, const LinearOptions& options);
