@@ -27,9 +27,6 @@ constexpr int error_workspace = -9;
 constexpr int error_memory = -13;
 constexpr int error_index_overflow = -51;
 constexpr int first_extra_workspace = 30;   // per cent
-/// The inverse's largest diagonal entry belongs to a row that may have been eliminated early, whose pivot then lost about so many digits less (ssna102a:
-/// 4 by the entry, 3 by the pivots of the other methods).
-constexpr int digits_above_pivots = 1;
 constexpr int most_extra_workspace = 2000;  // a matrix that needs more delays nearly all its pivots
 
 class MumpsSolver final : public RefinedSolver {
@@ -95,6 +92,9 @@ class MumpsSolver final : public RefinedSolver {
     return report();
   }
 
+  /// The inverse's largest diagonal entry may belong to a row that was eliminated early, whose pivot lost less (ssna102a: 4 by the entry, 3 by pivots).
+  int digits_above_pivots() const override { return 1; }
+
   void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const override {
     data_.rhs = rhs.data();
     data_.nrhs = static_cast<int>(rhs.cols());
@@ -128,7 +128,7 @@ class MumpsSolver final : public RefinedSolver {
       return result;
     }
     if (negative_pivots > 0) result.verdict = FactorVerdict::indefinite;
-    result.lost_digits = std::max(0, estimated_digits() - digits_above_pivots);
+    result.lost_digits = estimated_digits();
     return result;
   }
 

@@ -115,7 +115,7 @@ void RefinedSolver::check_not_singular() const {
 void RefinedSolver::solve_once(Eigen::Ref<Eigen::MatrixXd> rhs) const {
   check_not_singular();
   if (rhs.size() == 0) return;
-  if (report_.verdict != FactorVerdict::ok || report_.lost_digits > few_digits) {
+  if (report_.verdict != FactorVerdict::ok || report_.lost_digits > few_digits + digits_above_pivots()) {
     solve(rhs);
     return;
   }

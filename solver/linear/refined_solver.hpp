@@ -28,6 +28,8 @@ class RefinedSolver : public LinearSolver {
   virtual void analyse_pattern(const SymmetricMatrix& matrix) = 0;
   virtual FactorReport factorise_scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& references) = 0;
   virtual void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
+  /// How many digits more than pivots lose a report may name.
+  virtual int digits_above_pivots() const { return 0; }
 
   const LinearOptions& options() const { return options_; }
   const SymmetricMatrix& matrix() const { return matrix_; }
