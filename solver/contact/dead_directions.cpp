@@ -20,15 +20,10 @@ void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPo
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) squares(a, b) = rows.row(a).dot(rows.row(b));
     const double dead = dead_share * squares.trace();
-    if (squares.bottomRightCorner<2, 2>().trace() <= dead) {
-      point.law.friction = 0.0;
-      continue;
-    }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> motions(squares);
     const Eigen::Vector2d along = motions.eigenvectors().col(0).tail<2>();
-    if (motions.eigenvalues()[0] > dead || along.norm() < least_along) continue;
     if (motions.eigenvalues()[1] <= dead) point.law.friction = 0.0;
-    else point.law.dead = along.normalized();
+    else if (motions.eigenvalues()[0] <= dead && along.norm() >= least_along) point.law.dead = along.normalized();
   }
 }
 
