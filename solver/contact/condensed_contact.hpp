@@ -1,76 +1,12 @@
-// The mixed system of contact on its own rows: what is left when the bodies are condensed.
+// Solves the mixed problem of contact on its own rows.
 #pragma once
-
-#include <array>
-#include <vector>
 
 #include <Eigen/Dense>
 
-#include "solver/contact/contact_law.hpp"
-#include "solver/contact/facet.hpp"
-#include "solver/contact/near_inverse.hpp"
-#include "solver/unilateral/active_set.hpp"
+#include "solver/contact/condensed_problem.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
-
-/// A point of the condensed system. Its jumps (gap, slips) are `rows` consecutive rows of the Schur complement.
-struct CondensedPoint {
-  int first_row = -1;
-  int rows = 0;                                 ///< as many as components; 0: nothing can touch it
-  int components = 1;                           ///< of its traction: 1 without friction, 2 or 3 with it
-  std::array<int, max_facet_nodes> nodes{};     ///< of the multipliers
-  std::array<double, max_facet_nodes> shape{};
-  int node_count = 0;
-  double weight = 0.0;
-  ContactLaw law;
-  /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length (see shared_friction.hpp).
-  double share_augmentation = 0.0;
-  bool bilateral = false;                       ///< once closed it stays closed
-};
-
-/// A row whose force is `stiffness` times its own jump: springs that were added to the bodies come off again with it.
-struct CondensedSpring {
-  int row = -1;
-  double stiffness = 0.0;
-};
-
-/// Find multipliers and jumps d with
-///     d = free + S (w t(multiplier, d) - held),     sum over points of w N_i r(multiplier, d) = 0 for each node i,
-/// t and r being traction and residual of the law at the points, S the compliance of the rows.
-struct CondensedProblem {
-  std::vector<CondensedPoint> points;
-  std::vector<CondensedSpring> springs;
-  Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
-  Eigen::VectorXd held;         ///< forces on the rows
-  double displacement = 0.0;    ///< the largest (a length): what its rounding makes of jumps is nothing
-  int node_count = 0;
-  int components = 1;           ///< of a multiplier: 1, 2 or 3
-  std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
-  int max_iterations = 200;     ///< of each attempt
-  int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and have no penalty (solver/contact/nodal_step.hpp)
-  int most_products = 150;      ///< a system
-  int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
-  bool indefinite = false;      ///< S may be: no active-set method on it
-  bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
-  Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
-  NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
-  ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
-};
-
-struct CondensedState {
-  Eigen::VectorXd multipliers;          ///< node_count * components: pressure, then shear
-  std::vector<ContactStatus> statuses;  ///< one a point: the start, then the solution
-};
-
-/// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
-Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point);
-
-/// How far a point slips where the rows have these jumps; 0 without friction.
-double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);
-
-/// What the multipliers alone put on the rows (`rows` of them) of closed points.
-Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Eigen::Index rows);
 
 enum class CondensedVerdict : std::uint8_t { solved, too_many_iterations };
 

@@ -12,7 +12,7 @@
 
 namespace comma::solver {
 
-/// The linearised problem of condensed_contact.hpp with jumps d and multipliers as unknowns x together, jumps first: d - S F x = b_d with the forces F x on
+/// The linearised problem of condensed_problem.hpp with jumps d and multipliers as unknowns x together, jumps first: d - S F x = b_d with the forces F x on
 /// unknown rows of the compliance S, and the laws L x = b_l, one a multiplier.
 class InterpolatedStep {
  public:

@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/contact/condensed_contact.hpp"
+#include "solver/contact/condensed_problem.hpp"
 #include "solver/contact/near_inverse.hpp"
 #include "solver/linear/gmres.hpp"
 
@@ -15,7 +15,7 @@ namespace comma::solver {
 /// Whether each multiplier belongs to one point, with as many components as the point has rows.
 bool has_points_on_nodes(const CondensedProblem& problem);
 
-/// The linearised problem of condensed_contact.hpp, jumps d - S f = balance with forces f = w t(multiplier, d) and r(multiplier, d) = 0, one row
+/// The linearised problem of condensed_problem.hpp, jumps d - S f = balance with forces f = w t(multiplier, d) and r(multiplier, d) = 0, one row
 /// of the compliance S an unknown: at each point the linearised traction and residual are six equations for three multipliers, so
 /// three combinations are free of them, which is what is left, A_f f + A_d d = b. With d = balance + S f it is a system for the forces alone, half
 /// the unknowns of jumps and multipliers together. All values are what Newton's method subtracts.

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/contact/condensed_contact.hpp"
+#include "solver/contact/condensed_problem.hpp"
 
 namespace comma::solver {
 

@@ -23,7 +23,7 @@ std::string table(std::span<const IterationReport> history) {
 constexpr double unbalanced_share = 1e-2;
 
 /// Of a nonlinear one, a residual below the first share of the loads is; below the second, one that iterations no longer shrink.
-constexpr double rounding_share = 1e-12, resting_share = 1e-8;
+constexpr double residual_rounding_share = 1e-12, resting_share = 1e-8;
 
 bool is_unbalanced(const IterationReport& last, bool is_linear) { return is_linear && last.relative_residual > unbalanced_share; }
 
@@ -39,7 +39,7 @@ bool is_at_rest(std::span<const IterationReport> history) {
 bool is_rounding(std::span<const IterationReport> history) {
   const IterationReport& last = history.back();
   if (last.relative_residual < 0.0 || last.contact_changes > 0) return false;
-  return last.relative_residual < rounding_share || (last.relative_residual < resting_share && is_at_rest(history));
+  return last.relative_residual < residual_rounding_share || (last.relative_residual < resting_share && is_at_rest(history));
 }
 
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
