@@ -54,6 +54,8 @@ constexpr double shortest_useful_share = 1e-2;
 constexpr int most_short_steps = 3;
 /// Jumps that grow by more are those of a body that nothing holds any more.
 constexpr double most_growth = 1e6;
+/// States this many times as far as the nearest one that was met are those of bodies that have lost their contact: only if there is no nearer one.
+constexpr double farthest_state = 1e4;
 
 bool has_penalty(const CondensedProblem& problem) {
   return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
@@ -77,11 +79,11 @@ class CondensedSolver {
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
-    bool solved = start_as_expected() && settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth);
+    bool solved = start_as_expected() && settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth) && stays_near();
     const auto otherwise = [&](const auto& attempt) {
       if (solved) return;
       restart(multipliers);
-      solved = attempt();
+      solved = attempt() && stays_near();
     };
     bool led_away = false;
     otherwise([&] {
@@ -95,7 +97,7 @@ class CondensedSolver {
     otherwise([&] { return relax() && settle(Rubbing::by_law, solution.iterations); });
     if (led_away) otherwise([&] { return settle(Rubbing::by_law, solution.iterations); });
     otherwise([&] { return raise_friction(solution.iterations); });
-    conclude(solution, solved);
+    conclude(solution, solved || return_far());
     for (std::size_t p = 0; p < start_.size(); ++p) solution.changes += start_[p] != state_.statuses[p];
     return solution;
   }
@@ -160,6 +162,21 @@ class CondensedSolver {
   void conclude(CondensedSolution& solution, bool solved) const {
     solution.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution.forces = forces_;
+  }
+
+  /// Whether what is solved is a state that bodies come to. Otherwise it is kept: where there is no nearer one, it says what nothing holds.
+  bool stays_near() {
+    if (scale_ <= farthest_state * nearest_) return true;
+    if (!far_) far_ = Far{state_, jumps_, forces_};
+    return false;
+  }
+
+  bool return_far() {
+    if (!far_) return false;
+    state_ = far_->state;
+    jumps_ = far_->jumps;
+    forces_ = far_->forces;
+    return true;
   }
 
   void restart(const Eigen::VectorXd& multipliers) {
@@ -232,6 +249,7 @@ class CondensedSolver {
       correct();
       evaluate();
       if (!std::isfinite(residual_)) return false;
+      nearest_ = std::min(nearest_, scale_);
       const bool settled = !update_statuses();
       if (settled && is_solved()) return true;
       if (!settled) same_statuses_ = 0;
@@ -240,7 +258,8 @@ class CondensedSolver {
       led_away_ = patience == Patience::short_of_growth && iteration >= 2 && residual_ > before_last;
       if (led_away_) return false;
       before_last = last;
-      last = residual_;
+      // Where nothing is left with statuses that change, it says nothing of what will be.
+      last = residual_ > residual_tolerance * scale_ ? residual_ : std::numeric_limits<double>::infinity();
     }
     return false;
   }
@@ -638,6 +657,12 @@ class CondensedSolver {
   bool one_at_a_time_ = false;
   bool led_away_ = false;  ///< the last attempt ended for want of patience
   bool is_lost_ = false;   ///< a linear system was not solved
+  double nearest_ = std::numeric_limits<double>::infinity();  ///< the least scale that was met
+  struct Far {
+    CondensedState state;
+    Eigen::VectorXd jumps, forces;
+  };
+  std::optional<Far> far_;  ///< what was solved far away
   Rubbing rubbing_ = Rubbing::by_law;
   double friction_share_ = 1.0;
   bool pressures_by_bodies_ = false, shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
