@@ -32,6 +32,12 @@ void MethodArguments::refuse(const std::string& name, const char* wanted) const 
   throw DiagnosticError("type-error", fmt::format("{}(): {} is {}, not {}", method_, name, wanted, given_.at(name).repr()));
 }
 
+std::string MethodArguments::needed_text(const std::string& name) const {
+  if (!given_.contains(name)) throw DiagnosticError("type-error", fmt::format("{}() is not given its argument {}", method_, name));
+  if (!given_.at(name).is_text()) refuse(name, "a text");
+  return given_.at(name).as_text();
+}
+
 std::string MethodArguments::text(const std::string& name, const std::string& otherwise) const {
   if (!has(name)) return otherwise;
   if (!given_.at(name).is_text()) refuse(name, "a text");

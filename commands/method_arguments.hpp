@@ -19,6 +19,9 @@ class MethodArguments {
   /// Whether it was given, and not as None.
   bool has(const std::string& name) const;
 
+  /// Throws DiagnosticError `type-error` where it is absent.
+  std::string needed_text(const std::string& name) const;
+
   /// Each gives `otherwise` where the argument is absent, and throws DiagnosticError `type-error` where it is of another type.
   std::string text(const std::string& name, const std::string& otherwise = "") const;
   std::int64_t integer(const std::string& name, std::int64_t otherwise = 0) const;

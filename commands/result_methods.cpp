@@ -84,7 +84,7 @@ const solver::ResultStep& step_at(const solver::Result& result, const MethodArgu
 }
 
 Value field_handle(const ResultConcept& data, const MethodArguments& given) {
-  const std::string name = given.text("name");
+  const std::string name = given.needed_text("name");
   const solver::ResultStep& step = step_at(data.result, given);
   const auto found = step.fields.find(name);
   if (found == step.fields.end()) throw DiagnosticError("unknown-field", fmt::format("the step INST={} of the result holds no {}", step.instant, name), {}, "compute it by CALC_CHAMP before");

@@ -15,6 +15,7 @@ namespace comma::interpreter {
 namespace {
 
 constexpr int widest_legacy_field = 1'000'000;
+constexpr int beyond_any_field = widest_legacy_field + 1;
 
 /// Reads "%..." conversions one after the other and draws their values.
 class PercentFormatter {
@@ -59,11 +60,11 @@ class PercentFormatter {
       ++at_;
       const Value width = draw();
       if (!integer_of(width)) raise(ErrorKind::type, "* wants int");
-      return static_cast<int>(std::clamp<std::int64_t>(index_of(width), -widest_legacy_field, widest_legacy_field));
+      return static_cast<int>(std::clamp<std::int64_t>(index_of(width), -beyond_any_field, beyond_any_field));
     }
     int number = 0;
     while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9')
-      number = std::min(number * 10 + (text_[at_++] - '0'), widest_legacy_field);
+      number = std::min(number * 10 + (text_[at_++] - '0'), beyond_any_field);
     return number;
   }
 
@@ -103,6 +104,9 @@ class PercentFormatter {
             "write %% for the character itself");
     }
     if (!value) value = draw();
+    if (width > widest_legacy_field) raise(ErrorKind::value, "width too big");
+    const bool cuts_text = std::string_view("rsa").find(type) != std::string_view::npos;
+    if (precision > widest_legacy_field && !cuts_text) raise(ErrorKind::value, "precision too big");
     meter_.allocate(static_cast<std::uint64_t>(width + std::max(precision, 0)));
     return fill(body(*value, type, flags, precision), flags, width, type);
   }
@@ -110,7 +114,7 @@ class PercentFormatter {
   std::string body(const Value& value, char type, const std::string& flags, int precision) {
     if (type == 's' || type == 'r' || type == 'a') {
       const Value shown = type == 's' ? Value(text_of(value)) : convert_value(value, type);
-      return precision < 0 ? shown.as_text() : format_value(shown, "." + std::to_string(precision), meter_);
+      return precision < 0 || precision > widest_legacy_field ? shown.as_text() : format_value(shown, "." + std::to_string(precision), meter_);
     }
     if (type == 'c') return character(value);
     if (std::string_view("eEfFgG").find(type) != std::string_view::npos) return real(value, type, flags, precision);
@@ -121,7 +125,9 @@ class PercentFormatter {
     if (value.is_text() && count_code_points(value.as_text()) == 1) return value.as_text();
     if (!integer_of(value)) raise(ErrorKind::type, "%c requires int or char");
     std::string out;
-    append_utf8(out, static_cast<char32_t>(std::clamp<std::int64_t>(index_of(value), 0, 0x10FFFF)));
+    const std::int64_t code = index_of(value);
+    if (code < 0 || code > 0x10FFFF) raise(ErrorKind::overflow, "%c arg not in range(0x110000)");
+    append_utf8(out, static_cast<char32_t>(code));
     return out;
   }
 

@@ -117,3 +117,14 @@ print(str(1e15), str(1e16), str(123456789.123), str(-1.5e-10), str(1e0), str(123
 print("a".join(["1"]), "".join([]), str.upper('abc'), str.join(',', ['a', 'b']), list(map(str, [1, 2])), list(map(str.strip, [' a ', 'b '])))
 # ----
 print('line1', 'line2', sep='\n'); print('a', 'b', sep='', end='!\n'); print(); print('x', 1, None, 2.5, [1], sep=', ')
+# ----
+for field in ('%99999999999999999999d', '%.99999999999999999999f', '%.2147483647s'):
+    try:
+        print(field % (7,))
+    except ValueError as error:
+        print(error)
+for code in (-1, 0x110000):
+    try:
+        print('%c' % code)
+    except OverflowError as error:
+        print(error)
