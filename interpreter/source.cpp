@@ -1,6 +1,7 @@
 #include "interpreter/source.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -31,6 +32,11 @@ SourceFile::SourceFile(std::string path, std::string text) : path_(std::move(pat
 }
 
 std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path) {
+  std::error_code absent;
+  const auto kind = std::filesystem::status(path, absent).type();
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::none) {
+    throw DiagnosticError("unreadable-file", path + " is not a regular file", {}, "name a text file on a disk: folders, devices and pipes are not read");
+  }
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   if (stream) text << stream.rdbuf();

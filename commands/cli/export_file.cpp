@@ -46,7 +46,7 @@ void read_file_line(const std::vector<std::string>& words, const Span& span, con
     return;
   }
   if (!fs::is_regular_file(file.path)) {
-    throw DiagnosticError("missing-file", "the command file " + file.path.string() + " does not exist", span);
+    throw DiagnosticError("missing-file", "the command file " + file.path.string() + (fs::exists(file.path) ? " is not a regular file" : " does not exist"), span);
   }
   study.command_files.push_back(file.path);
 }

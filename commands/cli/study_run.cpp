@@ -47,7 +47,7 @@ int status_of(const Diagnostic& diagnostic) {
 Study open_study(const fs::path& file) {
   if (file.extension() == ".export") return read_export(file, fs::current_path());
   if (!fs::is_regular_file(file)) {
-    throw interpreter::DiagnosticError("missing-file", "there is no file " + file.string());
+    throw interpreter::DiagnosticError("missing-file", fs::exists(file) ? file.string() + " is not a regular file" : "there is no file " + file.string());
   }
   return Study{{file}, {}};
 }

@@ -60,6 +60,12 @@ TEST_CASE("An .export names files by unit, and outputs land in the current folde
   CHECK(files.output(38, "resu", 8) == fs::path("/elsewhere/a.38.resu"));
 }
 
+TEST_CASE("An .export that names a device as its command file says that it is none") {
+  const Folder folder;
+  const auto path = folder.file("a.export", "F comm /dev/zero D 1\n");
+  CHECK_THROWS_WITH(read_export(path, "."), Catch::Contains("the command file /dev/zero is not a regular file"));
+}
+
 TEST_CASE("A wrong line of an .export is told with its place") {
   const Folder folder;
   folder.file("a.comm");

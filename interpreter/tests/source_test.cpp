@@ -39,6 +39,17 @@ TEST_CASE("The mark with which some editors begin UTF-8 is not part of the text"
   CHECK(file.position(0).column == 1);
 }
 
+TEST_CASE("What is no regular file is not read, for it may have no end", "[source]") {
+  for (const char* path : {"/dev/zero", "/"}) {
+    try {
+      SourceFile::read(path);
+      FAIL("nothing was thrown");
+    } catch (const DiagnosticError& error) {
+      CHECK(error.diagnostic().message == std::string(path) + " is not a regular file");
+    }
+  }
+}
+
 TEST_CASE("A file that cannot be read is a diagnostic", "[source]") {
   try {
     SourceFile::read("no/such/file.comm");

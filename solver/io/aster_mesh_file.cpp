@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "solver/error.hpp"
+#include "solver/io/text_scanner.hpp"
 #include "solver/mesh/nearest_name.hpp"
 
 namespace comma::solver {
@@ -359,6 +360,7 @@ Mesh parse_aster_mesh(std::string_view text, const std::string& path, std::optio
 }
 
 Mesh read_aster_mesh(const std::string& path, std::optional<MisleadingName>* misleading) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf())) {

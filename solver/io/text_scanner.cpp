@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -97,7 +98,14 @@ void TextScanner::fail(const std::string& what, const char* code, const std::str
   throw Error(code, fmt::format("{}:{}:{}: {}", path_, line, word_start_ - line_start + 1, what), hint);
 }
 
+void require_regular_file(const std::string& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure) || failure || std::filesystem::is_regular_file(path, failure)) return;
+  throw Error("unreadable-file", fmt::format("{} is not a regular file", path), "name a file on a disk: folders, devices and pipes are not read");
+}
+
 std::string read_text_file(const std::string& path) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();

@@ -40,4 +40,7 @@ class TextScanner {
 /// The whole of a file; throws Error `missing-file`.
 std::string read_text_file(const std::string& path);
 
+/// Throws Error `unreadable-file` for a folder, a device or a pipe: these may have no end.
+void require_regular_file(const std::string& path);
+
 }  // namespace comma::solver

@@ -149,6 +149,7 @@ TEST_CASE("errors in a mesh file say where they are") {
 TEST_CASE("a missing or empty mesh file is an error") {
   const tests::TemporaryFile file(".mail");
   CHECK_THROWS_AS(read_aster_mesh(file.path()), Error);
+  CHECK_THROWS_WITH(read_aster_mesh("/dev/zero"), Catch::Contains("/dev/zero is not a regular file"));
   file.fill("");
   CHECK_THROWS_AS(read_aster_mesh(file.path()), Error);
   file.fill(square);

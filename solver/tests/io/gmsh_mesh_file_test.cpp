@@ -196,4 +196,5 @@ TEST_CASE("a damaged Gmsh file is an error with its place", "[io]") {
   CHECK(code_of(with(version_2, "2 2 2 10 1 5 6 8", "2 92 2 10 1 5 6 8")) == "unsupported-cell");
   CHECK(code_of("not a mesh") == "damaged-mesh");
   CHECK_THROWS_WITH(read_gmsh_mesh("/nowhere/at/all.msh"), Catch::Contains("cannot read"));
+  CHECK_THROWS_WITH(read_gmsh_mesh("/dev/zero"), Catch::Contains("is not a regular file"));
 }
