@@ -20,7 +20,7 @@ double plastic_modulus(double young, double slope) {
     throw Error("invalid-material", fmt::format("the slope of the hardening is {}, but must be less than Young's modulus {}", slope, young),
                 "D_SIGM_EPSI is the slope of the traction curve, over the total strain");
   }
-  return young * slope / (young - slope);
+  return slope / (1.0 - slope / young);  // young * slope would overflow before the modulus, which is above -young, does
 }
 
 std::pair<double, double> on_piece(const PiecewiseCurve& curve, double p) {
@@ -156,6 +156,11 @@ void check_surface(const PlasticPoint& point) {
     if (std::holds_alternative<NoYield>(*curve) || (yield >= 0.0 && std::isfinite(yield))) continue;
     const std::string found = std::isnan(yield) ? "not a number" : fmt::format("{:.6g}", yield);
     throw Error("invalid-material", fmt::format("the yield stress is {}, but must be a positive number or zero", found), "look at the constants of the hardening");
+  }
+  const double falls = hardening(point.curve, 0.0).second;
+  if (!(3.0 * point.shear + 1.5 * std::max(0.0, point.kinematic) + falls > 0.0)) {
+    throw Error("invalid-material", fmt::format("the yield stress falls by {:.6g} times the plastic strain where flow begins, steeper than the stress can follow", -falls),
+                "look at the constants of the hardening");
   }
   if (point.kinematic >= 0.0 || 3.0 * point.shear + 1.5 * point.kinematic > 0.0) return;
   throw Error("invalid-material", fmt::format("the centre of the yield surface moves backwards by {:.6g} times the plastic strain, more than the material is stiff", -point.kinematic),

@@ -65,25 +65,32 @@ void release_across(Matrix6d& d) {
   d.col(out_of_plane).setZero();
 }
 
+[[noreturn]] void throw_no_return(const std::string& what) {
+  throw Error("integration-failure", what, "take smaller steps, or check the hardening curve");
+}
+
 }  // namespace
 
 /// Falling, from > 0 at 0 to < 0 at trial / hardness: Newton's method between bounds.
 double plastic_increment(const HardeningCurve& curve, double trial, double hardness, double p) {
   double low = 0.0, high = trial / hardness;
   double dp = 0.0;
+  const auto checked = [&](double found, double radius) {
+    if (radius < -stress_rounding_share * trial) throw_no_return(fmt::format("the yield stress of a point falls below zero before the plastic strain {:.6g}", p + found));
+    return found;
+  };
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto [radius, slope] = hardening(curve, p + dp);
     const double excess = trial - hardness * dp - radius;
-    if (std::abs(excess) <= stress_rounding_share * trial) return dp;
+    if (std::abs(excess) <= stress_rounding_share * trial) return checked(dp, radius);
     (excess > 0.0 ? low : high) = dp;
     const double full = hardness + slope;
     double next = full > 0.0 && std::isfinite(full) ? dp + excess / full : high;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == dp || !(high > low)) return dp;
+    if (next == dp || !(high > low)) return checked(dp, radius);
     dp = next;
   }
-  throw Error("integration-failure", fmt::format("the plastic strain of a point cannot be found beyond {:.6g}: the hardening falls too steeply", p),
-              "take smaller steps, or check the hardening curve");
+  throw_no_return(fmt::format("the plastic strain of a point cannot be found beyond {:.6g}: the hardening falls too steeply", p));
 }
 
 PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment) {

@@ -24,7 +24,7 @@ struct PlasticResponse {
 };
 
 /// dp >= 0 with trial - hardness dp - R(p + dp) = 0, for trial > R(p). Throws Error `integration-failure` for softening steeper than the elasticity
-/// bears.
+/// bears, and where R is below zero at such a dp: no stress is left to return to.
 double plastic_increment(const HardeningCurve& curve, double trial, double hardness, double p);
 
 /// The stress after a strain increment (less that of the command variables), from the state before and its constants `before`, by those

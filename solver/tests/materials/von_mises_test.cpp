@@ -194,6 +194,24 @@ TEST_CASE("a step begins with what flowed flowing on, and with its expansion hel
   CHECK(in_plane.state.stress[0] - flat.stress[0] == exactly(1e-3 * plane_before - 4e-3 * plane_now));
 }
 
+TEST_CASE("softening comes back along its slope however steep it is in a pull, until no yield stress is left") {
+  const IsotropicElasticity elasticity{young, poisson};
+  Plasticity plasticity = metal();
+  Vector6d sheared = Vector6d::Zero();
+  const double shear_modulus = young / (2.0 * (1.0 + poisson));
+  for (const double falling : {-slope, -young, -1e300}) {
+    plasticity.linear->slope = falling;
+    const PlasticPoint point = plastic_point(elasticity, plasticity, Relation::isotropic_linear, MaterialPoint());
+    const double modulus = falling / (1.0 - falling / young);
+    sheared[3] = 1.05 * yield / (std::sqrt(3.0) * shear_modulus);
+    const PlasticResponse flowed = integrate_von_mises(point, point, {}, sheared);
+    CHECK(flowed.state.p == exactly(0.05 * yield / (3.0 * shear_modulus + modulus)));
+    CHECK(std::sqrt(3.0) * flowed.state.stress[3] == exactly(yield + modulus * flowed.state.p));
+    sheared[3] *= 100.0;
+    CHECK_THROWS_WITH(integrate_von_mises(point, point, {}, sheared), Catch::Contains("falls below zero"));
+  }
+}
+
 TEST_CASE("a material that lacks what the law needs, or whose curve is off the elastic line, says so") {
   const IsotropicElasticity elasticity{young, poisson};
   CHECK_THROWS_WITH(plastic_point(elasticity, {}, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("ECRO_LINE"));
@@ -210,6 +228,8 @@ TEST_CASE("a material that lacks what the law needs, or whose curve is off the e
   CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()), Catch::Contains("not a number"));
   plasticity.nonlinear->power_offset = 0.0;
   CHECK_NOTHROW(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()));
+  plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = 1e-9, .power = -0.5};
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()), Catch::Contains("steeper than the stress can follow"));
   plasticity = metal();
   plasticity.prager = -10.0 * young;
   CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::mixed_linear, MaterialPoint()), Catch::Contains("moves backwards"));
