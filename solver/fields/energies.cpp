@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/cell_quadrature.hpp"
+#include "solver/elements/hourglass.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/tensor_reader.hpp"
 
@@ -49,7 +50,75 @@ class MaterialAtPoints {
   ContinuumPoints points_;
 };
 
+Hourglass::Patterns pattern_forces(const ElementField& stresses, int cell) {
+  static constexpr std::string_view names[4][3] = {{"S1X", "S1Y", "S1Z"}, {"S2X", "S2Y", "S2Z"}, {"S3X", "S3Y", "S3Z"}, {"S4X", "S4Y", "S4Z"}};
+  Hourglass::Patterns forces;
+  for (int pattern = 0; pattern < 4; ++pattern)
+    for (int axis = 0; axis < 3; ++axis) forces(pattern, axis) = stresses.at(cell, 0, stresses.component(names[pattern][axis]));
+  return forces;
+}
+
+/// Of a field at nodes, less what the first node has: patterns do not see it, and digits would be lost to it.
+Hourglass::Places relative_values(const Mesh& mesh, int cell, const NodalField& field) {
+  static constexpr std::string_view names[3] = {"DX", "DY", "DZ"};
+  const auto nodes = mesh.cell(cell);
+  Hourglass::Places values;
+  for (int a = 0; a < 8; ++a)
+    for (int axis = 0; axis < 3; ++axis) values(a, axis) = field.at(nodes[static_cast<std::size_t>(a)], field.component(names[axis]));
+  values.rowwise() -= values.row(0).eval();
+  return values;
+}
+
+Hourglass::Places places(const Mesh& mesh, int cell) {
+  Hourglass::Places values;
+  for (int a = 0; a < 8; ++a) {
+    const Point& node = mesh.nodes[static_cast<std::size_t>(mesh.cell(cell)[static_cast<std::size_t>(a)])];
+    values.row(a) = Eigen::Map<const Eigen::RowVector3d>(node.data());
+  }
+  return values;
+}
+
+template <class EnergyOf>
+void add_of_stabilised_cells(const Model& model, const ElementField& stresses, ElementField& densities, EnergyOf&& energy_of) {
+  ContinuumPoints points(model);
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (!is_stabilised(stresses, cell) || densities.points(cell) != 1) continue;
+    const double volume = points.locate(cell, points.samples(cell).front()).weight;
+    densities.values[static_cast<std::size_t>(densities.starts[static_cast<std::size_t>(cell)])] += energy_of(cell) / volume;
+  }
+}
+
 }  // namespace
+
+bool is_stabilised(const ElementField& stresses, int cell) {
+  const int first = stresses.component("S1X");
+  return first >= 0 && stresses.points(cell) == 1 && !std::isnan(stresses.at(cell, 0, first));
+}
+
+void add_stabilisation_energy(const FieldInput& input, const ElementField& stresses, ElementField& densities) {
+  if (stresses.component("S1X") < 0) return;
+  MaterialAtPoints points(input, stresses);
+  const Mesh& mesh = *input.model.mesh;
+  add_of_stabilised_cells(input.model, stresses, densities, [&](int cell) {
+    const Matrix6d law = solid_stiffness(material_of(input, cell), points.at(cell, 0));
+    const Hourglass::Stiffness stiffness = Hourglass(places(mesh, cell)).stiffness(law, Hourglass::Projection::bending);
+    const Eigen::Matrix<double, 12, 1> forces = pattern_forces(stresses, cell).reshaped<Eigen::RowMajor>();
+    return 0.5 * forces.dot(stiffness.completeOrthogonalDecomposition().solve(forces));
+  });
+}
+
+void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements, const ElementField* stresses_before,
+                            const NodalField* displacements_before, ElementField& densities) {
+  if (stresses.component("S1X") < 0) return;
+  const Mesh& mesh = *model.mesh;
+  add_of_stabilised_cells(model, stresses, densities, [&](int cell) {
+    Hourglass::Patterns mean = 0.5 * pattern_forces(stresses, cell);
+    Hourglass::Places moved = relative_values(mesh, cell, displacements);
+    if (stresses_before && is_stabilised(*stresses_before, cell)) mean += 0.5 * pattern_forces(*stresses_before, cell);
+    if (displacements_before) moved -= relative_values(mesh, cell, *displacements_before);
+    return mean.cwiseProduct(Hourglass(places(mesh, cell)).amplitudes(moved)).sum();
+  });
+}
 
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses) {
   const TensorReader stress(stresses, stress_components);

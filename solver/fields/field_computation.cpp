@@ -307,10 +307,23 @@ Field FieldComputation::elastic_energy(std::size_t step) {
     const Field of_strains = strain_energy_density(input(), element_field("EPMG_ELGA", step));
     put_piece(energies, {&of_strains, {}, {}, 1.0, false}, &cells);
   }
-  if (!assembler_.has_memory()) return energies;
-  const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
-  put_piece(energies, {&of_memory, {}, {}, 1.0, false});
+  if (assembler_.has_memory()) {
+    const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
+    put_piece(energies, {&of_memory, {}, {}, 1.0, false});
+  }
+  require_elastic_patterns(stresses);
+  add_stabilisation_energy(input(), stresses, std::get<ElementField>(energies));
   return energies;
+}
+
+// What patterns give back once the point has flowed is not known: they change by its tangent, which is not elastic.
+void FieldComputation::require_elastic_patterns(const ElementField& stresses) const {
+  if (!problem_.behaviours) return;
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell) {
+    if ((*problem_.behaviours)[static_cast<std::size_t>(cell)].relation == Relation::elastic || !is_stabilised(stresses, cell)) continue;
+    throw Error("unsupported", fmt::format("cell {}: the elastic energy of the stabilisation of hexahedra with one point (3D_SI) is not known for laws that flow", problem_.model->mesh->cell_name(cell)),
+                "take the total energy (ETOT_ELEM, ENER_TOTALE), or MODELISATION='3D'");
+  }
 }
 
 std::vector<int> FieldComputation::cells_in_green_strains() const {
@@ -341,14 +354,18 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
 Field FieldComputation::total_energy(std::size_t step) {
   require_small_strains("ETOT_ELGA");
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
+  const NodalField* displacement_before = nullptr;
   if (step > 0) {
     stress_before = &element_field("SIEF_ELGA", step - 1);
     strain_before = &element_field("EPSI_ELGA", step - 1);
     before = &element_field("ETOT_ELGA", step - 1);
+    displacement_before = &displacement(step - 1);
     move_to(step);
   }
-  return total_energy_density(element_field("SIEF_ELGA", step), element_field("EPSI_ELGA", step), stress_before,
-                              strain_before, before);
+  const ElementField& stress = element_field("SIEF_ELGA", step);
+  ElementField energies = total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
+  add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
+  return energies;
 }
 
 // The work of the forces of plates is their elastic energy, as long as nothing else strains them.

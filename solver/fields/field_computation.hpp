@@ -68,6 +68,7 @@ class FieldComputation {
   Field stress_criteria_at_nodes(std::size_t step);
   void require_small_strains(std::string_view name) const;
   std::vector<int> cells_in_green_strains() const;
+  void require_elastic_patterns(const ElementField& stresses) const;
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);
