@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands/functions.hpp"
+#include "commands/multiplier_sum.hpp"
 #include "commands/table.hpp"
 #include "interpreter/concept.hpp"
 #include "solver/contact/definition.hpp"
@@ -115,7 +116,7 @@ struct FieldConcept : ConceptData {
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
   std::shared_ptr<const solver::BehaviourOfCells> behaviours = {};  ///< of a result from which the field was taken: they name internal variables
   /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null where there are none.
-  std::function<std::vector<double>()> multipliers = {};
+  std::shared_ptr<const MultiplierSum> multipliers = {};
 
   /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
   /// sous_point, numbers from 1 (U1.03.02); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().

@@ -166,23 +166,14 @@ void take_support(FieldConcept& product, const FieldConcept& from) {
 }
 
 // Of a sum of displacements, where all of them have as many.
-std::function<std::vector<double>()> multipliers_of_terms(const Call& call) {
-  std::vector<std::pair<double, std::function<std::vector<double>()>>> terms;
+std::shared_ptr<const MultiplierSum> multipliers_of_terms(const Call& call) {
+  std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>> terms;
   for (const Keywords& occurrence : call.factors("COMB")) {
     const auto& field = occurrence.data<FieldConcept>("CHAM_GD");
-    if (!field.multipliers) return {};
+    if (!field.multipliers) return nullptr;
     terms.emplace_back(occurrence.real("COEF_R"), field.multipliers);
   }
-  return [terms] {
-    std::vector<double> sum;
-    for (const auto& [factor, multipliers] : terms) {
-      const std::vector<double> own = multipliers();
-      if (sum.empty()) sum.resize(own.size());
-      if (own.size() != sum.size()) return std::vector<double>();
-      for (std::size_t i = 0; i < own.size(); ++i) sum[i] += factor * own[i];
-    }
-    return sum;
-  };
+  return std::make_shared<const MultiplierSum>(std::move(terms));
 }
 
 FieldPtr from_terms(const Call& call) {

@@ -53,14 +53,14 @@ solver::Field read_result(const Call& call, const solver::Result& result) {
 }
 
 // A step's displacements stand beside multipliers.
-std::function<std::vector<double>()> multipliers_beside(const Call& call) {
+std::shared_ptr<const MultiplierSum> multipliers_beside(const Call& call) {
   if (call.text("NOM_CHAM") != "DEPL" || call.has("TYPE_MAXI") || call.text("INTERPOL") == "LIN") return {};
   auto data = std::dynamic_pointer_cast<const ResultConcept>(call.concept_of("RESULTAT")->data);
   const int order = only_step(call, data->result, "a field is taken of one").order;
-  return [data, order] {
+  return std::make_shared<const MultiplierSum>([data, order] {
     const auto step = std::ranges::find(data->result.steps, order, &solver::ResultStep::order);
     return step == data->result.steps.end() ? std::vector<double>() : multipliers_of(*data, *step);
-  };
+  });
 }
 
 // --- of a table -------------------------------------------------------------------------------------------------------------

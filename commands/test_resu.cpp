@@ -231,7 +231,7 @@ void test_field(const Keywords& test, Context& context) {
     report(test, label, as_reference(test, field_value(test, by_variable_names(test, data.field, data.behaviours.get()), *data.mesh)), context);
     return;
   }
-  const Values others = data.multipliers && takes_multipliers_in(test) ? data.multipliers() : Values();
+  const Values others = data.multipliers && takes_multipliers_in(test) ? data.multipliers->values() : Values();
   report(test, label, as_reference(test, field_value(test, data.field, *data.mesh, others)), context);
 }
 

@@ -44,27 +44,6 @@ void collect(const Keywords& keywords, const LevelPage& level, Accesses& accesse
   }
 }
 
-/// A concept and all that reading it reads.
-void close_over(const Concept* handle, std::map<int, const Concept*>& closure) {
-  if (!closure.emplace(handle->id, handle).second) return;
-  for (const ConceptPtr& behind : handle->reads_through) close_over(behind.get(), closure);
-}
-
-bool reads(const Concept& reader, const Concept& source) {
-  std::map<int, const Concept*> closure;
-  close_over(&reader, closure);
-  return closure.contains(source.id);
-}
-
-/// A table or a function holds its own numbers; any other product refers to what it was made from. What is changed in place by
-/// something made from it (a mesh by a field on it) does not: each would keep the other alive.
-void remember_sources(const ConceptPtr& product, const std::vector<ConceptPtr>& sources, bool in_place) {
-  for (const ConceptPtr& source : sources) {
-    if (std::ranges::find(product->reads_through, source) != product->reads_through.end()) continue;
-    if (source != product && !(in_place && reads(*source, *product))) product->reads_through.push_back(source);
-  }
-}
-
 int file_resource(int unit) {
   return -1 - unit;
 }
@@ -123,17 +102,75 @@ CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage&
 
   Accesses accesses;
   collect(call, page.inside, accesses);
-  std::map<int, const Concept*> closure;
-  for (const ConceptPtr& handle : accesses.concepts) close_over(handle.get(), closure);
-  if (call.reuse && product) close_over(product.get(), closure);
-  for (const auto& [id, handle] : closure) read(node, id, handle->name);
+  std::map<int, const Concept*> named;
+  for (const ConceptPtr& handle : accesses.concepts) named.emplace(handle->id, handle.get());
+  if (call.reuse && product) named.emplace(product->id, product.get());
+  // What a concept was made from is waited for by what made it; what has changed since is not.
+  std::map<int, std::string> resources;
+  for (const auto& [id, handle] : named) {
+    resources.emplace(id, handle->name);
+    node.reads.push_back(id);
+    for (const int behind : histories_[id].changed_behind) resources.emplace(behind, histories_[behind].name);
+  }
+  for (const auto& [id, name] : resources) read(node, id, name);
   for (const int unit : accesses.files_read) read(node, file_resource(unit), fmt::format("file {}", unit));
   for (const int unit : accesses.files_written) write(node, file_resource(unit), fmt::format("file {}", unit));
-  if (product) write(node, product->id, product->name);
-
-  if (product && !page.standalone) remember_sources(product, accesses.concepts, call.reuse);
+  if (product) {
+    if (call.reuse) note_change(*product);
+    write(node, product->id, product->name);
+    if (!page.standalone) remember_sources(*product, accesses.concepts, call.reuse);
+  }
   node.call = std::move(call);
   return nodes_.emplace_back(std::move(node));
+}
+
+/// From the first change on, whoever reads something made from the concept counts among its readers.
+void CommandGraph::note_change(const Concept& changed) {
+  History& own = histories_[changed.id];
+  own.name = changed.name;
+  if (own.is_changed) return;
+  own.is_changed = true;
+  spread_changes();
+  std::set<int> readers(own.readers.begin(), own.readers.end());
+  for (const CommandNode& node : nodes_) {
+    const auto through = [&](int id) { return histories_[id].changed_behind.contains(changed.id); };
+    if (node.id > own.writer && std::ranges::any_of(node.reads, through)) readers.insert(node.id);
+  }
+  own.readers.assign(readers.begin(), readers.end());
+}
+
+/// A table or a function holds its own numbers; any other product refers to what it was made from. What is changed in place by
+/// something made from it (a mesh by a field on it) does not: each would keep the other alive.
+void CommandGraph::remember_sources(Concept& product, const std::vector<ConceptPtr>& sources, bool in_place) {
+  bool news = false;
+  for (const ConceptPtr& source : sources) {
+    if (source.get() == &product || std::ranges::find(product.reads_through, source) != product.reads_through.end()) continue;
+    if (in_place && histories_[source->id].changed_behind.contains(product.id)) continue;
+    product.reads_through.push_back(source);
+    news = take_changes(product.id, source->id) || news;
+  }
+  if (in_place && news) spread_changes();
+}
+
+/// Whether `reader` has more behind it now that it reads `source`.
+bool CommandGraph::take_changes(int reader, int source) {
+  auto& behind = histories_[reader].changed_behind;
+  const std::size_t before = behind.size();
+  const History& from = histories_[source];
+  if (from.is_changed) behind.insert(source);
+  behind.insert(from.changed_behind.begin(), from.changed_behind.end());
+  return behind.size() > before;
+}
+
+/// Something may read a concept that reads more since: until nothing is new.
+void CommandGraph::spread_changes() {
+  for (bool news = true; news;) {
+    news = false;
+    for (const CommandNode& node : nodes_) {
+      if (!node.product) continue;
+      for (const ConceptPtr& source : node.product->reads_through) news = take_changes(node.product->id, source->id) || news;
+    }
+  }
 }
 
 void CommandGraph::read(CommandNode& node, int resource, const std::string& name) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct CommandNode {
   Role role = Role::value;
   bool complete = true;  ///< false: a value is unknown or unsupported, so it never runs
   std::vector<Edge> waits_for;
+  std::vector<int> reads;  ///< ids of the concepts that its keywords name
   NodeState state = NodeState::waiting;
   bool forgiven = false;  ///< it failed inside try: what it left may still be read
   double seconds = 0;
@@ -52,7 +54,8 @@ int line_of(const CommandNode& node);
 class CommandGraph {
  public:
   /// Appends a call. `page` says what it costs, what it is for, and whether its product keeps what it read. The
-  /// product's reads_through is filled here.
+  /// product's reads_through is filled here. The call waits for what made the concepts that it names, and for what has
+  /// changed in place what those were made from: of the rest, what made them has waited.
   CommandNode& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
 
   std::vector<CommandNode>& nodes() { return nodes_; }
@@ -72,7 +75,15 @@ class CommandGraph {
   struct History {
     int writer = -1;
     std::vector<int> readers;  ///< since that writer
+    bool is_changed = false;   ///< in place, by reuse=
+    std::string name;          ///< once it is changed
+    std::set<int> changed_behind;  ///< the changed concepts among all that reading this one reads
   };
+
+  void note_change(const Concept& changed);
+  void remember_sources(Concept& product, const std::vector<ConceptPtr>& sources, bool in_place);
+  bool take_changes(int reader, int source);
+  void spread_changes();
 
   void read(CommandNode& node, int resource, const std::string& name);
   void write(CommandNode& node, int resource, const std::string& name);

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
@@ -26,6 +28,17 @@ Value call_real(const RealFunction& function, const std::vector<Value>& argument
 }
 
 }  // namespace
+
+Concept::~Concept() {
+  std::vector<std::shared_ptr<Concept>> open = std::move(reads_through);
+  while (!open.empty()) {
+    const std::shared_ptr<Concept> last = std::move(open.back());
+    open.pop_back();
+    if (last.use_count() > 1) continue;
+    std::ranges::move(last->reads_through, std::back_inserter(open));
+    last->reads_through.clear();
+  }
+}
 
 Value ConceptData::subscript(const Value&) const {
   throw DiagnosticError("not-supported", "this concept cannot be read by [...]");

@@ -49,6 +49,12 @@ struct Concept {
   Span defined_at;               ///< the call that made it
   std::shared_ptr<ConceptData> data;
   std::vector<std::shared_ptr<Concept>> reads_through;  ///< reading this one reads those too (a model reads its mesh)
+
+  Concept() = default;
+  Concept(const Concept&) = default;
+  Concept& operator=(const Concept&) = default;
+  /// Lets go of a long chain of concepts, each made from the one before, link by link.
+  ~Concept();
 };
 
 using ConceptPtr = std::shared_ptr<Concept>;
