@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "commands/bounds.hpp"
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
@@ -54,10 +57,12 @@ solver::WatchedIncrement watched_increment(const Call& call, const Keywords& giv
   watched.field = given.text("NOM_CHAM");
   watched.component = given.text("NOM_CMP");
   watched.wanted = given.real("VALE_REF");
-  const char* place = given.given("GROUP_NO") ? "GROUP_NO" : given.given("GROUP_MA") ? "GROUP_MA" : nullptr;
-  if (place == nullptr) return watched;
-  if (given.given("GROUP_NO") && watched.field != "DEPL") {
-    throw DiagnosticError("excluded-keyword", fmt::format("DEFI_LIST_INST: {} has its values on cells", watched.field), given.span_of("GROUP_NO"), "name cells by GROUP_MA");
+  static constexpr const char* places[] = {"GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
+  const auto named = std::ranges::find_if(places, [&](const char* keyword) { return given.given(keyword); });
+  if (named == std::end(places)) return watched;
+  const char* place = *named;
+  if ((place == places[0] || place == places[1]) && watched.field != "DEPL") {
+    throw DiagnosticError("excluded-keyword", fmt::format("DEFI_LIST_INST: {} has its values on cells", watched.field), given.span_of(place), "name cells by GROUP_MA or MAILLE");
   }
   if (!call.given("MODELE")) throw DiagnosticError("missing-keyword", std::string("DEFI_LIST_INST: ") + place + " needs to know of which mesh", given.span_of(place), "give MODELE");
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
