@@ -22,10 +22,20 @@ std::vector<std::string> names_of(const Keywords& test, const FunctionConcept& f
                         test.span_of("VALE_PARA"), fmt::format("the function depends on {}", fmt::join(function.parameters(), ", ")));
 }
 
+// Of one parameter Code_Aster does not look at its name (U4.92.02).
+std::vector<std::string> names_or_own(const Keywords& test, const FunctionConcept& function, std::size_t count, Context& context) {
+  auto names = names_of(test, function, count);
+  const auto own = function.parameters();
+  if (names.size() != 1 || own.size() != 1 || names == own) return names;
+  context.diagnostics.alarm("other-parameter", fmt::format("TEST_FONCTION: {} depends on {}, and is tested there, not at a value of {}", test.concept_of("FONCTION")->name, own.front(), names.front()),
+                            test.span_of("NOM_PARA"), fmt::format("write NOM_PARA='{}', or leave it out", own.front()));
+  return own;
+}
+
 void test_value(const Keywords& test, Context& context) {
   const auto& function = test.data<FunctionConcept>("FONCTION");
   const auto at = test.reals("VALE_PARA");
-  const auto names = names_of(test, function, at.size());
+  const auto names = names_or_own(test, function, at.size(), context);
   const double value = evaluate_named(function, names, at, test.span_of("NOM_PARA"));
   std::string label = test.has("LEGENDE") ? test.text("LEGENDE") : test.concept_of("FONCTION")->name;
   for (std::size_t i = 0; i < at.size(); ++i) label += fmt::format("{} {}={:g}", i == 0 ? " at" : ",", names[i], at[i]);
