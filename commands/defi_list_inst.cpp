@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <string>
 
 #include "commands/bounds.hpp"
 #include "commands/commands.hpp"
@@ -143,6 +145,18 @@ solver::StepEvent event_of(const Call& call, const Keywords& given, solver::Step
   return event;
 }
 
+// The last one counts (U4.34.03).
+void warn_of_repeated_events(const Call& call, Context& context) {
+  std::map<std::string, int> occurrences;
+  for (const Keywords& given : call.factors("ECHEC")) ++occurrences[given.text("EVENEMENT")];
+  for (const Keywords& given : call.factors("ECHEC")) {
+    int& left = occurrences[given.text("EVENEMENT")];
+    if (--left == 0) continue;
+    context.diagnostics.alarm("repeated-event", fmt::format("DEFI_LIST_INST: what this occurrence says of EVENEMENT='{}' counts for nothing: a later one takes its place", given.text("EVENEMENT")), given.span,
+                              "write one occurrence for each event");
+  }
+}
+
 // Of several occurrences for an event the last one counts; without one for ERREUR steps that fail are cut all the same (U4.34.03).
 void read_failures(const Call& call, solver::StepPlan& plan) {
   plan.cutting = solver::StepCutting{};
@@ -165,11 +179,12 @@ void read_failures(const Call& call, solver::StepPlan& plan) {
 
 }  // namespace
 
-Product defi_list_inst(const Call& call, Context&) {
+Product defi_list_inst(const Call& call, Context& context) {
   const Keywords& list = call.factor("DEFI_LIST");
   auto product = std::make_shared<StepPlanConcept>();
   product->plan.instants = instants(list);
   require_rising(product->plan.instants, list);
+  warn_of_repeated_events(call, context);
   read_failures(call, product->plan);
   if (call.text("METHODE") == "AUTO") product->plan.adaptation = adaptation(call, list);
   return product;
