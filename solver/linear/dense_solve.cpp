@@ -15,8 +15,8 @@ namespace {
 
 /// A pivot below this share of the largest leaves the solution to the least-squares method.
 constexpr double singular_pivot = 1e-14;
-/// Rows from which products gain by more than one thread.
-constexpr Eigen::Index large_product = 1000;
+/// Rows from which products and factors gain by more than one thread: threads that wait for each other over less take longer than one where the machine is shared.
+constexpr Eigen::Index large_product = 1000, large_factor = 800;
 
 /// The LAPACK that CHOLMOD is built on.
 struct Lapack {
@@ -65,7 +65,7 @@ DenseLu::DenseLu(const Eigen::MatrixXd& matrix) {
   const int n = static_cast<int>(factors_.rows());
   interchanges_.resize(static_cast<std::size_t>(n));
   int info = 0;
-  lapack().threads.use_all();
+  if (n >= large_factor) lapack().threads.use_all();
   lapack().factorise(&n, &n, factors_.data(), &n, interchanges_.data(), &info);
   lapack().threads.use(1);
 }
@@ -95,7 +95,7 @@ bool factorise_dense(Eigen::MatrixXd& lower) {
   if (lower.rows() < large_dense) return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(lower).info() == Eigen::Success;
   const int n = static_cast<int>(lower.rows());
   int info = 0;
-  lapack().threads.use_all();
+  if (n >= large_factor) lapack().threads.use_all();
   lapack().cholesky("L", &n, lower.data(), &n, &info);
   lapack().threads.use(1);
   return info == 0;
