@@ -34,6 +34,13 @@ struct CondensedSpring {
   double stiffness = 0.0;
 };
 
+/// What earlier searches for shares of friction say about the next (see shared_friction.hpp): the search from nowhere in particular, which is long, comes first
+/// where it was what found the last solution, and is left out the longer, the oftener it has failed in a row.
+struct ShareSearch {
+  bool found_last = false;
+  int failures = 0, left_out = 0;
+};
+
 /// Find multipliers and jumps d with
 ///     d = free + S (w t(multiplier, d) - held),     sum over points of w N_i r(multiplier, d) = 0 for each node i,
 /// t and r being traction and residual of the law at the points, S the compliance of the rows.
@@ -54,6 +61,7 @@ struct CondensedProblem {
   bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
   Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
   NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
+  ShareSearch* share_search = nullptr;  ///< of shares of friction, if searches are to learn from each other
   ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };
 

@@ -9,6 +9,8 @@ namespace {
 using Eigen::Index;
 
 constexpr int most_turns = 20;
+/// After so many failures in a row a search is left out no longer than before: 64 times.
+constexpr int most_failures = 6;
 /// Shares of pressure that change by less are near enough to those of the solution for Newton's method.
 constexpr double near_share = 1e-2;
 
@@ -29,7 +31,7 @@ std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
 
 class SharedFriction {
  public:
-  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)) {
+  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)), search_(problem.share_search ? *problem.share_search : own_search_) {
     problem_.expected.resize(0);  // shears, not shares
   }
 
@@ -37,13 +39,15 @@ class SharedFriction {
     const CondensedState start = state;
     CondensedSolution solution;
     pressure_ = largest_pressure(given_, state);
+    const bool searched = search_.found_last;
+    if (searched && search_shares(start, state, solution)) return counted(start, state, solution);
     if (pressure_ > 0.0 && solve_by_shares(state, solution)) return counted(start, state, solution);
     state = start;
     find_pressure(state);
     take(Shears::as_they_are);
     solution = solve_once(state, methods_.refine);
     if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return counted(start, state, solution);
-    if (solve_smooth_shares(start, state, solution)) return counted(start, state, solution);
+    if (!searched && search_shares(start, state, solution)) return counted(start, state, solution);
     if (solution.verdict != CondensedVerdict::solved) {
       state = start;
       solution = solve_by_shears(state);
@@ -96,6 +100,19 @@ class SharedFriction {
     state = shared_state;
     solution = shared;
     return true;
+  }
+
+  /// solve_smooth_shares() unless it has failed too often of late.
+  bool search_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
+    search_.found_last = false;
+    if (search_.left_out > 0) {
+      --search_.left_out;
+      return false;
+    }
+    search_.found_last = solve_smooth_shares(start, state, solution);
+    search_.failures = search_.found_last ? 0 : std::min(search_.failures + 1, most_failures);
+    search_.left_out = search_.found_last ? 0 : 1 << search_.failures;
+    return search_.found_last;
   }
 
   /// By shares at once, without a solution to begin from.
@@ -212,6 +229,8 @@ class SharedFriction {
   CondensedProblem problem_;
   const CondensedMethods& methods_;
   const std::vector<char> shared_;
+  ShareSearch own_search_;
+  ShareSearch& search_;
   double pressure_ = 0.0;
   int iterations_ = 0;
 };

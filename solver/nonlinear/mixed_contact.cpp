@@ -101,6 +101,7 @@ void MixedContact::number_multipliers() {
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
   problem_.near_inverse = &near_inverse_;
+  problem_.share_search = &share_search_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
   rates_ = start_ = state_.multipliers;
 }
