@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "solver/contact/extent.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Gaps are known to the rounding of coordinates: as a share of them, what a condition's tolerance makes of it.
+constexpr double coordinate_share = 1e-5;
 
 Vector3d initial(const Mesh& mesh, int node) { return {mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]}; }
 
@@ -45,7 +49,7 @@ class RowBuilder {
 
 Inequalities gap_rows(std::span<const ContactPair> pairs, const Mesh& mesh, const DofMap& dofs, std::vector<int>& row_pairs) {
   RowBuilder builder(mesh, dofs);
-  std::vector<double> bounds;
+  std::vector<double> bounds, sizes;
   row_pairs.clear();
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const ContactPair& pair = pairs[index];
@@ -59,9 +63,12 @@ Inequalities gap_rows(std::span<const ContactPair> pairs, const Mesh& mesh, cons
       builder.add(row, nodes[i], pair.weights[i] * pair.normal);
     }
     bounds.push_back(pair.normal.dot(apart) - pair.thickness);
+    sizes.push_back(extent(mesh, pair.facet) + coordinate_share * initial(mesh, pair.slave).cwiseAbs().maxCoeff());
     row_pairs.push_back(static_cast<int>(index));
   }
-  return builder.finish(bounds);
+  Inequalities result = builder.finish(bounds);
+  result.sizes = Eigen::Map<const Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
+  return result;
 }
 
 }  // namespace comma::solver

@@ -25,6 +25,9 @@ Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
   result.rows.setFromTriplets(entries.begin(), entries.end());
   result.bounds.resize(result.rows.rows());
   result.bounds << upper.bounds, lower.bounds;
+  result.sizes = Eigen::VectorXd::Zero(result.rows.rows());
+  if (upper.sizes.size()) result.sizes.head(shift) = upper.sizes;
+  if (lower.sizes.size()) result.sizes.tail(lower.rows.rows()) = lower.sizes;
   result.softness = Eigen::VectorXd::Zero(result.rows.rows());
   if (upper.softness.size()) result.softness.head(shift) = upper.softness;
   if (lower.softness.size()) result.softness.tail(lower.rows.rows()) = lower.softness;

@@ -25,7 +25,7 @@ int require_dof(const DofMap& dofs, const Mesh& mesh, int node, Component compon
 
 /// The size of what is summed in A g - b: what roundings are measured against.
 double term_size(const Inequalities& full, int row, const Eigen::VectorXd& offset) {
-  double size = std::abs(full.bounds[row]);
+  double size = std::max(std::abs(full.bounds[row]), full.sizes.size() ? full.sizes[row] : 0.0);
   for (RowMatrix::InnerIterator it(full.rows, row); it; ++it) size += std::abs(it.value() * offset[it.col()]);
   return size;
 }

@@ -14,6 +14,7 @@ struct Inequalities {
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows;
   Eigen::VectorXd bounds;
   Eigen::VectorXd softness{};  ///< one a row, in units of A u over those of lambda; empty: all zero
+  Eigen::VectorXd sizes{};     ///< one a row: what bounds are small beside, in their units, where they are differences of larger things; empty: nothing
 
   double softness_of(Eigen::Index row) const { return softness.size() ? softness[row] : 0.0; }
 };

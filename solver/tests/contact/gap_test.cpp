@@ -6,6 +6,7 @@
 
 #include "solver/error.hpp"
 #include "solver/tests/exactly.hpp"
+#include "solver/unilateral/conditions.hpp"
 
 using namespace comma::solver;
 using Eigen::Vector3d;
@@ -67,6 +68,25 @@ TEST_CASE("Moving the slave and the master together leaves the gap alone, and th
   Eigen::VectorXd translation(6);
   translation << 3, 7, 3, 7, 3, 7;
   CHECK((rows.rows * translation)[0] == Approx(0.0).margin(1e-14));
+}
+
+TEST_CASE("A clamped node that touches a clamped facet but for a rounding does not go through it") {
+  const Scene scene;
+  const DofMap dofs(scene.model);
+  Load clamp;
+  for (int node = 0; node < 3; ++node)
+    for (const Component component : {Component::dx, Component::dy}) clamp.relations.emplace_back().terms = {{node, component, 1.0}};
+  const std::vector<AppliedLoad> loads = {{std::make_shared<const Load>(clamp), nullptr}};
+  const Elimination elimination(*scene.mesh, dofs, loads);
+  const auto reduced_at = [&](double depth) {
+    auto pairs = pair_surfaces(scene.definition, *scene.mesh, scene.places(Eigen::VectorXd::Zero(6)));
+    pairs[0].thickness = 0.25 + depth;
+    std::vector<int> row_pairs;
+    const Inequalities rows = gap_rows(pairs, *scene.mesh, dofs, row_pairs);
+    return reduce(rows, elimination, elimination.offset(0.0), [](int) { return std::string("the gap"); });
+  };
+  CHECK(reduced_at(1e-16).origin.empty());
+  CHECK_THROWS_WITH(reduced_at(1e-3), Catch::Contains("imposed displacements violate the gap by 0.001"));
 }
 
 TEST_CASE("A slave node without displacements is named") {
