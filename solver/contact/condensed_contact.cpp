@@ -79,6 +79,8 @@ class CondensedSolver {
   CondensedSolution run() {
     CondensedSolution solution;
     const Eigen::VectorXd multipliers = state_.multipliers;
+    const std::vector<ContactStatus> given = start_;
+    close_for_good(multipliers);
     bool solved = start_as_expected() && settle(Rubbing::by_law, solution.iterations, Patience::short_of_growth) && stays_near();
     const auto otherwise = [&](const auto& attempt) {
       if (solved) return;
@@ -98,7 +100,7 @@ class CondensedSolver {
     if (led_away) otherwise([&] { return settle(Rubbing::by_law, solution.iterations); });
     otherwise([&] { return raise_friction(solution.iterations); });
     conclude(solution, solved || return_far());
-    for (std::size_t p = 0; p < start_.size(); ++p) solution.changes += start_[p] != state_.statuses[p];
+    for (std::size_t p = 0; p < given.size(); ++p) solution.changes += given[p] != state_.statuses[p];
     return solution;
   }
 
@@ -142,6 +144,18 @@ class CondensedSolver {
   enum class Rubbing : std::uint8_t { by_law, never_slides };
   /// With friction, whether to stop where two iterations have brought what is left of the equations no nearer to zero.
   enum class Patience : std::uint8_t { to_the_end, short_of_growth };
+
+  /// What the first iteration closes of points that stay closed (GLISSIERE) is so in every attempt: which of them finds the solution does not decide it.
+  void close_for_good(const Eigen::VectorXd& multipliers) {
+    if (problem_.components == 1 || std::ranges::none_of(problem_.points, &CondensedPoint::bilateral)) return;
+    number_unknowns();
+    correct();
+    evaluate();
+    if (std::isfinite(residual_)) update_statuses();
+    for (std::size_t p = 0; p < start_.size(); ++p)
+      if (problem_.points[p].bilateral) start_[p] = state_.statuses[p];
+    restart(multipliers);
+  }
 
   /// Jumps are those that go with the forces of these multipliers.
   bool start_as_expected() {
@@ -637,7 +651,7 @@ class CondensedSolver {
   SchurComplement& schur_;
   const CondensedProblem& problem_;
   CondensedState& state_;
-  const std::vector<ContactStatus> start_;
+  std::vector<ContactStatus> start_;  ///< what attempts begin with
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
   const bool is_nodal_;
