@@ -42,7 +42,11 @@ std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model
   std::unordered_map<int, HalfThickness> halves;
   for (const int cell : cells) {
     if (!is_plate(model.formulations[static_cast<std::size_t>(cell)])) continue;
-    const double half = 0.5 * section_of(properties.plates, *model.mesh, cell).thickness;
+    const auto& section = section_of(properties.plates, *model.mesh, cell);
+    if (section.offset != 0.0)
+      throw Error("unsupported", fmt::format("plate {} is eccentric by {:.6g} (EXCENTREMENT), and DIST_COQUE takes its faces for half of its thickness off the cell", model.mesh->cell_name(cell), section.offset),
+                  "give the distance of the face from the cell by DIST_ESCL or DIST_MAIT");
+    const double half = 0.5 * section.thickness;
     halves[cell] = {half, half};
   }
   return halves;

@@ -18,7 +18,7 @@ namespace comma::solver {
 std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const ElementProperties& properties, std::span<const int> cells);
 
 /// Half of the thickness of the plates among the cells (U4.44.11, DIST_COQUE). Throws Error `missing-section` for one without a
-/// thickness.
+/// thickness, `unsupported` for an eccentric one.
 std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model, const ElementProperties& properties, std::span<const int> cells);
 
 /// What the element of a cell adds at a place, given by the shape functions of the cell's nodes (a length).

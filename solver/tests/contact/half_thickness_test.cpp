@@ -47,6 +47,12 @@ TEST_CASE("Beams add their radius, plates half of their thickness") {
   CHECK(halves.at(2).first == 0.03);
 }
 
+TEST_CASE("An eccentric plate, whose faces are not half of its thickness away, is refused") {
+  Frame frame;
+  frame.properties.plates[2].offset = 0.01;
+  CHECK_THROWS_WITH(plate_half_thicknesses(frame.model, frame.properties, all), Catch::Contains("eccentric by 0.01"));
+}
+
 TEST_CASE("Along a beam that tapers the radius is linear, and nodes have the mean of their cells'") {
   const Frame frame;
   ContactZone zone;
