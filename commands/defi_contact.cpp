@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -324,6 +325,27 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   return definition;
 }
 
+// A node of two zones has the multipliers, or penalties, of both.
+void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
+  const bool is_mixed = definition.formulation == solver::ContactFormulation::mixed;
+  std::map<int, std::size_t> zones;
+  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised)) continue;
+    for (const int node : mesh.nodes_of_cells(zone.slave_cells)) {
+      if (std::ranges::find(zone.excluded_slave_nodes, node) != zone.excluded_slave_nodes.end()) continue;
+      const auto [earlier, is_first] = zones.emplace(node, k);
+      if (is_first) continue;
+      context.diagnostics.alarm("shared-slave-nodes",
+                                fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
+                                            is_mixed ? "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"
+                                                     : "it has the penalties of both"),
+                                call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
+      return;
+    }
+  }
+}
+
 // With fewer points than nodes a face leaves its multipliers undetermined.
 void warn_of_few_points(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
   if (definition.formulation != solver::ContactFormulation::mixed) return;
@@ -359,6 +381,7 @@ Product defi_contact(const Call& call, Context& context) {
   } else {
     solver::ContactDefinition definition = contact(call, model);
     warn_of_few_points(call, definition, *model.mesh, context);
+    warn_of_shared_nodes(call, definition, *model.mesh, context);
     product->conditions = std::move(definition);
   }
   return product;
