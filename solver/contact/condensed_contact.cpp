@@ -1,6 +1,7 @@
 #include "solver/contact/condensed_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "solver/contact/condensed_newton.hpp"
@@ -13,11 +14,13 @@ namespace {
 using Patience = CondensedNewton::Patience;
 using Rubbing = CondensedNewton::Rubbing;
 
-/// By how much friction grows at first, and at least, as a share of the way.
+/// By how much friction and penalties grow at first, and at least, as a share of the way.
 constexpr double first_growth = 0.125;
 constexpr double least_growth = 1.0 / 1024.0;
-/// It stops growing after as many iterations as so many attempts may take.
+/// They stop growing after as many iterations as so many attempts may take.
 constexpr int growth_attempts = 20;
+/// The softest penalties, as a share of those asked for: these may be that much stiffer than the bodies.
+constexpr double softest_penalties = 1.0 / 4096.0;
 
 /// Attempts one after the other, each from where it may find its way.
 class CondensedSearch {
@@ -27,7 +30,7 @@ class CondensedSearch {
 
   /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
   /// then from laws that are smooth at first; then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at
-  /// last with friction that grows from none.
+  /// last with penalties that grow from soft ones, and with friction that grows from none.
   CondensedSolution run() {
     close_for_good();
     bool solved = start_as_expected() && settle(Rubbing::by_law, Patience::short_of_growth) && stays_near();
@@ -47,6 +50,7 @@ class CondensedSearch {
     otherwise([&] { return newton_.descend(solution_.iterations); });
     otherwise([&] { return newton_.relax() && settle(Rubbing::by_law); });
     if (led_away) otherwise([&] { return settle(Rubbing::by_law); });
+    otherwise([&] { return raise_penalties(); });
     otherwise([&] { return raise_friction(); });
     conclude(solved || return_far());
     for (std::size_t p = 0; p < given_.size(); ++p) solution_.changes += given_[p] != state_.statuses[p];
@@ -127,6 +131,25 @@ class CondensedSearch {
     return raised;
   }
 
+  /// Solutions with softer penalties lead to that with those asked for.
+  bool raise_penalties() {
+    if (problem_.components == 1 || !has_penalty(problem_)) return false;
+    newton_.take_penalties(softest_penalties);
+    bool solved = false;
+    const auto otherwise = [&](const auto& attempt) {
+      if (solved) return;
+      newton_.go_to(start_);
+      solved = attempt();
+    };
+    otherwise([&] { return settle(Rubbing::by_law); });
+    otherwise([&] { return newton_.follow_smoothed(solution_.iterations, Augmentations::of_law); });
+    otherwise([&] { return newton_.descend(solution_.iterations); });
+    otherwise([&] { return raise_friction(); });
+    const bool raised = solved && raise([&](double way) { newton_.take_penalties(std::pow(softest_penalties, 1.0 - way)); });
+    newton_.take_penalties(1.0);
+    return raised;
+  }
+
   /// From a solution at the beginning of a way (0) to its end (1): each solution starts from the one before.
   template <typename Take>
   bool raise(const Take& take) {
@@ -137,7 +160,7 @@ class CondensedSearch {
       const CondensedPlace place = newton_.place();
       const double next = std::min(1.0, reached + step);
       take(next);
-      if (settle(Rubbing::by_law)) {
+      if (settle_or_descend()) {
         reached = next;
         step *= 2.0;
         continue;
@@ -147,6 +170,13 @@ class CondensedSearch {
       step *= 0.5;
     }
     return reached == 1.0;
+  }
+
+  bool settle_or_descend() {
+    const CondensedPlace place = newton_.place();
+    if (settle(Rubbing::by_law)) return true;
+    newton_.go_to(place);
+    return newton_.descend(solution_.iterations);
   }
 
   const CondensedProblem& problem_;

@@ -77,6 +77,17 @@ void CondensedNewton::correct_statuses() {
   if (std::isfinite(residual_)) update_statuses();
 }
 
+void CondensedNewton::take_penalties(double share) {
+  const double ratio = penalty_share_ / share;
+  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    if (point.law.penalised) jumps_[point.first_row] *= ratio;
+    if (point.law.friction_penalised && state_.statuses[p] == ContactStatus::sticking) jumps_.segment(point.first_row + 1, point.rows - 1) *= ratio;
+  }
+  penalty_share_ = share;
+}
+
 bool CondensedNewton::stays_near() const { return scale_ <= farthest_state * nearest_; }
 
 void CondensedNewton::balance_jumps() {
@@ -89,6 +100,8 @@ void CondensedNewton::balance_jumps() {
 ContactLaw CondensedNewton::law_of(std::size_t p) const {
   ContactLaw law = problem_.points[p].law;
   law.friction *= friction_share_;
+  if (law.penalised) law.augmentation *= penalty_share_;
+  if (law.friction_penalised) law.friction_augmentation *= penalty_share_;
   if (pressures_by_bodies_ && !law.penalised) law.augmentation = bodies_[p].normal;
   if (shears_by_bodies_ && !law.friction_penalised) law.friction_augmentation = bodies_[p].along;
   return law;

@@ -54,6 +54,8 @@ class CondensedNewton {
 
   /// How much of friction there is from now on.
   void take_friction(double share) { friction_share_ = share; }
+  /// The same of penalties. Forces stay: jumps of penalised points become those that go with them.
+  void take_penalties(double share);
 
   const Eigen::VectorXd& forces() const { return forces_; }
   /// Whether the present state is one that bodies come to: no farther than some times the nearest one that was met.
@@ -142,7 +144,7 @@ class CondensedNewton {
   bool led_away_ = false;
   bool is_lost_ = false;
   Rubbing rubbing_ = Rubbing::by_law;
-  double friction_share_ = 1.0;
+  double friction_share_ = 1.0, penalty_share_ = 1.0;
   bool pressures_by_bodies_ = false, shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
   std::vector<PointStiffness> bodies_;
   std::set<std::vector<ContactStatus>> visited_;
