@@ -247,6 +247,8 @@ void Assembler::impose_strains(std::span<const AppliedLoad> loads, double time) 
 
 SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_stiffness, u, state_); }
 
+SymmetricMatrix Assembler::symmetric_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_symmetric_stiffness, u, state_); }
+
 SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_); }
 
 SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_stiffness, u, state_); }
@@ -276,6 +278,10 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
 
 bool Assembler::is_symmetric() const {
   return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_symmetric(); });
+}
+
+bool Assembler::has_symmetric_linear_part() const {
+  return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_symmetric() || !block->is_linear(); });
 }
 
 SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {

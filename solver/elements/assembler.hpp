@@ -49,6 +49,9 @@ class Assembler {
   /// extended precision leaves rigid motions to what really holds them.
   SymmetricMatrix stiffness(const Eigen::VectorXd& u) const;
 
+  /// The same of what stands for the tangent where nothing but a symmetric one will do; iterations correct the rest.
+  SymmetricMatrix symmetric_stiffness(const Eigen::VectorXd& u) const;
+
   /// The same as if materials could only answer elastically from where they are.
   SymmetricMatrix elastic_stiffness(const Eigen::VectorXd& u) const;
 
@@ -58,6 +61,8 @@ class Assembler {
 
   /// Whether stiffness() is the whole tangent, for every u.
   bool is_symmetric() const;
+  /// The same of elements whose tangent is the same for every u.
+  bool has_symmetric_linear_part() const;
   /// The rest of the tangent at u where it is not: (K - K^T) / 2 (n x n), entries only where elements are unsymmetric.
   SkewMatrix skew_stiffness(const Eigen::VectorXd& u) const;
 

@@ -50,6 +50,16 @@ class DiscreteContact final : public ElementBlock {
 
   void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
+  /// What the pressure does to friction is left to iterations.
+  void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState&, std::span<const int> column_starts, double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      Eigen::Matrix3d stiffness = answer(element, u).tangent;
+      stiffness.bottomLeftCorner<2, 1>().setZero();
+      const ElementMatrix k = tangent(element, stiffness);
+      map_.add(element, k.data(), column_starts, values);
+    }
+  }
+
   bool is_symmetric() const override {
     return std::ranges::none_of(members_, [](const Member& each) { return each.spring->friction > 0.0 && each.spring->tangential > 0.0; });
   }

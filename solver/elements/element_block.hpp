@@ -66,6 +66,10 @@ class ElementBlock {
   }
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
+  /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent unless an element knows a better one.
+  virtual void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+    add_stiffness(u, state, column_starts, values);
+  }
   /// Appends the skew-symmetric part (K - K^T) / 2 of the tangent: its entries below the diagonal, by degree of freedom.
   virtual void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&, std::vector<Eigen::Triplet<double>>&) const {}
 

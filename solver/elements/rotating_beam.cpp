@@ -110,6 +110,17 @@ class RotatingBeam final : public ElementBlock {
     }
   }
   bool is_symmetric() const override { return false; }
+  /// The forces turn with the axes, but the increments of the step do not: half of what they would do to the axial force, mirrored, bends a slender beam beyond all measure.
+  void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+    require_no_strains(state);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Turning now = turning(element, u);
+      const Vector12d force = trial(element, u).force;
+      const BeamMatrix turned_forces = of_motion(turned<Derivative>(now.axes.transpose(), force.cast<Derivative>().eval()));
+      const BeamMatrix k = of_increments(now.stiffness, now.axes) + 0.5 * (turned_forces + turned_forces.transpose());
+      map_.add(element, k.data(), column_starts, values);
+    }
+  }
   void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&, std::vector<Eigen::Triplet<double>>& entries) const override {
     std::array<int, 12> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -265,19 +276,28 @@ class RotatingBeam final : public ElementBlock {
     return {now.axes, force, past.elongation + 1.0 - turn};
   }
 
-  /// By the increments at hand, and by what they do to the axes and the length.
-  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
-    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+  /// Axes and stiffness in them, with their derivatives by the motion.
+  struct Turning {
+    Axes<Derivative> axes;
+    BeamMatrixOf<Derivative> stiffness;
+  };
+
+  Turning turning(int element, const Eigen::VectorXd& u) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
-    const Vector12d step = increment(element, u);
-    const Motion motion = motion_of(step);
+    const Motion motion = motion_of(increment(element, u));
     Eigen::Matrix<Derivative, 6, 1> moving;
     for (int i = 0; i < 6; ++i) moving[i] = Derivative(motion[i], 6, i);
-    const auto now = geometry<Derivative>(past, moving);
-    const BeamMatrixOf<Derivative> k = uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_);
-    const Eigen::Matrix<Derivative, 12, 1> local = past.force.cast<Derivative>() + k * turned<Derivative>(now.axes, step.cast<Derivative>().eval());
+    const auto now = geometry<Derivative>(past_[static_cast<std::size_t>(element)], moving);
+    return {now.axes, uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_)};
+  }
+
+  /// By the increments at hand, and by what they do to the axes and the length.
+  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
+    const Turning now = turning(element, u);
+    const Eigen::Matrix<Derivative, 12, 1> local =
+        past_[static_cast<std::size_t>(element)].force.cast<Derivative>() + now.stiffness * turned<Derivative>(now.axes, increment(element, u).cast<Derivative>().eval());
     const Eigen::Matrix<Derivative, 12, 1> global = turned<Derivative>(now.axes.transpose(), local);
-    return of_increments(k, now.axes) + of_motion(global);
+    return of_increments(now.stiffness, now.axes) + of_motion(global);
   }
 
   static BeamMatrix of_increments(const BeamMatrixOf<Derivative>& local, const Axes<Derivative>& axes) {

@@ -20,23 +20,12 @@ void require_extrapolation(const StaticProblem& problem) {
   }
 }
 
-/// -1 where there is none.
-int first_turning_beam(const StaticProblem& problem) {
-  for (std::size_t cell = 0; problem.behaviours && cell < problem.behaviours->size(); ++cell)
-    if ((*problem.behaviours)[cell].kinematics == Kinematics::large_rotations && problem.model->formulations[cell] != Formulation::none) return static_cast<int>(cell);
-  return -1;
-}
-
 }  // namespace
 
 void require_known_combination(const StaticProblem& problem, const NewtonOptions& options, const Assembler& assembler, bool links_turn) {
-  if (!assembler.is_symmetric() && has_conditions(problem)) {
-    const int beam = first_turning_beam(problem);
-    throw Error("unsupported",
-                beam < 0 ? std::string("contact and unilateral conditions need a symmetric stiffness, and here an element has an unsymmetric one")
-                         : fmt::format("contact and unilateral conditions need a symmetric stiffness, and that of beam {} in large rotations (GROT_GDEP) is none", problem.model->mesh->cell_name(beam)),
-                beam < 0 ? "leave out the unsymmetric element or the conditions" : "take DEFORMATION='PETIT' where rotations are small, solid elements, or a spring of contact (DIS_CHOC) at the node");
-  }
+  if (!assembler.has_symmetric_linear_part() && has_conditions(problem))
+    throw Error("unsupported", "contact and unilateral conditions need a symmetric stiffness, and here a spring has an unsymmetric one",
+                "leave out the unsymmetric spring or the conditions");
   if (options.stability) require_modes(*options.stability, problem);
   if (links_turn && (has_conditions(problem) || options.path || options.stability))
     throw Error("unsupported", "rigid bodies in large rotations go with neither contact, unilateral conditions, path following nor modes of buckling",

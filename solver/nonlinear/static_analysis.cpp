@@ -51,8 +51,9 @@ class StaticAnalysis {
         observer_(observer),
         newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
     if (problem.contact) newton_.use_algorithm(*problem.contact);
+    if (problem.contact || !problem.unilateral.empty()) tangent_.stay_symmetric();
     if (!followers_.empty()) {
-      tangent_.follow(followers_, !problem.contact && problem.unilateral.empty());
+      tangent_.follow(followers_);
       newton_.follow(followers_);
     }
     require_known_combination(problem, options, assembler_, !links_.empty());

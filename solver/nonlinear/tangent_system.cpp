@@ -85,6 +85,7 @@ bool TangentSystem::spring_weak_supports() {
 SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
   SymmetricMatrix whole = kind == TangentKind::elastic    ? assembler_.elastic_stiffness(u)
                           : kind == TangentKind::starting ? assembler_.starting_stiffness(u)
+                          : stays_symmetric_              ? assembler_.symmetric_stiffness(u)
                                                           : assembler_.stiffness(u);
   if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);
   return whole;

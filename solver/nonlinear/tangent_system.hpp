@@ -54,11 +54,10 @@ class TangentSystem {
   /// From now on where hardly anything holds them, too: what a body on weak supports does without contact is so far off that little is left of the digits of what it
   /// does with it. False, and nothing changes, where the last factor has lost few digits, or springs are there already.
   bool spring_weak_supports();
-  /// The forces take part in the tangent from now on, whole or by their symmetric half; they must outlive the system.
-  void follow(const FollowerForces& forces, bool whole) {
-    followers_ = &forces;
-    whole_ = whole;
-  }
+  /// The forces take part in the tangent from now on; they must outlive the system.
+  void follow(const FollowerForces& forces) { followers_ = &forces; }
+  /// From now on a symmetric stiffness stands for the tangent, as contact needs one: iterations correct the rest.
+  void stay_symmetric() { stays_symmetric_ = true; }
   /// Whether the tangent is the same for every displacement.
   bool is_constant() const { return assembler_.is_linear() && followers_ == nullptr; }
 
@@ -97,7 +96,7 @@ class TangentSystem {
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
   bool is_known(TangentKind kind) const;
-  bool is_symmetric() const { return assembler_.is_symmetric() && !(followers_ && whole_); }
+  bool is_symmetric() const { return stays_symmetric_ || (assembler_.is_symmetric() && !followers_); }
   SkewMatrix skew(const Eigen::VectorXd& u) const;
   void factorise(SymmetricMatrix reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
@@ -114,7 +113,7 @@ class TangentSystem {
   Counters& counters_;
   bool is_saddle_;  ///< by the kind of elements
   const FollowerForces* followers_ = nullptr;
-  bool whole_ = true;
+  bool stays_symmetric_ = false;
   LinearOptions linear_;
   std::unique_ptr<LinearSolver> solver_;
   KnownSolutions known_;  ///< of the symmetric factor
