@@ -226,6 +226,21 @@ void extract_by_cells(Table& table, const Keywords& action, const FieldSource& s
   }
 }
 
+// The vector of forces that components belong to: DX, DY, DZ, or what else ends so (RX, RNX, FX ...).
+std::array<std::string, 3> force_components(const Keywords& action, const solver::NodalField& field) {
+  std::string stem;
+  for (const std::string& name : action.texts("RESULTANTE")) {
+    component_of(action, field.components, name, "RESULTANTE");
+    const std::string own = name.substr(0, name.size() - 1);
+    const bool is_axis = name.size() > 1 && name.find_last_of("XYZ") == name.size() - 1 && !own.ends_with('X') && !own.ends_with('Y') && !own.ends_with('Z');
+    if (!is_axis || (!stem.empty() && own != stem))
+      throw DiagnosticError("wrong-component", fmt::format("POST_RELEVE_T: a moment is that of one vector of forces, and {} is no component of {}", name, stem.empty() ? "one" : stem + "X, " + stem + "Y, " + stem + "Z"),
+                            action.span_of("RESULTANTE"), "name components such as DX, DY, DZ of FORC_NODA or RX, RY, RZ of CONT_NOEU, or leave out MOMENT and POINT");
+    stem = own;
+  }
+  return {stem + "X", stem + "Y", stem + "Z"};
+}
+
 // The sum over the nodes; with MOMENT under the names of a torsor's parts.
 void sum(Table& table, const Keywords& action, const Reading& reading) {
   if (const std::string& frame = action.text("REPERE"); frame != "GLOBAL" && frame != "UTILISATEUR") {
@@ -235,7 +250,7 @@ void sum(Table& table, const Keywords& action, const Reading& reading) {
   const Eigen::Matrix3d axes = action.text("REPERE") == "UTILISATEUR" ? axes_by_angles(action) : Eigen::Matrix3d::Identity();
   Row row = reading.head;
   if (action.has("MOMENT")) {
-    const solver::Resultant total = solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"));
+    const solver::Resultant total = solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"), force_components(action, reading.field));
     const Eigen::Vector3d force = axes * total.force, moment = axes * total.moment;
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("RESULT_{}", "XYZ"[i]), force[i]);
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("MOMENT_{}", "XYZ"[i]), moment[i]);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "solver/contact/normals.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -30,6 +32,9 @@ NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = stresses.component(solid_stress_names[i]);
   if (columns[0] < 0 || columns[1] < 0) throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
+  for (const int cell : cells)
+    if (const CellType type = mesh.cell_types[static_cast<std::size_t>(cell)]; dimension(type) == mesh.dimension)
+      throw Error("wrong-surface", fmt::format("{} is a cell of the body itself ({}), not of its boundary", mesh.cell_name(cell), name_of(type)), "name a group of boundary cells");
   NodalField pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY", "VZ"});
   if (mesh.dimension == 2) pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"});
   const std::size_t width = pressure.components.size();

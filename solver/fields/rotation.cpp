@@ -190,8 +190,8 @@ NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::opti
   return [axes_of = std::move(axes_of)](int node) { return axes_of.at(node); };
 }
 
-Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point) {
-  const auto force_columns = columns_of(forces, vectors[0]);
+Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point, const std::array<std::string, 3>& components) {
+  const auto force_columns = columns_of(forces, components);
   const auto moment_columns = columns_of(forces, vectors[1]);
   Resultant sum;
   for (const int node : nodes) {

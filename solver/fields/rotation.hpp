@@ -46,7 +46,8 @@ struct Resultant {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about a point
 };
 
-/// Forces stand in DX DY DZ, moments of their own in DRX DRY DRZ; absent values count as 0.
-Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point);
+/// Forces stand in `components`, moments of their own in DRX DRY DRZ; absent values count as 0.
+Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point,
+                    const std::array<std::string, 3>& components = {"DX", "DY", "DZ"});
 
 }  // namespace comma::solver

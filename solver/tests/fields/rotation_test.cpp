@@ -81,6 +81,15 @@ TEST_CASE("a resultant's moment moves with its point as the force says", "[field
   CHECK((moved.moment - (about_origin.moment - point.cross(about_origin.force))).norm() == Approx(0.0).margin(1e-14));
 }
 
+TEST_CASE("contact forces have a moment too", "[fields]") {
+  const Mesh mesh = nodes_at({{1, 0, 0}, {0, 2, 0}});
+  const NodalField forces{"DEPL_R", {"RN", "RX", "RY"}, {7.0, 0.0, 3.0, 7.0, 4.0, 0.0}};
+  const std::vector<int> nodes = {0, 1};
+  const Resultant about_origin = resultant(mesh, forces, nodes, Eigen::Vector3d::Zero(), {"RX", "RY", "RZ"});
+  CHECK(about_origin.force == Eigen::Vector3d(4, 3, 0));
+  CHECK(about_origin.moment[2] == exactly(1 * 3 - 2 * 4));
+}
+
 TEST_CASE("along a line the first axis is its tangent, at a corner between both segments", "[fields]") {
   Mesh mesh = nodes_at({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});
   mesh.dimension = 2;
