@@ -233,10 +233,11 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.friction = keywords.real("COULOMB");
   take_friction(keywords, zone);
   zone.frictionless_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO_FR", "SANS_NOEUD_FR", "", ""});
-  if (keywords.has("DIRE_EXCL_FROT")) {
-    const auto direction = keywords.reals("DIRE_EXCL_FROT");
-    std::copy(direction.begin(), direction.end(), zone.frictionless_direction.begin());
-  }
+  if (!keywords.has("DIRE_EXCL_FROT")) return zone;
+  zone.frictionless_direction = direction_of(keywords, "DIRE_EXCL_FROT");
+  if (zone.frictionless_nodes.empty())
+    throw DiagnosticError("missing-keyword", "DEFI_CONTACT: DIRE_EXCL_FROT is where the nodes of SANS_GROUP_NO_FR have no friction, and there is none", keywords.span_of("DIRE_EXCL_FROT"),
+                          "name them; or give COULOMB=0.0 where there is none along any direction");
   return zone;
 }
 

@@ -1,6 +1,11 @@
 #include "solver/contact/dead_directions.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
 
 namespace comma::solver {
 namespace {
@@ -25,6 +30,21 @@ void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPo
     if (motions.eigenvalues()[1] <= dead) point.law.friction = 0.0;
     else if (motions.eigenvalues()[0] <= dead && along.norm() >= least_along) point.law.dead = along.normalized();
   }
+}
+
+std::optional<Eigen::Vector3d> excluded_direction(const MixedZone& zone, const ContactPoint& point, const Mesh& mesh) {
+  const auto& nodes = zone.frictionless_nodes;
+  if (nodes.empty()) return {};
+  const auto is_left_out = [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); };
+  const auto& direction = zone.frictionless_direction;
+  if (point.node >= 0) {
+    if (!is_left_out(point.node)) return {};
+    return direction ? Eigen::Vector3d(direction->data()) : Eigen::Vector3d::Zero();
+  }
+  if (direction && std::ranges::any_of(mesh.cell(point.cell), is_left_out))
+    throw Error("unsupported", fmt::format("slave face {} has points between its nodes, and DIRE_EXCL_FROT is known of points at nodes", mesh.cell_name(point.cell)),
+                "take linear faces with INTEGRATION='AUTO', or leave DIRE_EXCL_FROT out: then these nodes have no friction at all");
+  return {};
 }
 
 }  // namespace comma::solver

@@ -51,7 +51,7 @@ struct MixedZone {
   std::optional<double> largest_slip;    ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks slips by more in the step
   double friction_augmentation = 100.0;  ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
   std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
-  std::array<double, 3> frictionless_direction{};  ///< DIRE_EXCL_FROT: no friction along it; null: along every direction
+  std::optional<std::array<double, 3>> frictionless_direction;  ///< DIRE_EXCL_FROT: these nodes have no friction along it (not null); without: along no direction
 };
 
 /// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').

@@ -93,7 +93,7 @@ void MixedContact::number_multipliers() {
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
       if (!excluded.contains(node) &&
           multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size())).second)
-        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || contains(each.mixed.frictionless_nodes, node));
+        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || (contains(each.mixed.frictionless_nodes, node) && !each.mixed.frictionless_direction));
   }
   dimension_ = is_solid ? 3 : 2;
   problem_.node_count = static_cast<int>(problem_.smooth.size());
@@ -141,9 +141,9 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   result.law = law_of(zone);
   stiffen(point, result);
   result.bilateral = zone.mixed.bilateral;
-  if (point.node >= 0 && contains(zone.mixed.frictionless_nodes, point.node)) result.law.friction = 0.0;
-  const bool one_direction = dimension_ == 2 || Eigen::Map<const Vector3d>(zone.mixed.frictionless_direction.data()).norm() > 0.0;
-  if (result.law.friction > 0.0) result.components = one_direction ? 2 : 3;
+  const auto excluded = excluded_direction(zone.mixed, point, mesh_);
+  if (excluded && (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm()))) result.law.friction = 0.0;
+  if (result.law.friction > 0.0) result.components = dimension_ == 2 || excluded ? 2 : 3;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (point.node >= 0 && nodes[i] != point.node) continue;
@@ -194,9 +194,8 @@ void MixedContact::choose_directions() {
 MixedContact::Directions MixedContact::directions(const ContactPoint& point) const {
   const Vector3d& normal = point.normal;
   if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
-  const auto& given = definition_.zones[static_cast<std::size_t>(point.zone)].mixed.frictionless_direction;
-  const Vector3d excluded = Eigen::Map<const Vector3d>(given.data());
-  const Vector3d second = excluded.norm() > 0.0 ? excluded : zone_directions_[static_cast<std::size_t>(point.zone)];
+  const Vector3d excluded = excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_).value_or(Vector3d::Zero());
+  const Vector3d second = excluded.isZero() ? zone_directions_[static_cast<std::size_t>(point.zone)] : excluded;
   const Vector3d along = second - normal.dot(second) * normal;
   if (!(along.norm() > empty_row_tolerance * second.norm()))
     throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),

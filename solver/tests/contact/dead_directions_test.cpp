@@ -50,3 +50,22 @@ TEST_CASE("Nor is there any where the surface lies askew to the direction in whi
   find_dead_directions(rows_of(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(), 0.5 * Eigen::Vector3d::UnitY()), points);
   CHECK(points[0].law.friction == 0.0);
 }
+
+TEST_CASE("Nodes that are left out of friction are so along the given direction alone, and no others are") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  mesh.add_cell(CellType::tria3, std::vector<int>{0, 1, 2});
+  MixedZone zone;
+  zone.frictionless_nodes = {1};
+  ContactPoint at_it, elsewhere, between;
+  at_it.cell = elsewhere.cell = between.cell = 0;
+  at_it.node = 1;
+  elsewhere.node = 2;
+  CHECK(excluded_direction(zone, at_it, mesh)->isZero());
+  CHECK_FALSE(excluded_direction(zone, elsewhere, mesh));
+  CHECK_FALSE(excluded_direction(zone, between, mesh));
+  zone.frictionless_direction = {0, 2, 0};
+  CHECK(*excluded_direction(zone, at_it, mesh) == Eigen::Vector3d(0, 2, 0));
+  CHECK_FALSE(excluded_direction(zone, elsewhere, mesh));
+  CHECK_THROWS_WITH(excluded_direction(zone, between, mesh), Catch::Contains("points between its nodes"));
+}
