@@ -93,6 +93,8 @@ void StepSequence::adapt(double length, int iterations, std::span<const double> 
   }
   length_ = length;
   if (factor) length_ = std::clamp(length_ * *factor, adaptation.shortest, std::max(adaptation.shortest, adaptation.longest));
+  if (!finished() && now_ + length_ <= now_)
+    throw Error("too-many-steps", fmt::format("steps become shorter and shorter, and at t = {:.6g} the next one has no length", now_), "give PAS_MINI, or let steps grow (PCENT_AUGM)");
 }
 
 bool StepSequence::cut() { return plan_.cutting && cut(*plan_.cutting); }

@@ -102,6 +102,9 @@ TEST_CASE("hard steps make the next ones shorter where that is asked for") {
   REQUIRE(hard.size() > 3);
   CHECK(hard[1] == 1.5);
   CHECK(hard[2] == 1.75);
+  StepPlan far({0.0, 1.0, 3.0});  // 1 + 1/2 + 1/4 ... does not get there
+  far.adaptation = plan.adaptation;
+  CHECK_THROWS_WITH(walk(far, 6, never), Catch::Contains("the next one has no length"));
 }
 
 TEST_CASE("easy steps grow, and still meet the instants of the list") {
