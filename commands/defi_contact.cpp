@@ -332,15 +332,16 @@ void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& def
   std::map<int, std::size_t> zones;
   for (std::size_t k = 0; k < definition.zones.size(); ++k) {
     const solver::ContactZone& zone = definition.zones[k];
-    if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised)) continue;
+    if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised || zone.mixed.friction > 0.0)) continue;
     for (const int node : mesh.nodes_of_cells(zone.slave_cells)) {
       if (std::ranges::find(zone.excluded_slave_nodes, node) != zone.excluded_slave_nodes.end()) continue;
       const auto [earlier, is_first] = zones.emplace(node, k);
       if (is_first) continue;
       context.diagnostics.alarm("shared-slave-nodes",
                                 fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
-                                            is_mixed ? "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"
-                                                     : "it has the penalties of both"),
+                                            !is_mixed               ? "it has the penalties of both"
+                                            : zone.mixed.penalised ? "it has the penalties of both, and LAGS_C there is the sum of two pressures"
+                                                                   : "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"),
                                 call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
       return;
     }
