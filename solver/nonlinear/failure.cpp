@@ -69,6 +69,17 @@ std::string remedy(std::span<const IterationReport> history, bool is_linear, con
 
 std::string but_for_contact(const std::string& unheld) { return unheld.empty() ? "" : "; but for contact " + unheld; }
 
+/// Where statuses do not.
+std::string way_to_settle(const ContactDefinition& contact) {
+  const bool is_mixed = contact.formulation == ContactFormulation::mixed;
+  const auto any = [&](const auto& is) { return std::ranges::any_of(contact.zones, [&](const ContactZone& zone) { return is(zone.mixed); }); };
+  std::string way = "take smaller steps";
+  if (any([](const MixedZone& zone) { return zone.penalised; })) way += is_mixed ? ", or a smaller penalty (COEF_PENA_CONT)" : ", or a smaller penalty (E_N)";
+  if (any([](const MixedZone& zone) { return zone.friction_penalised && zone.friction > 0.0; })) way += is_mixed ? ", or a smaller one of friction (COEF_PENA_FROT)" : ", or a smaller one of friction (E_T)";
+  if (any([](const MixedZone& zone) { return zone.rule != ContactRule::automatic; })) way += ", or another integration rule (INTEGRATION='AUTO' puts points at the nodes)";
+  return way;
+}
+
 }  // namespace
 
 std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh) {
@@ -103,16 +114,17 @@ void throw_active_set_limit(int limit, bool by_gradients) {
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
 }
 
-void throw_condensed_limit(int limit, double friction, bool has_negative_weight, const std::string& unheld) {
+void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has_negative_weight, const std::string& unheld) {
   const std::string message = fmt::format("the contact status did not settle within {} iterations on the contact rows{}", limit, but_for_contact(unheld));
   if (has_negative_weight)
     throw Error("contact-cycling", message + "; a point of negative weight pulls where it is closed, and no set of statuses need hold",
                 "take another order of Gauss's rule: on triangles that of ORDRE_INT=3 has such points, those of 2 and 4 have not");
   constexpr double strong_friction = 1.0;
+  double friction = 0.0;
+  for (const ContactZone& zone : contact.zones) friction = std::max(friction, zone.mixed.friction);
   if (friction < strong_friction)
     throw Error("contact-cycling", message,
-                unheld.empty() ? "take smaller steps, or another integration rule (INTEGRATION='AUTO' puts points at the nodes)"
-                               : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point, or take smaller steps");
+                unheld.empty() ? way_to_settle(contact) : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point, or take smaller steps");
   throw Error("contact-cycling",
               fmt::format("{}; with COULOMB = {:g} friction is stronger than the pressure that causes it, and a state of rest need not exist, "
                           "or be the only one",

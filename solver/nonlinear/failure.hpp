@@ -23,9 +23,9 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
 /// Error `contact-cycling`: the active set needed more changes than allowed.
 [[noreturn]] void throw_active_set_limit(int limit, bool by_gradients);
 
-/// Error `contact-cycling`: the statuses of the mixed formulation did not settle. `friction`: the strongest of all zones. `has_negative_weight`: of a point, by its
-/// rule of integration. `unheld`: in words, what nothing but contact holds, or empty.
-[[noreturn]] void throw_condensed_limit(int limit, double friction, bool has_negative_weight, const std::string& unheld);
+/// Error `contact-cycling`: the statuses of points did not settle. `has_negative_weight`: of a point, by its rule of integration. `unheld`: in words, what nothing but
+/// contact holds, or empty.
+[[noreturn]] void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has_negative_weight, const std::string& unheld);
 
 /// How far the geometry moved at each update, relative (RESI_GEOM), and whether pairings came back.
 struct GeometryHistory {

@@ -52,13 +52,9 @@ ContactLaw law_of(const ContactZone& zone) {
   return law;
 }
 
-double strongest_friction(const ContactDefinition& definition) {
-  double strongest = 0.0;
-  for (const ContactZone& zone : definition.zones) strongest = std::max(strongest, zone.mixed.friction);
-  return strongest;
+bool has_friction(const ContactDefinition& definition) {
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
 }
-
-bool has_friction(const ContactDefinition& definition) { return strongest_friction(definition) > 0.0; }
 
 bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
 
@@ -501,7 +497,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
     if (schur_->is_exact()) {
       const bool negative = std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
-      throw_condensed_limit(problem_.max_iterations, strongest_friction(definition_), negative, tangent_.unheld());
+      throw_condensed_limit(problem_.max_iterations, definition_, negative, tangent_.unheld());
     }
     state_ = earlier;
     return std::nullopt;

@@ -491,3 +491,22 @@ TEST_CASE("Between nodes the law of contact holds in the mean, with one augmenta
   CHECK(open > 1.0);
   for (std::size_t i = 0; i < nodes.size(); ++i) CHECK(std::abs(left[i]) <= 1e-9 * weights[i]);
 }
+
+TEST_CASE("Statuses that do not settle get advice about what there is") {
+  const auto advice = [](const ContactDefinition& contact) {
+    try {
+      throw_condensed_limit(60, contact, false, {});
+    } catch (const Error& error) {
+      return error.hint();
+    }
+  };
+  ContactDefinition contact;
+  contact.zones.resize(1);
+  CHECK(advice(contact) == "take smaller steps");
+  contact.zones[0].mixed.penalised = true;
+  CHECK(advice(contact) == "take smaller steps, or a smaller penalty (E_N)");
+  contact.formulation = ContactFormulation::mixed;
+  contact.zones[0].mixed.penalised = false;
+  contact.zones[0].mixed.rule = ContactRule::simpson;
+  CHECK_THAT(advice(contact), Catch::Contains("INTEGRATION='AUTO'") && !Catch::Contains("penalty"));
+}
