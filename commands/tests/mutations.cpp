@@ -295,7 +295,7 @@ class Planter {
     const bool whole = page.types.front().kind == Kind::integer;
     std::string value;
     if (page.bounds.above || page.bounds.at_least) value = fmt::format("{}", std::min(page.bounds.above.value_or(0.0), page.bounds.at_least.value_or(0.0)) - 7.0);
-    if (page.bounds.below || page.bounds.at_most) value = fmt::format("{}", std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0);
+    if (page.bounds.below || page.bounds.at_most) value = fmt::format("{}", 2.0 * std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0);
     if (value.empty() || !page.words.empty()) return;
     if (whole) value = value.substr(0, value.find('.'));
     add("out of bounds", item.value->begin, item.value->end, value, "out-of-bounds", line_of(item.value->begin));
