@@ -60,9 +60,8 @@ class CondensedSearch {
   /// From a state near the solution, and no other.
   CondensedSolution refine() {
     if (has_penalty(problem_)) newton_.balance_jumps();  // forces of penalties come from jumps, not from multipliers
-    CondensedPlace start = start_;
-    start.jumps = newton_.place().jumps;
-    start.forces = newton_.forces();
+    CondensedPlace start = newton_.place();
+    start.state = start_.state;
     bool solved = settle(Rubbing::by_law, Patience::short_of_growth);
     if (!solved) {
       newton_.go_to(start);
