@@ -22,9 +22,9 @@ namespace {
 using enum CellType;
 using Eigen::Vector3d;
 
-/// The inner square of a face that is cut into five quadrangles, over the face.
-constexpr double inner_square = 1.0 / 3;
-/// How deep the inner hexahedron reaches into the body.
+/// The inner piece of a face that is cut around one, over the face.
+constexpr double inner_share = 1.0 / 3;
+/// How deep the inner hexahedron or quadrangle reaches into the body.
 constexpr double inner_depth = 0.5;
 
 struct Cell {
@@ -131,15 +131,16 @@ class SlaveCutter {
     if (has_inner_node(cell(face).type)) return;
     const FacetKey key = key_of(corners_of(cell(face)));
     const bool by_hexahedra = hexa_cut_ == HexaCut::hexahedra && corner_count(cell(body).type) == 8;
+    const bool around_inner = by_hexahedra || cell(body).type == quad4;
     std::vector<Cell> body_pieces;
-    if (by_hexahedra) {
-      prepare_square(face, body);
-      body_pieces = hexahedra(body, key);
+    if (around_inner) {
+      prepare_inner(face, body);
+      body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
       body_pieces = cones(facets_of(cell(body)), key, body);
     }
-    for (const int skin : skins_.at(key)) replace(skin, by_hexahedra ? quadrangles(cell(skin)) : pieces_of_face(skin, key));
+    for (const int skin : skins_.at(key)) replace(skin, around_inner ? pieces_around_inner(cell(skin)) : pieces_of_face(skin, key));
     remove_body(body);
     for (const int piece : replace(body, std::move(body_pieces))) add_body(piece);
   }
@@ -219,24 +220,42 @@ class SlaveCutter {
     return result;
   }
 
-  void prepare_square(int face, int body) {
-    if (cell(body).type != hexa8)
+  void prepare_inner(int face, int body) {
+    if (cell(body).type != hexa8 && cell(body).type != quad4)
       throw Error("unsupported", fmt::format("the {} cell {} behind a slave face cannot be cut into hexahedra", name_of(cell(body).type), source_.cell_name(face)),
                   "write DECOUPE_HEXA='PYRA'");
     inner_.clear();
     Vector3d centre = Vector3d::Zero();
-    for (const int node : cell(face).nodes) centre += place(node) / 4;
-    for (const int node : cell(face).nodes) inner_.emplace(node, add_node(centre + inner_square * (place(node) - centre)));
+    for (const int node : cell(face).nodes) centre += place(node) / static_cast<double>(cell(face).nodes.size());
+    for (const int node : cell(face).nodes) inner_.emplace(node, add_node(centre + inner_share * (place(node) - centre)));
   }
 
-  std::vector<Cell> quadrangles(const Cell& face) const {
+  std::vector<Cell> pieces_around_inner(const Cell& face) const {
     const auto inner = [&](std::size_t i) { return inner_.at(face.nodes[i]); };
+    if (face.type == seg2) return {{seg2, {inner(0), inner(1)}}, {seg2, {face.nodes[0], inner(0)}}, {seg2, {inner(1), face.nodes[1]}}};
     std::vector<Cell> pieces = {{quad4, {inner(0), inner(1), inner(2), inner(3)}}};
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
       pieces.push_back({quad4, {face.nodes[i], face.nodes[j], inner(j), inner(i)}});
     }
     return pieces;
+  }
+
+  /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's other sides.
+  std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) {
+    std::vector<int> corner = cell(body).nodes;  // the first two on the face
+    while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
+    const std::array<int, 2> shallow = {inner_.at(corner[0]), inner_.at(corner[1])};
+    const Vector3d base_centre = (place(corner[2]) + place(corner[3])) / 2;
+    std::array<int, 2> deep{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3d beneath = base_centre + inner_share * (place(corner[3 - i]) - base_centre);
+      deep[i] = add_node((1 - inner_depth) * place(shallow[i]) + inner_depth * beneath);
+    }
+    return {{quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
+            {quad4, {corner[0], shallow[0], deep[0], corner[3]}},
+            {quad4, {shallow[1], corner[1], corner[2], deep[1]}},
+            {quad4, {deep[0], deep[1], corner[2], corner[3]}}};
   }
 
   /// One hexahedron under the inner square, one between it and each of the other facets.
@@ -253,7 +272,7 @@ class SlaveCutter {
       base_centre += place(base[i]) / 4;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vector3d beneath = base_centre + inner_square * (place(base[i]) - base_centre);
+      const Vector3d beneath = base_centre + inner_share * (place(base[i]) - base_centre);
       deep[i] = add_node((1 - inner_depth) * place(shallow[i]) + inner_depth * beneath);
     }
     const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {

@@ -52,8 +52,7 @@ class Runner:
 
     def run(self, scene: ContactScene, formulation, family: str, size: int) -> ContactRun:
         path, unknowns, slave_nodes, faces = self.mesh(scene, family, size)
-        if formulation.cuts_faces:
-            slave_nodes += faces
+        slave_nodes += formulation.new_slave_nodes(faces, in_space=family.startswith("HEXA"))
         shutil.copy(path, self.folder / "case.mail")
         case = scene.case(formulation, family, size, slave_nodes)
         return ContactRun(scene, formulation.name, family, size, run_comma(self.comma, case, unknowns, self.folder, TIMEOUT))

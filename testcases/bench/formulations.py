@@ -25,10 +25,11 @@ class Formulation:
     word: str
     rule: tuple[tuple[str, object], ...]
 
-    @property
-    def cuts_faces(self) -> bool:
-        """Whether slave faces get a node more each (CREA_MAILLAGE/DECOUPE_LAC, linear cells)."""
-        return self.algorithm == "LAC"
+    def new_slave_nodes(self, faces: int, in_space: bool) -> int:
+        """How many nodes slave faces get (CREA_MAILLAGE/DECOUPE_LAC, QUAD4 and HEXA8)."""
+        if self.algorithm != "LAC":
+            return 0
+        return faces if in_space else 2 * faces
 
     @property
     def is_discrete(self) -> bool:

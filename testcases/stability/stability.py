@@ -61,17 +61,18 @@ def run_map(comma: Path, of: StabilityMap, folder: Path, quick: bool) -> list[Ma
     folder.mkdir(parents=True, exist_ok=True)
     cells = []
     unknowns = slave_nodes = faces = 0
+    in_space = False
     meshed: object = None
     for value in of.values[:: 3 if quick else 1]:
         if meshed is None or of.mesh_key(value) is not None:
             mesh = of.mesh(value)
             write_mail(mesh, folder / "case.mail", f"{of.name} {value}")
             unknowns, slave_nodes = len(mesh.coordinates[0]) * len(mesh.coordinates), len(nodes_of(mesh, "SLAVE"))
-            faces = len(mesh.cell_groups["SLAVE"])
+            faces, in_space = len(mesh.cell_groups["SLAVE"]), len(mesh.coordinates[0]) == 3
             meshed = value
         for series in of.series:
             formulation = FORMULATIONS.get(series.split(",")[0])
-            cut = faces if formulation and formulation.cuts_faces else 0
+            cut = formulation.new_slave_nodes(faces, in_space) if formulation else 0
             measured = run_comma(comma, of.case(series, value, slave_nodes + cut), unknowns, folder, TIMEOUT)
             cells.append(MapCell(series, value, measured, judge(of, value, measured)))
             _tell(of, cells[-1])

@@ -87,6 +87,11 @@ TEST_CASE("Cutting a slave face fills the body, and touches none of its other fa
       for (int other = 1; other < whole.cell_count(); ++other)
         if (other != face) CHECK(std::ranges::equal(mesh.cell(other), whole.cell(other)));
       REQUIRE(mesh.slave_patches.size() == 1);
+      if (type == quad4) {
+        CHECK(mesh.slave_patches.front().size() == 3);
+        CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 2);
+        continue;
+      }
       const std::size_t corners = static_cast<std::size_t>(corner_count(whole.cell_types[face]));
       CHECK(mesh.slave_patches.front().size() == corners);
       // One node inside, and on quadratic faces the middles of the edges that go there.
@@ -107,6 +112,22 @@ TEST_CASE("Six hexahedra fill the one behind a slave face", "[mesh]") {
     CHECK(mesh.slave_patches.front().size() == 5);
     CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 4);
   }
+}
+
+TEST_CASE("Four quadrangles fill the one behind a slave line, around one below its middle third") {
+  Mesh whole = dressed(CellType::quad4);
+  whole.nodes = {{0, 0, 0}, {3, 0, 0}, {5, 2, 0}, {-1, 2, 0}};
+  const Mesh mesh = with_cut_slave_faces(whole, std::vector{1}, HexaCut::pyramids);
+  CHECK(mesh.cell_types[mesh.cell_count() - 1] == CellType::quad4);
+  CHECK(std::ranges::count(mesh.cell_types, CellType::quad4) == 4);
+  REQUIRE(mesh.nodes.size() == 8);
+  // Half-way between the thirds of the line and those of the opposite side.
+  const std::vector<Point> expected = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2.5, 1, 0}};
+  for (const Point& at : expected) {
+    CAPTURE(at[0], at[1]);
+    CHECK(std::ranges::any_of(mesh.nodes, [&](const Point& node) { return std::hypot(node[0] - at[0], node[1] - at[1]) < 1e-14; }));
+  }
+  CHECK(volume(mesh) == Approx(signed_size(whole, 0)).epsilon(1e-14));
 }
 
 TEST_CASE("A body with several slave faces is cut for each", "[mesh]") {
@@ -157,12 +178,12 @@ TEST_CASE("Groups hold the pieces of their cells, the first under the old name",
   mesh.cell_names = {"BODY", "A", "B", "C", "D"};
   mesh.cell_groups = {{"EDGE", {1, 2}}, {"BODIES", {0}}};
   const Mesh cut = with_cut_slave_faces(mesh, mesh.cell_groups.at("EDGE"), HexaCut::pyramids);
-  CHECK(cut.cell_groups.at("EDGE").size() == 4);
-  // Two triangles and the one that the second edge cuts in two.
-  CHECK(cut.cell_groups.at("BODIES").size() == 4);
+  CHECK(cut.cell_groups.at("EDGE").size() == 6);
+  // Four quadrangles, of which the second edge cuts one in four.
+  CHECK(cut.cell_groups.at("BODIES").size() == 7);
   CHECK(cut.cell_names.size() == static_cast<std::size_t>(cut.cell_count()));
-  CHECK(std::ranges::equal(cut.cell(cut.find_cell("A")), std::vector{0, 4}));
-  CHECK(std::ranges::equal(cut.cell(cut.slave_patches.front().back()), std::vector{4, 1}));
+  CHECK(std::ranges::equal(cut.cell(cut.find_cell("A")), std::vector{4, 5}));
+  CHECK(std::ranges::equal(cut.cell(cut.slave_patches.front().back()), std::vector{5, 1}));
 }
 
 TEST_CASE("Patches follow their cells into parts of the mesh", "[mesh]") {
