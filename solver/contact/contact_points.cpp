@@ -81,7 +81,9 @@ class ZonePoints {
   }
 
   /// Of the initial face: pressures are forces over the area before deformation.
-  double measure(int cell, const Eigen::Vector2d& xi) const { return initial_stretch(model_, cell, xi); }
+  double measure(int cell, const Eigen::Vector2d& xi) const {
+    return facet_stretch(mesh_.cell_types[cell], initial_places(mesh_, cell).span(), xi, is_axisymmetric(model_.formulations[cell]));
+  }
 
   void face_master(const FacePoint& at, FacedFacet before, ContactPoint& point) const {
     const Vector3d here = position(point);
@@ -150,29 +152,19 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
 
 }  // namespace
 
-double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi) {
-  const Mesh& mesh = *model.mesh;
-  const CellType type = mesh.cell_types[face];
-  const FacetShape shape = facet_shape(type, xi);
-  std::array<Vector3d, max_facet_nodes> points;
-  const auto nodes = mesh.cell(face);
-  double radius = 0.0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    points[i] = Vector3d(mesh.nodes[nodes[i]][0], mesh.nodes[nodes[i]][1], mesh.nodes[nodes[i]][2]);
-    radius += shape.values[i] * points[i][0];
-  }
-  const auto tangents = facet_tangents(type, std::span(points.data(), nodes.size()), xi);
-  const double stretch = dimension(type) == 1 ? tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
-  return is_axisymmetric(model.formulations[face]) ? radius * stretch : stretch;
+InitialPlaces initial_places(const Mesh& mesh, int cell) {
+  InitialPlaces places;
+  for (const int node : mesh.cell(cell)) places.points[places.count++] = Vector3d(mesh.nodes[node].data());
+  return places;
 }
 
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time,
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
                                          const FacedFacets& before) {
   if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time, before);
   std::vector<ContactPoint> points;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     if (definition.zones[zone].mixed.local_average) {
-      append_patch_points(definition, static_cast<int>(zone), model, positions, start, time, points);
+      append_patch_points(definition, static_cast<int>(zone), model, positions, time, points);
       continue;
     }
     ZonePoints builder(definition, static_cast<int>(zone), model, positions, time, before);

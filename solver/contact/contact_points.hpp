@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -41,13 +42,18 @@ struct ContactPoint {
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
 /// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
-/// Zones of local average contact have a point a patch; `start`: where the nodes were when the step began.
+/// Zones of local average contact have a point a patch.
 /// `before`: what each faced at the last pairing, if anything is to be kept of it (averages over patches keep nothing).
 /// Throws what face_rule, projections and normals throw.
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, Positions start, double time,
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
                                          const FacedFacets& before = {});
 
-/// Initial area of a face a unit of its reference cell's; times the radius where axisymmetric.
-double initial_stretch(const Model& model, int face, const Eigen::Vector2d& xi);
+/// Where a cell's nodes are in the mesh.
+struct InitialPlaces {
+  std::array<Eigen::Vector3d, max_facet_nodes> points;
+  std::size_t count = 0;
+  std::span<const Eigen::Vector3d> span() const { return {points.data(), count}; }
+};
+InitialPlaces initial_places(const Mesh& mesh, int cell);
 
 }  // namespace comma::solver

@@ -62,7 +62,8 @@ void PassedMaster::look(Positions positions, double pushed_back, double time) {
   pushed_back_ = std::max(pushed_back_, pushed_back);
   for (int index = 0; index < static_cast<int>(definition_.zones.size()); ++index) {
     const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
-    if (!zone.resolved || zone.mixed.local_average) continue;
+    // Averages let master nodes a little way in; what lies beyond a pairing distance is let in altogether.
+    if (!zone.resolved || (zone.mixed.local_average && zone.pairing_distance < 0.0)) continue;
     if (!initial_.contains(index)) {
       std::vector<Eigen::Vector3d> places;
       for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);

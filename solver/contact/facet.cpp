@@ -188,6 +188,16 @@ Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen:
   return tangents;
 }
 
+double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi, bool times_radius) {
+  const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, points, xi);
+  const double stretch = family_of(type) == Family::line ? tangents.col(0).norm() : Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
+  if (!times_radius) return stretch;
+  const FacetShape shape = facet_shape(type, xi);
+  double radius = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) radius += shape.values[i] * points[i][0];
+  return radius * stretch;
+}
+
 Eigen::Vector3d facet_normal(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi) {
   const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, points, xi);
   Eigen::Vector3d normal;

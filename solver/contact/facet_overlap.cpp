@@ -35,7 +35,7 @@ class Near {
   Near(const FacetGeometry& facet, const Vector3d& origin) : facet_(facet) {
     for (std::size_t i = 0; i < facet.points.size(); ++i) points_[i] = facet.points[i] - origin;
   }
-  FacetGeometry geometry() const { return {facet_.type, {points_.data(), facet_.points.size()}, facet_.normals}; }
+  FacetGeometry geometry() const { return {facet_.type, {points_.data(), facet_.points.size()}, {}}; }
 
  private:
   const FacetGeometry& facet_;
@@ -70,32 +70,42 @@ std::optional<double> foot_on_slave(const FacetGeometry& slave, const Vector3d& 
   return solve_scalar(slope, [&](double xi) { return cross_in_plane(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0})); });
 }
 
-/// Where a straight line from a place meets a master line.
-std::optional<double> hit_on_master(const FacetGeometry& master, const Vector3d& place, const Vector3d& direction) {
-  return solve_scalar(cross_in_plane(tangent_at(master, 0.0), direction), [&](double xi) { return cross_in_plane(point_at(master, {xi, 0.0}) - place, direction); });
+/// Where the slave's normal at a reference point meets a master line.
+std::optional<Vector2d> faced_by(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
+  const Vector3d place = point_at(slave, at);
+  const Vector3d normal = normal_at(slave, at);
+  const auto hit =
+      solve_scalar(cross_in_plane(tangent_at(master, 0.0), normal), [&](double xi) { return cross_in_plane(point_at(master, {xi, 0.0}) - place, normal); });
+  if (!hit) return std::nullopt;
+  return Vector2d(*hit, 0.0);
 }
 
-std::vector<OverlapPoint> segment_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+/// Gauss points of a part of a line's reference cell.
+std::vector<FacePoint> part_rule(double begin, double end) {
+  static const auto rule = face_rule(CellType::seg2, ContactRule::gauss, segment_points);
+  std::vector<FacePoint> points;
+  for (const FacePoint& gauss : rule) points.push_back({{begin + 0.5 * (1.0 + gauss.xi[0]) * (end - begin), 0.0}, 0.5 * std::abs(end - begin) * gauss.weight});
+  return points;
+}
+
+FacetOverlap segment_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
   const auto first = foot_on_slave(slave, master.points[0]);
   const auto last = foot_on_slave(slave, master.points[1]);
   if (!first || !last) return {};
   const double begin = std::max(-1.0, std::min(*first, *last));
   const double end = std::min(1.0, std::max(*first, *last));
   if (end - begin <= sliver) return {};
-  std::vector<OverlapPoint> points;
-  static const auto rule = face_rule(CellType::seg2, ContactRule::gauss, segment_points);
-  for (const FacePoint& gauss : rule) {
-    OverlapPoint point;
-    point.slave = {begin + 0.5 * (1.0 + gauss.xi[0]) * (end - begin), 0.0};
-    point.weight = 0.5 * (end - begin) * gauss.weight;
-    const Vector3d normal = normal_at(slave, point.slave);
-    const auto hit = hit_on_master(master, point_at(slave, point.slave), normal);
-    if (!hit) return {};
-    point.master = {*hit, 0.0};
-    if (normal.dot(normal_at({master.type, master.points, {}}, point.master)) >= 0.0) return {};
-    points.push_back(point);
+  FacetOverlap overlap;
+  for (const FacePoint& at : part_rule(begin, end)) {
+    const auto hit = faced_by(slave, master, at.xi);
+    if (!hit || normal_at(slave, at.xi).dot(normal_at(master, *hit)) >= 0.0) return {};
+    overlap.points.push_back({at.xi, *hit, at.weight});
   }
-  return points;
+  const auto from = faced_by(slave, master, {begin, 0.0});
+  const auto to = faced_by(slave, master, {end, 0.0});
+  if (!from || !to) return {};
+  overlap.master = part_rule((*from)[0], (*to)[0]);
+  return overlap;
 }
 
 /// A surface facet as its corners say: flat triangles, bilinear quadrangles.
@@ -110,7 +120,7 @@ class Plane {
   explicit Plane(const FacetGeometry& slave) {
     const Vector2d centre = facet_centre(slave.type);
     origin_ = point_at(slave, centre);
-    normal_ = normal_at({slave.type, slave.points, {}}, centre);
+    normal_ = normal_at(slave, centre);
     first_ = normal_.unitOrthogonal();
     second_ = normal_.cross(first_);
   }
@@ -119,7 +129,7 @@ class Plane {
   Vector2d at(const Vector3d& place) const { return along(place - origin_); }
   Vector2d along(const Vector3d& vector) const { return {first_.dot(vector), second_.dot(vector)}; }
 
-  /// Of the reference coordinates of a facet by those of the plane.
+  /// Of places on a facet, seen in the plane, by its reference coordinates.
   Eigen::Matrix2d slope(const FacetGeometry& facet, const Vector2d& xi) const {
     const auto tangents = facet_tangents(facet.type, facet.points, xi);
     Eigen::Matrix2d result;
@@ -193,36 +203,47 @@ bool misses(const Polygon& a, const Polygon& b) {
   return !box(a).intersects(box(b));
 }
 
-/// Integration points of a triangle of the plane. False where they are not over both facets.
-bool append_points(const Plane& plane, const FacetGeometry& slave, const FacetGeometry& master, const Polygon& polygon, std::size_t i,
-                   const std::vector<FacePoint>& rule, std::vector<OverlapPoint>& points) {
-  const FacetGeometry straight = straight_edged(slave);
-  const Vector2d a = polygon[i] - polygon[0];
-  const Vector2d b = polygon[i + 1] - polygon[0];
-  const double twice = a[0] * b[1] - a[1] * b[0];
-  for (const FacePoint& gauss : rule) {
-    const auto on_slave = plane.over(straight, polygon[0] + gauss.xi[0] * a + gauss.xi[1] * b);
-    if (!on_slave) return false;
-    const auto on_master = plane.over(master, plane.at(point_at(slave, *on_slave)));
-    if (!on_master) return false;
-    points.push_back({*on_slave, *on_master, gauss.weight * twice / std::abs(plane.slope(straight, *on_slave).determinant())});
+/// Integration points of a polygon of the plane, with weights in the reference cell of the facet that lies over it. None where it does not.
+std::vector<FacePoint> part_rule(const Plane& plane, const FacetGeometry& facet, const Polygon& part, const std::vector<FacePoint>& rule) {
+  std::vector<FacePoint> points;
+  for (std::size_t i = 1; i + 1 < part.size(); ++i) {
+    const Vector2d a = part[i] - part[0];
+    const Vector2d b = part[i + 1] - part[0];
+    const double twice = a[0] * b[1] - a[1] * b[0];
+    for (const FacePoint& gauss : rule) {
+      const auto at = plane.over(facet, part[0] + gauss.xi[0] * a + gauss.xi[1] * b);
+      if (!at) return {};
+      points.push_back({*at, gauss.weight * twice / std::abs(plane.slope(facet, *at).determinant())});
+    }
   }
-  return true;
+  return points;
 }
 
-std::vector<OverlapPoint> polygon_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
-  const Plane plane(slave);
+FacetOverlap polygon_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+  const FacetGeometry straight = straight_edged(slave);
+  const Plane plane(straight);
   const Polygon theirs = plane.outline(master);
   const Polygon ours = plane.outline(slave);
   if (misses(ours, theirs)) return {};
-  if (plane.normal().dot(normal_at({master.type, master.points, {}}, facet_centre(master.type))) >= 0.0) return {};
+  if (plane.normal().dot(normal_at(master, facet_centre(master.type))) >= 0.0) return {};
   const Polygon common = clipped(theirs, ours);
   if (common.empty() || signed_area(common) <= sliver * signed_area(ours)) return {};
-  const auto& rule = triangle_rule(is_undistorted(straight_edged(slave)) && is_undistorted(master));
-  std::vector<OverlapPoint> points;
-  for (std::size_t i = 1; i + 1 < common.size(); ++i)
-    if (!append_points(plane, slave, master, common, i, rule, points)) return {};
-  return points;
+  Polygon faced;  // its corners where the slave's own shape functions have them
+  for (const Vector2d& corner : common) {
+    const auto at = plane.over(straight, corner);
+    if (!at) return {};
+    faced.push_back(plane.at(point_at(slave, *at)));
+  }
+  const auto& rule = triangle_rule(is_undistorted(straight) && is_undistorted(master));
+  FacetOverlap overlap;
+  for (const FacePoint& at : part_rule(plane, straight, common, rule)) {
+    const auto hit = plane.over(master, plane.at(point_at(slave, at.xi)));
+    if (!hit) return {};
+    overlap.points.push_back({at.xi, *hit, at.weight});
+  }
+  overlap.master = part_rule(plane, master, faced, rule);
+  if (overlap.points.empty() || overlap.master.empty()) return {};
+  return overlap;
 }
 
 }  // namespace
@@ -245,7 +266,7 @@ Vector3d normal_at(const FacetGeometry& facet, const Vector2d& xi) {
   return normal / length;
 }
 
-std::vector<OverlapPoint> facet_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+FacetOverlap facet_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
   const Near near_slave(slave, slave.points[0]);
   const Near near_master(master, slave.points[0]);
   return dimension(slave.type) == 1 ? segment_overlap(near_slave.geometry(), near_master.geometry())

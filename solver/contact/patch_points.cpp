@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
-#include "solver/contact/extent.hpp"
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet_overlap.hpp"
 #include "solver/contact/facet_search.hpp"
@@ -35,9 +35,8 @@ struct Gathered {
   Vector3d centre = Vector3d::Zero();
   double radius = 0.0;
 
-  FacetGeometry geometry() const { return {type, {points.data(), count}, {normals.data(), is_smooth ? count : 0}}; }
-  /// The same with normals of its own.
-  FacetGeometry bare() const { return {type, {points.data(), count}, {}}; }
+  FacetGeometry geometry() const { return {type, span(), {normals.data(), is_smooth ? count : 0}}; }
+  std::span<const Vector3d> span() const { return {points.data(), count}; }
 };
 
 /// The facets of a surface at one moment.
@@ -71,15 +70,16 @@ class Surface {
   std::unordered_map<int, Vector3d> normals_;
 };
 
-/// What a slave face may face. Its normals may lean: what lies within the facets' sizes of the line through the face's centre is looked at.
+/// What a slave face may face. Where it is curved its normals lean: what lies within the facets' sizes of the line through the face's centre
+/// is looked at.
 class Reach {
  public:
-  explicit Reach(const Gathered& slave) : slave_(slave), normal_(normal_at(slave.geometry(), facet_centre(slave.type))) {}
+  explicit Reach(const Gathered& slave) : slave_(slave), normal_(facet_normal(slave.type, slave.span(), facet_centre(slave.type))) {}
 
   bool has(const Gathered& master) const {
     const Vector3d apart = master.centre - slave_.centre;
     const double along = normal_.dot(apart);
-    const double lean = slave_.is_smooth ? std::abs(along) : 0.0;
+    const double lean = node_count(slave_.type) > corner_count(slave_.type) ? std::abs(along) : 0.0;
     return (apart - along * normal_).norm() <= 2.0 * (slave_.radius + master.radius) + lean;
   }
 
@@ -88,70 +88,19 @@ class Reach {
   const Vector3d normal_;
 };
 
-bool is_line(const Mesh& mesh, const ContactZone& zone) { return dimension(mesh.cell_types[zone.slave_cells.front()]) == 1; }
-
-/// How far places of two surfaces have slid along each other.
-class Slides {
- public:
-  Slides(const ContactDefinition& definition, const ContactZone& zone, const Mesh& mesh, Positions positions, Positions start)
-      : zone_(zone), mesh_(mesh), positions_(positions), start_(start), smooth_(definition.smooth_normals) {}
-
-  /// Of places that face each other at `where`, no farther apart than the smaller facet is long, as a share of its size.
-  double largest(Positions where) const {
-    const Surface slaves(mesh_, zone_.slave_cells, where, smooth_);
-    const Surface masters(mesh_, zone_.master_cells, where, false);
-    std::vector<Gathered> facets;
-    for (const int cell : zone_.master_cells) facets.push_back(masters.gather(cell));
-    double result = 0.0;
-    for (const int face : zone_.slave_cells) {
-      const Gathered slave = slaves.gather(face);
-      const Reach reach(slave);
-      for (std::size_t m = 0; m < facets.size(); ++m) {
-        if (!reach.has(facets[m])) continue;
-        const double size = std::min(extent(mesh_, face), extent(mesh_, zone_.master_cells[m]));
-        for (const OverlapPoint& at : facet_overlap(slave.geometry(), facets[m].geometry())) {
-          const Vector3d normal = normal_at(slave.geometry(), at.slave);
-          if (normal.dot(point_at(facets[m].geometry(), at.master) - point_at(slave.geometry(), at.slave)) > size) continue;
-          const Vector3d slide = way(face, at.slave) - way(zone_.master_cells[m], at.master);
-          result = std::max(result, (slide - normal.dot(slide) * normal).norm() / size);
-        }
-      }
-    }
-    return result;
-  }
-
- private:
-  /// Of a place of a cell, from the start.
-  Vector3d way(int cell, const Vector2d& xi) const {
-    const FacetShape shape = facet_shape(mesh_.cell_types[cell], xi);
-    const auto nodes = mesh_.cell(cell);
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t i = 0; i < nodes.size(); ++i) sum += shape.values[i] * (positions_[nodes[i]] - start_[nodes[i]]);
-    return sum;
-  }
-
-  const ContactZone& zone_;
-  const Mesh& mesh_;
-  Positions positions_, start_;
-  bool smooth_;
-};
-
 class PatchGaps {
  public:
-  PatchGaps(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time)
+  PatchGaps(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time)
       : zone_(definition.zones[static_cast<std::size_t>(zone)]),
         index_(zone),
-        model_(model),
         mesh_(*model.mesh),
+        positions_(positions),
         time_(time),
-        slaves_(mesh_, zone_.slave_cells, positions, definition.smooth_normals),
-        facing_slaves_(mesh_, zone_.slave_cells, facing(positions, start), definition.smooth_normals) {
+        is_axisymmetric_(is_axisymmetric(model.formulations[zone_.slave_cells.front()])),
+        slaves_(mesh_, zone_.slave_cells, positions, definition.smooth_normals) {
     const Surface masters(mesh_, zone_.master_cells, positions, definition.smooth_normals);
-    const Surface facing_masters(mesh_, zone_.master_cells, facing(positions, start), false);
-    for (const int cell : zone_.master_cells) {
-      masters_.push_back(masters.gather(cell));
-      facing_masters_.push_back(facing_masters.gather(cell));
-    }
+    for (const int cell : zone_.master_cells) masters_.push_back(masters.gather(cell));
+    if (zone_.pairing_distance >= 0.0) search_.emplace(zone_, false, mesh_, positions);
   }
 
   ContactPoint point_of(const std::vector<int>& patch) {
@@ -160,76 +109,79 @@ class PatchGaps {
     point_.cell = patch.front();
     point_.node = inner_nodes(mesh_, patch).front();
     sums_.clear();
-    for (const int face : patch) add_face(face);
+    gaps_ = area_ = 0.0;
+    const bool is_far = search_ && search_->too_far(positions_[point_.node]);
+    for (const int face : patch) add_face(face, is_far);
     if (point_.weight <= covered_tolerance * point_.area) {
       point_.weight = 0.0;
+      if (is_far) point_.status = PairingStatus::too_far;
       return point_;
     }
     point_.status = PairingStatus::paired;
     for (const auto& [node, sum] : sums_) point_.shares.push_back({node, sum / point_.weight});
-    point_.offset /= point_.weight;
+    for (const GapShare& share : point_.shares) point_.offset += share.coefficient.dot(positions_[share.node]);
+    point_.offset -= gaps_ / area_;
     point_.normal.normalize();
     return point_;
   }
 
  private:
-  /// Where the bodies are when it is settled which places face each other: surfaces now, lines when the step began.
-  Positions facing(Positions positions, Positions start) const { return is_line(mesh_, zone_) ? start : positions; }
-
-  void add_face(int face) {
+  void add_face(int face, bool is_far) {
     const Gathered slave = slaves_.gather(face);
-    const Gathered facing = facing_slaves_.gather(face);
-    const Reach reach(facing);
-    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * stretch(face, at.xi);
-    for (std::size_t m = 0; m < masters_.size(); ++m) {
-      const Gathered& master = facing_masters_[m];
-      if (!reach.has(master)) continue;
-      for (const OverlapPoint& each : facet_overlap(facing.geometry(), master.geometry())) add(face, slave, zone_.master_cells[m], masters_[m], each);
+    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * initial_stretch(face, at.xi);
+    if (is_far) return;
+    const Reach reach(slave);
+    for (std::size_t m = 0; m < masters_.size(); ++m)
+      if (reach.has(masters_[m])) add_overlap(face, slave, zone_.master_cells[m], masters_[m]);
+  }
+
+  void add_overlap(int face, const Gathered& slave, int facet, const Gathered& master) {
+    const FacetOverlap overlap = facet_overlap(slave.geometry(), master.geometry());
+    for (const OverlapPoint& at : overlap.points) {
+      const Vector3d here = point_at(slave.geometry(), at.slave);
+      const Vector3d foot = point_at(master.geometry(), at.master);
+      const Vector3d normal = -normal_at(slave.geometry(), at.slave);
+      const double area = at.weight * stretch(slave.type, slave.span(), at.slave);
+      gaps_ += area * (normal.dot(here - foot) - thickness_at(zone_, here, foot, time_));
+      area_ += area;
+      point_.normal += area * normal;
+      point_.facet = facet;
+      const double before = at.weight * initial_stretch(face, at.slave);
+      point_.weight += before;
+      add_shares(face, slave, at.slave, -before);
     }
+    for (const FacePoint& at : overlap.master) add_shares(facet, master, at.xi, -at.weight * initial_stretch(facet, at.xi));
   }
 
-  void add(int face, const Gathered& slave, int facet, const Gathered& master, const OverlapPoint& at) {
-    const Vector3d here = point_at(slave.geometry(), at.slave);
-    const Vector3d foot = point_at(master.geometry(), at.master);
-    const Vector3d normal = -normal_at(slave.geometry(), at.slave);
-    const double gap = normal.dot(here - foot);
-    if (zone_.pairing_distance >= 0.0 && std::abs(gap) > zone_.pairing_distance) return;
-    const double area = at.weight * stretch(face, at.slave);
-    const double shared = add_shares(face, slave, at.slave, -area) + add_shares(facet, master, at.master, -area);
-    point_.offset += shared - area * (gap - thickness_at(zone_, here, foot, time_));
-    point_.weight += area;
-    point_.normal += area * normal;
-    point_.facet = facet;
-  }
-
-  /// Adds what a point's gap takes of a facet's nodes, along outward normals; returns what it makes of their places now.
-  double add_shares(int cell, const Gathered& facet, const Vector2d& xi, double factor) {
+  /// Adds what the gap takes of a facet's nodes where they move along outward normals.
+  void add_shares(int cell, const Gathered& facet, const Vector2d& xi, double factor) {
     const auto nodes = mesh_.cell(cell);
     const FacetShape shape = facet_shape(facet.type, xi);
-    const Vector3d own = facet.is_smooth ? Vector3d(Vector3d::Zero()) : normal_at(facet.bare(), xi);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Vector3d coefficient = factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
-      sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += coefficient;
-      sum += coefficient.dot(facet.points[i]);
-    }
-    return sum;
+    const Vector3d own = facet.is_smooth ? Vector3d(Vector3d::Zero()) : normal_at(facet.geometry(), xi);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
   }
 
-  /// Initial area a unit of the reference cell's, times the radius where axisymmetric: pressures are forces over the area before
-  /// deformation.
-  double stretch(int face, const Vector2d& xi) const { return initial_stretch(model_, face, xi); }
+  /// Area a unit of the reference cell's, times the radius where axisymmetric.
+  double stretch(CellType type, std::span<const Vector3d> points, const Vector2d& xi) const { return facet_stretch(type, points, xi, is_axisymmetric_); }
+  double initial_stretch(int cell, const Vector2d& xi) const {
+    const InitialPlaces places = initial_places(mesh_, cell);
+    return stretch(mesh_.cell_types[cell], places.span(), xi);
+  }
 
   static constexpr int area_order = 4;
   const ContactZone& zone_;
   int index_;
-  const Model& model_;
   const Mesh& mesh_;
+  Positions positions_;
   double time_;
-  Surface slaves_, facing_slaves_;
-  std::vector<Gathered> masters_, facing_masters_;
+  bool is_axisymmetric_;
+  Surface slaves_;
+  std::vector<Gathered> masters_;
+  std::optional<FacetSearch> search_;  ///< for the pairing distance
   ContactPoint point_;
   std::map<int, Vector3d> sums_;
+  double gaps_ = 0.0, area_ = 0.0;  ///< of the patch's part that faces the master, as it is now
 };
 
 }  // namespace
@@ -255,23 +207,10 @@ std::vector<int> patches_of(const ContactZone& zone, const Mesh& mesh) {
   return patches;
 }
 
-void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, Positions start, double time,
-                         std::vector<ContactPoint>& points) {
-  PatchGaps gaps(definition, zone, model, positions, start, time);
+void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time, std::vector<ContactPoint>& points) {
+  PatchGaps gaps(definition, zone, model, positions, time);
   for (const int patch : patches_of(definition.zones[static_cast<std::size_t>(zone)], *model.mesh))
     points.push_back(gaps.point_of(model.mesh->slave_patches[static_cast<std::size_t>(patch)]));
-}
-
-bool faces_as_at_start(const ContactZone& zone, const Mesh& mesh) { return zone.mixed.local_average && is_line(mesh, zone); }
-
-double largest_slide(const ContactDefinition& definition, const Mesh& mesh, Positions positions, Positions start) {
-  double result = 0.0;
-  for (const ContactZone& zone : definition.zones) {
-    if (!faces_as_at_start(zone, mesh)) continue;
-    const Slides slides(definition, zone, mesh, positions, start);
-    result = std::max({result, slides.largest(positions), slides.largest(start)});
-  }
-  return result;
 }
 
 }  // namespace comma::solver

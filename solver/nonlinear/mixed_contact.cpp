@@ -37,10 +37,6 @@ constexpr int most_condensed_iterations = 60;
 /// so that a few rounds do.
 constexpr double raise_margin = 1.1;
 constexpr double least_raise = 2.0;
-/// Averages in the plane follow bodies that have slid by more than this share of a facet since the step began, until it is less than the
-/// other: between the two, updates of the geometry do not go to and fro.
-constexpr double far_slide = 0.2;
-constexpr double short_slide = 0.1;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -112,13 +108,10 @@ void MixedContact::number_patches(int zone) {
 }
 
 void MixedContact::pair(Positions positions, double time, double margin) {
-  const bool is_initial = definition_.geometry_update == GeometryUpdate::none;
-  const std::vector<Vector3d> start = is_initial ? std::vector<Vector3d>(positions.begin(), positions.end()) : positions_at(reference_, mesh_, dofs_);
-  follows_ = largest_slide(definition_, mesh_, positions, start) > (follows_ ? short_slide : far_slide);
   FacedFacets before{{}, margin};
   if (margin > 0.0)
     for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
-  points_ = contact_points(definition_, model_, positions, follows_ ? positions : Positions(start), time, before);
+  points_ = contact_points(definition_, model_, positions, time, before);
   ++counters_.pairings;
   if (zone_directions_.empty()) choose_directions();
   build_rows();
@@ -296,10 +289,6 @@ int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
     forces_[point.first_row] = point.weight * contact_law(point.law, status, pressure, gap).traction[0];
   }
   return changes;
-}
-
-bool MixedContact::is_left_behind() const {
-  return !follows_ && std::ranges::any_of(definition_.zones, [&](const ContactZone& zone) { return faces_as_at_start(zone, mesh_); });
 }
 
 bool MixedContact::is_faced_again() const {

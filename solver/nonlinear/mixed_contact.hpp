@@ -43,8 +43,6 @@ class MixedContact {
   void restore() { std::tie(state_, stiffening_, friction_stiffening_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
-  /// Whether places of some zone face each other as they did when the step began.
-  bool is_left_behind() const;
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
   /// contact without friction.
   bool can_iterate_jointly() const;
@@ -161,7 +159,6 @@ class MixedContact {
   CondensedState state_;
   bool started_ = false;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
-  bool follows_ = false;  ///< what faces each other in the plane follows the bodies through the step, which slide far
   std::tuple<CondensedState, std::vector<double>, std::vector<double>, bool> remembered_;
   std::size_t spring_count_ = 0;
   RowMatrix rows_;                 ///< R, over all degrees of freedom

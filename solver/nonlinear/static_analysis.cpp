@@ -448,14 +448,12 @@ class StaticAnalysis {
     surface_doubts_->look(state, doubts_);
   }
 
-  /// Whether the geometry is updated less than it asks for, or averages face each other as they did when the step began.
-  bool may_be_left_behind() const {
-    return problem_.contact->geometry_update != GeometryUpdate::automatic || (mixed_ && mixed_->is_left_behind());
-  }
+  /// Whether the geometry is updated less than it asks for.
+  bool may_be_left_behind() const { return problem_.contact->geometry_update != GeometryUpdate::automatic; }
 
   std::vector<ContactPair> pairs_solved_with(double instant) const {
     if (!mixed_) return now_.pairs;
-    return pair_surfaces(*problem_.contact, mesh_, positions_at(mixed_->is_left_behind() ? start_ : now_.reference, mesh_, dofs_), instant);
+    return pair_surfaces(*problem_.contact, mesh_, positions_at(now_.reference, mesh_, dofs_), instant);
   }
 
   std::span<const AppliedLoad> loads_so_far() const {

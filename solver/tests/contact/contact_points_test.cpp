@@ -24,7 +24,7 @@ TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either,
   scene.problem.contact->formulation = ContactFormulation::mixed;
   std::vector<Eigen::Vector3d> positions;
   for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
-  const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, positions, 0.0);
+  const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);
   REQUIRE(points.size() == (quadratic ? 3U : 2U));
   for (const ContactPoint& point : points) {
     CHECK(point.weight > 0.0);

@@ -117,4 +117,6 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
   CHECK(told(-0.2, 0.0).empty());
   sides.definition.zones.front().mixed.local_average = true;
   CHECK(told(0.2, 1.0).empty());
+  sides.definition.zones.front().pairing_distance = 0.1;
+  CHECK(told(0.2, 1.0).size() == 1);
 }

@@ -30,7 +30,7 @@ Vector3d place(const FacetGeometry& of, const Vector2d& xi) { return point_at(of
 template <class Function>
 double integral(const FacetGeometry& slave, const FacetGeometry& master, Function f) {
   double sum = 0.0;
-  for (const OverlapPoint& at : facet_overlap(slave, master)) {
+  for (const OverlapPoint& at : facet_overlap(slave, master).points) {
     const auto tangents = facet_tangents(slave.type, slave.points, at.slave);
     const double stretch = dimension(slave.type) == 1 ? tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
     sum += at.weight * stretch * f(at);
@@ -46,25 +46,22 @@ TEST_CASE("Segments have in common what their shadows on each other have") {
     const Points above = straight(type, {{3, -0.5, 0}, {0.5, -0.5, 0}});
     CHECK(integral(facet(type, below), facet(type, above), one) == Approx(1.5).epsilon(1e-14));
     const Points beside = straight(type, {{4, -0.5, 0}, {2, -0.5, 0}});
-    CHECK(facet_overlap(facet(type, below), facet(type, beside)).empty());
+    CHECK(facet_overlap(facet(type, below), facet(type, beside)).points.empty());
     // Turned the other way it does not face the slave.
     const Points away = straight(type, {{0.5, -0.5, 0}, {3, -0.5, 0}});
-    CHECK(facet_overlap(facet(type, below), facet(type, away)).empty());
+    CHECK(facet_overlap(facet(type, below), facet(type, away)).points.empty());
   }
 }
 
 TEST_CASE("Both places of an overlap point lie on the slave's normal") {
   const Points slave = {{0, 0, 0}, {2, 0, 0}, {1, -0.1, 0}};
   const Points master = {{2.5, -0.4, 0}, {-0.5, -0.5, 0}, {1, -0.6, 0}};
-  const std::vector<Vector3d> normals = {Vector3d(-0.3, -1, 0).normalized(), Vector3d(0.2, -1, 0).normalized(), Vector3d(0, -1, 0)};
-  for (const bool is_smooth : {false, true}) {
-    const FacetGeometry geometry{CellType::seg3, slave, is_smooth ? std::span<const Vector3d>(normals) : std::span<const Vector3d>()};
-    const auto points = facet_overlap(geometry, facet(CellType::seg3, master));
-    REQUIRE(!points.empty());
-    for (const OverlapPoint& at : points) {
-      const Vector3d apart = place(facet(CellType::seg3, master), at.master) - place(geometry, at.slave);
-      CHECK(apart.cross(normal_at(geometry, at.slave)).norm() < 1e-14);
-    }
+  const FacetGeometry geometry = facet(CellType::seg3, slave);
+  const auto overlap = facet_overlap(geometry, facet(CellType::seg3, master));
+  REQUIRE(!overlap.points.empty());
+  for (const OverlapPoint& at : overlap.points) {
+    const Vector3d apart = place(facet(CellType::seg3, master), at.master) - place(geometry, at.slave);
+    CHECK(apart.cross(normal_at(geometry, at.slave)).norm() < 1e-14);
   }
 }
 
@@ -74,7 +71,7 @@ TEST_CASE("The overlaps of a bent slave line with the pieces of a master line ad
   for (int i = -4; i < 12; ++i) {
     const double x = 0.31 * i;
     const Points master = {{x + 0.31, -0.5 - 0.1 * x, 0}, {x, -0.5 - 0.1 * (x - 0.31), 0}};
-    for (const OverlapPoint& at : facet_overlap(facet(CellType::seg3, slave), facet(CellType::seg2, master))) sum += at.weight;
+    for (const OverlapPoint& at : facet_overlap(facet(CellType::seg3, slave), facet(CellType::seg2, master)).points) sum += at.weight;
   }
   CHECK(sum == Approx(2.0).epsilon(1e-12));
 }
@@ -107,6 +104,22 @@ TEST_CASE("The areas of a facet's overlaps with a grid of others add up to its o
   }
 }
 
+TEST_CASE("The master's own part of an overlap is what the slave faces of it") {
+  // Parallel lines: the common part is from 0.5 to 2, seen from below and from above.
+  const Points below = straight(CellType::seg2, {{0, 0, 0}, {2, 0, 0}});
+  const Points above = straight(CellType::seg3, {{3, -0.5, 0}, {0.5, -0.5, 0}});
+  double sum = 0.0;
+  for (const FacePoint& at : facet_overlap(facet(CellType::seg2, below), facet(CellType::seg3, above)).master) sum += at.weight * 1.25;
+  CHECK(sum == Approx(1.5).epsilon(1e-14));
+  // A master that leans by half a right angle has more area than its shadow.
+  const Points slave = straight(CellType::tria3, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Points leaning = straight(CellType::quad4, {{-2, -2, 2}, {-2, 2, 2}, {2, 2, -2}, {2, -2, -2}});
+  sum = 0.0;
+  for (const FacePoint& at : facet_overlap(facet(CellType::tria3, slave), facet(CellType::quad4, leaning)).master)
+    sum += at.weight * facet_stretch(CellType::quad4, leaning, at.xi, false);
+  CHECK(sum == Approx(0.5 * std::sqrt(2.0)).epsilon(1e-13));
+}
+
 TEST_CASE("Whatever middle nodes do, a facet is covered once by others that tile the plane") {
   Points slave = straight(CellType::tria6, {{0.1, 0.2, 0}, {1.7, 0.4, 0}, {0.6, 1.8, 0}});
   slave[3] += Vector3d(0.02, -0.05, 0.01);
@@ -117,11 +130,11 @@ TEST_CASE("Whatever middle nodes do, a facet is covered once by others that tile
       const double h = 0.4;
       Points square = straight(CellType::quad8, {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}});
       square[4] += Vector3d(0.03, 0.01, -0.02);
-      for (const OverlapPoint& at : facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square))) {
+      for (const OverlapPoint& at : facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square)).points) {
         sum += at.weight;
-        // What they face lies over what the slave's own shape functions say, along the normal at its centre.
+        // What they face lies over what the slave's own shape functions say, along the normal of its corners.
         const Vector3d apart = place(facet(CellType::quad8, square), at.master) - place(facet(CellType::tria6, slave), at.slave);
-        CHECK(apart.cross(facet_normal(CellType::tria6, slave, facet_centre(CellType::tria6))).norm() < 1e-9);
+        CHECK(apart.cross(facet_normal(CellType::tria3, std::span(slave).first(3), {0, 0})).norm() < 1e-9);
       }
     }
   CHECK(sum == Approx(0.5).epsilon(1e-12));
