@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 constexpr int most_steps = 30;
 /// A step of Newton's method in reference coordinates after which what is left is rounding, since it is squared.
 constexpr double last_step = 1e-9;
+/// Facets whose normals are less opposite, by the cosine of the angle between one and the reverse of the other, do not face each other: across a
+/// slave that stands upright on it a master has any area.
+constexpr double least_facing = 0.1;
 /// A common part below this share of the slave's reference measure is rounding at an edge.
 constexpr double sliver = 1e-12;
 /// Gauss points a segment: exact for the products of quadratic shape functions with a quadratic map.
@@ -98,7 +101,7 @@ FacetOverlap segment_overlap(const FacetGeometry& slave, const FacetGeometry& ma
   FacetOverlap overlap;
   for (const FacePoint& at : part_rule(begin, end)) {
     const auto hit = faced_by(slave, master, at.xi);
-    if (!hit || normal_at(slave, at.xi).dot(normal_at(master, *hit)) >= 0.0) return {};
+    if (!hit || normal_at(slave, at.xi).dot(normal_at(master, *hit)) > -least_facing) return {};
     overlap.points.push_back({at.xi, *hit, at.weight});
   }
   const auto from = faced_by(slave, master, {begin, 0.0});
@@ -225,7 +228,7 @@ FacetOverlap polygon_overlap(const FacetGeometry& slave, const FacetGeometry& ma
   const Polygon theirs = plane.outline(master);
   const Polygon ours = plane.outline(slave);
   if (misses(ours, theirs)) return {};
-  if (plane.normal().dot(normal_at(master, facet_centre(master.type))) >= 0.0) return {};
+  if (plane.normal().dot(normal_at(master, facet_centre(master.type))) > -least_facing) return {};
   const Polygon common = clipped(theirs, ours);
   if (common.empty() || signed_area(common) <= sliver * signed_area(ours)) return {};
   Polygon faced;  // its corners where the slave's own shape functions have them

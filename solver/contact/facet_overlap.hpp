@@ -30,7 +30,8 @@ struct OverlapPoint {
   double weight = 0.0;  ///< in the slave's reference cell: all points of a slave facet that is wholly covered add up to its measure
 };
 
-/// What two facets have in common, integrated on either side: both empty where they do not overlap or do not face each other.
+/// What two facets have in common, integrated on either side: both empty where they do not overlap or do not face each other (normals that
+/// are within 5.7 degrees of a right angle do not).
 struct FacetOverlap {
   std::vector<OverlapPoint> points;
   std::vector<FacePoint> master;  ///< points and weights in the master's reference cell, of its part that the slave faces

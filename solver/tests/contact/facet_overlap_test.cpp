@@ -50,6 +50,11 @@ TEST_CASE("Segments have in common what their shadows on each other have") {
     // Turned the other way it does not face the slave.
     const Points away = straight(type, {{0.5, -0.5, 0}, {3, -0.5, 0}});
     CHECK(facet_overlap(facet(type, below), facet(type, away)).points.empty());
+    // Nor does one that stands nearly upright.
+    CHECK_FALSE(facet_overlap(facet(type, below), facet(type, straight(type, {{1.5, -10, 0}, {0, -0.5, 0}}))).points.empty());
+    const auto upright = facet_overlap(facet(type, below), facet(type, straight(type, {{1.5, -20, 0}, {0, -0.5, 0}})));
+    CHECK(upright.points.empty());
+    CHECK(upright.master.empty());
   }
 }
 
