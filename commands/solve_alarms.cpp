@@ -41,8 +41,7 @@ std::string how_to_follow(const solver::ContactDefinition& contact) {
     case solver::GeometryUpdate::controlled: return "take more updates (NB_ITER_GEOM), or REAC_GEOM='AUTOMATIQUE'";
     case solver::GeometryUpdate::automatic: break;
   }
-  return "take smaller steps: with ALGO_CONT='LAC' surfaces that slide by less than a fifth of a facet face each other through a step as they did when it "
-         "began";
+  return "write a smaller RESI_GEOM, which is a share of the displacement of the step, or take smaller steps";
 }
 
 Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact, const solver::Mesh& mesh) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/contact/extent.hpp"
+#include "solver/contact/patch_points.hpp"
 #include "solver/mesh/cell_type.hpp"
 
 namespace comma::solver {
@@ -30,6 +31,23 @@ ContactDefinition turned(const ContactDefinition& definition, const ContactZone&
   other.half_thickness = zone.half_thickness;
   other.projection_tolerance = border;
   return result;
+}
+
+/// A gap that was solved for, and what it is.
+struct StaleGap {
+  int zone = 0;
+  int node = -1;
+  double solved = std::numeric_limits<double>::infinity();  ///< of what faced nothing: as good as open
+  double is = 0.0;
+  double size = 0.0;  ///< of the facet
+};
+
+void note_stale_gap(const StaleGap& gap, double pushed_back, ContactDoubts& doubts) {
+  const double tolerance = doubtful_share * pushed_back;
+  const double error = std::isfinite(gap.solved) ? std::abs(gap.is - gap.solved) : std::max(0.0, -gap.is);
+  if (std::min(gap.is, gap.solved) > tolerance || error <= tolerance || error <= rounding_of_place * gap.size) return;
+  const double share = pushed_back > 0.0 ? std::min(1.0, error / pushed_back) : 1.0;
+  doubts.note({.kind = DoubtKind::stale_geometry, .zone = gap.zone, .share = share, .length = error, .node = gap.node});
 }
 
 }  // namespace
@@ -104,20 +122,25 @@ double gap_at(const ContactPair& pair, const Mesh& mesh, Positions positions) {
 }
 
 void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions, const StaleGaps& gaps, ContactDoubts& doubts) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const double tolerance = doubtful_share * gaps.pushed_back;
   for (std::size_t k = 0; k < gaps.before.size() && k < gaps.now.size(); ++k) {
     const ContactPair& before = gaps.before[k];
     const ContactPair& now = gaps.now[k];
-    if (now.status != PairingStatus::paired || !definition.zones[static_cast<std::size_t>(now.zone)].resolved) continue;
-    // What faced nothing then is as good as open.
-    const double solved = before.status == PairingStatus::paired ? gap_at(before, mesh, positions) : infinite;
-    const double is = gap_at(now, mesh, positions);
-    const double error = std::isfinite(solved) ? std::abs(is - solved) : std::max(0.0, -is);
-    const double size = extent(mesh, now.facet);
-    if (std::min(is, solved) > tolerance || error <= tolerance || error <= rounding_of_place * size) continue;
-    const double share = gaps.pushed_back > 0.0 ? std::min(1.0, error / gaps.pushed_back) : 1.0;
-    doubts.note({.kind = DoubtKind::stale_geometry, .zone = now.zone, .share = share, .length = error, .node = now.slave});
+    const ContactZone& zone = definition.zones[static_cast<std::size_t>(now.zone)];
+    if (now.status != PairingStatus::paired || !zone.resolved || zone.mixed.local_average) continue;
+    StaleGap gap{.zone = now.zone, .node = now.slave, .is = gap_at(now, mesh, positions), .size = extent(mesh, now.facet)};
+    if (before.status == PairingStatus::paired) gap.solved = gap_at(before, mesh, positions);
+    note_stale_gap(gap, gaps.pushed_back, doubts);
+  }
+}
+
+void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions, std::span<const ContactPoint> before, std::span<const ContactPoint> now,
+                         double pushed_back, ContactDoubts& doubts) {
+  for (std::size_t p = 0; p < before.size() && p < now.size(); ++p) {
+    const ContactZone& zone = definition.zones[static_cast<std::size_t>(now[p].zone)];
+    if (now[p].status != PairingStatus::paired || !zone.resolved || !zone.mixed.local_average) continue;
+    StaleGap gap{.zone = now[p].zone, .node = now[p].node, .is = mean_gap(now[p], positions), .size = extent(mesh, now[p].facet)};
+    if (before[p].status == PairingStatus::paired) gap.solved = mean_gap(before[p], positions);
+    note_stale_gap(gap, pushed_back, doubts);
   }
 }
 

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "solver/contact/contact_points.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/contact/pairing.hpp"
 #include "solver/mesh/mesh.hpp"
@@ -98,7 +100,10 @@ struct StaleGaps {
   double pushed_back = 0.0;
 };
 
-/// Doubts of kind `stale_geometry`, of errors beyond `doubtful_share` of what contact pushes back.
+/// Doubts of kind `stale_geometry`, of errors beyond `doubtful_share` of what contact pushes back. Zones of local averages have other gaps:
 void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions, const StaleGaps& gaps, ContactDoubts& doubts);
+/// The same of their mean gaps, as the points `before` have them and as the points `now` of the same patches have them.
+void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions, std::span<const ContactPoint> before, std::span<const ContactPoint> now,
+                         double pushed_back, ContactDoubts& doubts);
 
 }  // namespace comma::solver

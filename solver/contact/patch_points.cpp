@@ -213,4 +213,10 @@ void append_patch_points(const ContactDefinition& definition, int zone, const Mo
     points.push_back(gaps.point_of(model.mesh->slave_patches[static_cast<std::size_t>(patch)]));
 }
 
+double mean_gap(const ContactPoint& point, Positions positions) {
+  double gap = -point.offset;
+  for (const GapShare& share : point.shares) gap += share.coefficient.dot(positions[share.node]);
+  return gap;
+}
+
 }  // namespace comma::solver

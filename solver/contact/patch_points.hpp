@@ -27,4 +27,7 @@ std::vector<int> patches_of(const ContactZone& zone, const Mesh& mesh);
 /// A patch whose inner node is farther from the master nodes than the pairing distance faces nothing.
 void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time, std::vector<ContactPoint>& points);
 
+/// The mean gap of such a point when the nodes are at `positions`, as its shares have it.
+double mean_gap(const ContactPoint& point, Positions positions);
+
 }  // namespace comma::solver

@@ -443,13 +443,14 @@ class StaticAnalysis {
     if (!problem_.contact || path_ || !now_.paired) return;
     if (!surface_doubts_) surface_doubts_.emplace(*problem_.contact, mesh_);
     const std::vector<Vector3d> now = positions();
-    SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(), {}};
-    if (may_be_left_behind()) state.pairs = [&] { return pairs_solved_with(instant); };
+    SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(), {}, {}, {}};
+    if (problem_.contact->geometry_update != GeometryUpdate::automatic) state.pairs = [&] { return pairs_solved_with(instant); };
+    if (std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) {
+      state.averages = mixed_->points();
+      state.averages_as_is = [&] { return contact_points(*problem_.contact, *problem_.model, now, instant); };
+    }
     surface_doubts_->look(state, doubts_);
   }
-
-  /// Whether the geometry is updated less than it asks for.
-  bool may_be_left_behind() const { return problem_.contact->geometry_update != GeometryUpdate::automatic; }
 
   std::vector<ContactPair> pairs_solved_with(double instant) const {
     if (!mixed_) return now_.pairs;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "solver/contact/doubts.hpp"
@@ -15,6 +16,8 @@ struct SurfaceState {
   double pushed_back = 0.0;  ///< how far contact forces move the surfaces apart (a length)
   /// The pairs that were solved with, where the geometry may have moved on since; empty: it has not.
   std::function<std::vector<ContactPair>()> pairs;
+  std::span<const ContactPoint> averages;                     ///< the points that were solved with, where there are patches of averages
+  std::function<std::vector<ContactPoint>()> averages_as_is;  ///< the same as the surfaces are now
 };
 
 /// Looks for master nodes that go through the slave side, and for gaps that are not those which were solved for.

@@ -68,6 +68,42 @@ TEST_CASE("Surfaces that have moved on since they were paired are told of by wha
   CHECK(told(1.0, 6.0).empty());  // less than a hundredth of what contact pushes back
 }
 
+TEST_CASE("Mean gaps that are not those which were solved for are told of") {
+  Sides sides(1, 1);
+  ContactZone& zone = sides.definition.zones.front();
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& node : sides.mesh.nodes) places.emplace_back(node[0], node[1], node[2]);
+  ContactPoint solved;
+  solved.status = PairingStatus::paired;
+  solved.node = sides.mesh.cell(zone.slave_cells.front())[0];
+  solved.facet = zone.master_cells.front();
+  solved.shares = {{solved.node, Eigen::Vector3d::UnitY()}, {sides.mesh.cell(solved.facet)[0], -Eigen::Vector3d::UnitY()}};
+  solved.offset = 1.0;  // the gap of 1 is closed
+  ContactPoint now = solved;
+  now.offset = 1.03;
+  const auto told = [&](double pushed_back) {
+    ContactDoubts doubts;
+    note_stale_averages(sides.definition, sides.mesh, places, std::span(&solved, 1), std::span(&now, 1), pushed_back, doubts);
+    return doubts.all();
+  };
+  CHECK(told(1.0).empty());  // no average
+  zone.mixed.local_average = true;
+  REQUIRE(told(1.0).size() == 1);
+  CHECK(told(1.0).front().kind == DoubtKind::stale_geometry);
+  CHECK(told(1.0).front().node == solved.node);
+  CHECK(told(1.0).front().length == exactly(0.03));
+  CHECK(told(4.0).empty());
+  now.offset = 0.5;
+  CHECK(told(1.0).size() == 1);  // closed where it should be open
+  solved.offset = 0.0;
+  CHECK(told(1.0).empty());  // open before and now
+  now.offset = 1.5;
+  solved.status = PairingStatus::outside;
+  CHECK(told(1.0).size() == 1);
+  now.offset = 0.5;
+  CHECK(told(1.0).empty());
+}
+
 TEST_CASE("The penalty that is proposed leaves no more than its goal, and is no more than ten times too large") {
   const double stiffness = 3.0e7;  // of the bodies, in series with the penalty
   for (double penalty = 1.0e-6 * stiffness; penalty < 100.0 * stiffness; penalty *= 7.0) {

@@ -57,12 +57,6 @@ struct Arcs {
   }
 };
 
-double gap_of(const ContactPoint& point, const std::vector<Vector3d>& places) {
-  double gap = -point.offset;
-  for (const GapShare& share : point.shares) gap += share.coefficient.dot(places[static_cast<std::size_t>(share.node)]);
-  return gap;
-}
-
 }  // namespace
 
 TEST_CASE("The mean gap of a patch is that of the surfaces, now and along its shares") {
@@ -74,15 +68,15 @@ TEST_CASE("The mean gap of a patch is that of the surfaces, now and along its sh
     // Lengths of parabolas by Gauss's rule, in pieces and at once.
     CHECK(point.weight == Approx(point.area).epsilon(1e-9));
     // Parabolas over half an angle a leave the arc by up to R a^4 / 16, here 1.6e-4 of the bush's.
-    CHECK(gap_of(point, arcs.places) == Approx(0.5).margin(1.6e-4));
+    CHECK(mean_gap(point, arcs.places) == Approx(0.5).margin(1.6e-4));
   }
   // The bush widens: its nodes move along their normals, and the gaps by as much; along its shares, which are those of the force on it, by the
   // bush's own length over the pin's.
   std::vector<Vector3d> wider = arcs.places;
   for (Vector3d& place : wider)
     if (place.norm() > 10.25) place *= 10.6 / 10.5;
-  for (const ContactPoint& point : points) CHECK(gap_of(point, wider) == Approx(gap_of(point, arcs.places) + 0.105).epsilon(1e-3));
-  for (const ContactPoint& point : arcs.points(wider)) CHECK(gap_of(point, wider) == Approx(0.6).margin(1.6e-4));
+  for (const ContactPoint& point : points) CHECK(mean_gap(point, wider) == Approx(mean_gap(point, arcs.places) + 0.105).epsilon(1e-3));
+  for (const ContactPoint& point : arcs.points(wider)) CHECK(mean_gap(point, wider) == Approx(0.6).margin(1.6e-4));
 }
 
 TEST_CASE("The pressure of a patch acts on each node along the normal there") {
@@ -170,7 +164,7 @@ TEST_CASE("The mean gap of a patch is over areas as they are, and by the radius 
   append_patch_points(definition, 0, model, now, 0.0, points);
   REQUIRE(points.size() == 1);
   CHECK(points[0].weight == exactly(0.5));                // integral of r from 0 to 1
-  CHECK(gap_of(points[0], now) == exactly(4.0 / 3.0));    // of r r over that of r, from 0 to 2
+  CHECK(mean_gap(points[0], now) == exactly(4.0 / 3.0));    // of r r over that of r, from 0 to 2
 }
 
 TEST_CASE("A patch too far from the master faces nothing, and a slave face needs a patch") {
