@@ -291,7 +291,9 @@ void set_geometry_update(const Call& call, solver::ContactDefinition& definition
   const double change = call.real("RESI_GEOM");
   const bool by_newton = call.text("ALGO_RESO_GEOM") == "NEWTON";
   definition.geometry_tolerance = by_newton ? std::max(rounding, change * change) : change;
-  if (by_newton) definition.restless_tolerance = std::max(tolerable, change);
+  if (!by_newton) return;
+  definition.joint_geometry_tolerance = change;
+  definition.restless_tolerance = std::max(tolerable, change);
 }
 
 solver::ContactDefinition contact(const Call& call, const solver::Model& model) {

@@ -95,6 +95,7 @@ struct ContactDefinition {
   int max_geometry_updates = 10;     ///< ITER_GEOM_MAXI
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
   double restless_tolerance = 0.0;   ///< updates that have long brought the geometry no nearer to rest end where it moves by less than this
+  double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
   bool joint_iterations = false;     ///< one iteration of Newton's method updates statuses, geometry and bodies (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
   int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error

@@ -33,26 +33,34 @@ bool same_facets(const std::vector<ContactPair>& a, const std::vector<ContactPai
 
 }  // namespace
 
-GeometryUpdates::GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start)
-    : contact_(contact), mesh_(mesh), dofs_(dofs), start_(start) {}
-
-bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start, const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+  GeometryChange change;
   double moved = 0.0;
   double largest = 0.0;
   double whole = 0.0;
   double reach = 0.0;
-  for (int node = 0; node < mesh_.node_count(); ++node) {
-    const Vector3d at = displacement_of(node, now, dofs_);
-    const double change = (at - displacement_of(node, paired, dofs_)).norm();
-    if (change > moved) worst_ = node;
-    moved = std::max(moved, change);
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    const Vector3d at = displacement_of(node, now, dofs);
+    const double here = (at - displacement_of(node, paired, dofs)).norm();
+    if (here > moved) change.worst = node;
+    moved = std::max(moved, here);
     whole = std::max(whole, at.norm());
-    for (const double coordinate : mesh_.nodes[static_cast<std::size_t>(node)]) reach = std::max(reach, std::abs(coordinate));
-    largest = std::max(largest, (at - displacement_of(node, start_, dofs_)).norm());
+    for (const double coordinate : mesh.nodes[static_cast<std::size_t>(node)]) reach = std::max(reach, std::abs(coordinate));
+    largest = std::max(largest, (at - displacement_of(node, start, dofs)).norm());
   }
   // Nothing is asked of a step that only rounding moves, of displacements or of places.
   const double rounding = std::max(negligible_displacement * whole, std::numeric_limits<double>::epsilon() * reach);
-  history_.changes.push_back(moved > rounding ? moved / largest : 0.0);
+  if (moved > rounding) change.share = moved / largest;
+  return change;
+}
+
+GeometryUpdates::GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start)
+    : contact_(contact), mesh_(mesh), dofs_(dofs), start_(start) {}
+
+bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+  const GeometryChange change = geometry_change(mesh_, dofs_, start_, paired, now);
+  if (change.worst >= 0) worst_ = change.worst;
+  history_.changes.push_back(change.share);
   if (worst_ >= 0) history_.worst = mesh_.node_name(worst_);
   if (contact_.geometry_update == GeometryUpdate::controlled)
     return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);

@@ -11,6 +11,15 @@
 
 namespace comma::solver {
 
+/// How far nodes have moved.
+struct GeometryChange {
+  double share = 0.0;  ///< of the largest displacement of the step; 0 where only rounding moves
+  int worst = -1;      ///< the node that moved most; -1: none did
+};
+
+/// From displacements `paired` to `now`, in a step that began at `start`: all nodes count, and displacements by their length (ssnv104h tells).
+GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start, const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
+
 /// Follows the updates of one step.
 class GeometryUpdates {
  public:
@@ -18,7 +27,7 @@ class GeometryUpdates {
   GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start);
 
   /// Whether no node has moved from `paired` (the displacements when surfaces were last paired) to `now` by more than RESI_GEOM of the largest displacement
-  /// of this step (all nodes count, and displacements by their length: ssnv104h tells), or the prescribed number of updates is done; or where it goes
+  /// of this step (see geometry_change), or the prescribed number of updates is done; or where it goes
   /// to and fro (see restless()).
   bool settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
 

@@ -19,6 +19,7 @@
 #include "solver/mesh/slave_cut.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/geometry_updates.hpp"
 #include "solver/unilateral/conditions.hpp"
 #include "solver/unilateral/rounds.hpp"
 
@@ -209,7 +210,7 @@ double MixedContact::initial_gap(const ContactPoint& point) const {
 }
 
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
-  reference_ = u;
+  reference_ = faced_at_ = u;
   step_begins_ = true;
   problem_.expected = state_.multipliers + duration * rates_;
   start_ = state_.multipliers;
@@ -273,6 +274,8 @@ bool MixedContact::can_iterate_jointly() const {
 }
 
 int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
+  geometry_change_ = geometry_change(mesh_, dofs_, reference_, faced_at_, u).share;
+  faced_at_ = u;
   pair(positions_at(u, mesh_, dofs_), time);
   const Eigen::VectorXd now = jumps(u);
   int changes = 0;

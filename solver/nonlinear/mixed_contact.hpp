@@ -51,6 +51,8 @@ class MixedContact {
   bool is_joint() const { return problem_.one_step; }
   /// Faces the points anew at u; statuses and forces are what the law says there. Returns the number of points whose status changed.
   int linearise(const Eigen::VectorXd& u, double time);
+  /// Whether nodes had moved by no more than RESI_GEOM since points were faced before (see geometry_change).
+  bool geometry_is_at_rest() const { return geometry_change_ <= definition_.joint_geometry_tolerance; }
   /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must be faced anew.
   bool leaves_overlap(const Eigen::VectorXd& u) const;
   /// After a new factorisation.
@@ -166,6 +168,8 @@ class MixedContact {
   Eigen::VectorXd base_;
   Eigen::VectorXd forces_;         ///< on the rows
   Eigen::VectorXd reference_;
+  Eigen::VectorXd faced_at_;     ///< u where `linearise` faced the points; at first the beginning of the step
+  double geometry_change_ = 0.0;
   Eigen::VectorXd start_;                ///< multipliers when the step began
   Eigen::VectorXd rates_;                ///< of multipliers, in the last step that was accepted
   bool step_begins_ = false;             ///< and no point has been faced in it

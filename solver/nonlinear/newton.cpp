@@ -94,7 +94,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged && is_whole && (!is_joint || correction.changes == 0) && is_satisfied(state.u)) {
+    if (measure.converged && is_whole && (!is_joint || (correction.changes == 0 && mixed_->geometry_is_at_rest())) && is_satisfied(state.u)) {
       if (!is_joint && !relations_.update) polish(state, external, offset);
       return iteration;
     }

@@ -71,7 +71,7 @@ class StaticAnalysis {
     watch(plan);
     start(plan.instants.front());
     begin_measuring();
-    if (mixed_) mixed_->iterate_jointly(iterates_jointly(plan));
+    if (mixed_) mixed_->iterate_jointly(iterates_jointly());
     StepSequence sequence(plan);
     while (!sequence.finished()) {
       const double from = last_instant_;
@@ -118,7 +118,7 @@ class StaticAnalysis {
     watch_->start_step();
     if (mixed_) mixed_->remember();
     try {
-      const int iterations = solve_from_either_side(instant, before);
+      const int iterations = solve_jointly_or_settled(instant, before);
       watch_->check_increment(instant, [&] { return fields_now(instant); });
       if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
       if (!refines_collision(closed_before, sequence)) return iterations;
@@ -160,20 +160,32 @@ class StaticAnalysis {
                 "write ACTION='DECOUPE' to go on in shorter steps");
   }
 
-  /// Bodies that remember and steps that may be cut: where Newton's method takes statuses and geometry along, as Code_Aster does, steps are cut where
-  /// Code_Aster cuts them, and the path is the same (ssnv506e). Else contact is settled within each iteration, which fails less.
-  bool iterates_jointly(const StepPlan& plan) const {
-    return problem_.contact->joint_iterations && plan.cutting && !options_.line_search && assembler_.has_memory() && mixed_->can_iterate_jointly();
+  /// Whether Newton's method takes statuses and geometry along, as Code_Aster does: figures are then those of the same iterations (ssnv104d, to 2e-12).
+  bool iterates_jointly() const { return problem_.contact->joint_iterations && !options_.line_search && mixed_->can_iterate_jointly(); }
+
+  /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else once the step cannot be cut (ssnv506e).
+  int solve_jointly_or_settled(double instant, const Progress& before) {
+    try {
+      return solve_from_either_side(instant, before);
+    } catch (const Error& error) {
+      if (!mixed_ || !mixed_->is_joint() || assembler_.has_memory() || !is_failure_of_step(error.code())) throw;
+    }
+    return solve_settled(instant, before);
+  }
+
+  int solve_settled(double instant, const Progress& before) {
+    take_back(before);
+    if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} starts again, with contact settled within each iteration", instant)));
+    mixed_->iterate_jointly(false);
+    const OnExit as_before([&] { mixed_->iterate_jointly(true); });
+    return solve_from_either_side(instant, before);
   }
 
   /// Of a step that cannot be cut.
   int solve_as_last_resort(double instant, const Progress& before, const Error& error) {
-    if (!mixed_ || !mixed_->is_joint()) throw advised(error);
-    take_back(before);
-    mixed_->iterate_jointly(false);
-    const OnExit as_before([&] { mixed_->iterate_jointly(true); });
+    if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error);
     try {
-      return solve_from_either_side(instant, before);
+      return solve_settled(instant, before);
     } catch (const Error& again) {
       throw advised(again);
     }
@@ -516,7 +528,8 @@ class StaticAnalysis {
           iterations += balance();
         }
       }
-      const bool settled = !geometry || geometry->settled(now_.reference, now_.state.u);
+      const bool at_rest = !geometry || geometry->settled(now_.reference, now_.state.u);
+      const bool settled = at_rest || (mixed_ && mixed_->is_joint());
       if (settled && !(mixed_ && mixed_->leaves_overlap(now_.state.u))) {
         if (geometry) geometry->note_doubts(now_.pairs, mixed_ ? mixed_->points() : std::vector<ContactPoint>(), doubts_);
         return iterations;

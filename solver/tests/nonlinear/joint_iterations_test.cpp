@@ -13,18 +13,19 @@ constexpr double young = 1000.0;
 constexpr double yield = 5.0;
 constexpr double slope = 100.0;
 
-/// A block that comes down tilted on one of metal, which flows: the contact grows from the left end.
+/// A block that comes down tilted on one of metal, which may flow: the contact grows from the left end.
 struct Press {
   Scene scene;
   Scene::Block below, above;
 
-  explicit Press(bool jointly)
+  explicit Press(bool jointly, bool flows = true)
       : below(scene.block("b", {0, 0}, {3, 1}, 6, 2, young, 0.0)), above(scene.block("a", {0, 1}, {3, 1}, 5, 2, 10 * young, 0.0)) {
     const auto is_metal = [&](std::size_t cell) { return scene.mesh->cell_name(static_cast<int>(cell)).front() == 'b'; };
     auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
     BehaviourOfCells behaviours(materials->by_cell.size());
     for (std::size_t cell = 0; cell < behaviours.size(); ++cell) {
       if (!materials->by_cell[cell] || !is_metal(cell)) continue;
+      if (!flows) continue;
       Material metal = *materials->by_cell[cell];
       metal.plasticity.linear = LinearHardening{slope, yield};
       materials->by_cell[cell] = std::make_shared<const Material>(metal);
@@ -46,12 +47,12 @@ struct Press {
   }
 
   /// How deep the nodes along the contact have sunk in the end.
-  std::vector<double> solve(const std::vector<double>& instants, int most_iterations, int depth) {
+  std::vector<double> solve(const std::vector<double>& instants, int most_iterations, int depth, double residual = 1e-11) {
     StepPlan plan(instants);
     plan.cutting = StepCutting{};
     plan.cutting->depth = depth;
     NewtonOptions options;
-    options.relative_residual = 1e-11;
+    options.relative_residual = residual;
     options.max_iterations = most_iterations;
     solve_static(scene.problem, plan, options, scene.result, scene.counters);
     std::vector<double> sunk;
@@ -84,6 +85,28 @@ TEST_CASE("A step on whose way statuses swing to and fro is cut, and solved with
   CHECK(cut.scene.result.steps.size() > instants.size());
   check_same(whole.solve(instants, 20, 0), reference);
   CHECK(whole.scene.result.steps.size() == instants.size());
+}
+
+TEST_CASE("Joint iterations of elastic bodies end where the geometry is at rest to what is asked for") {
+  const std::vector<double> instants = {0.0, 0.5, 1.0};
+  const std::vector<double> reference = Press(false, false).solve(instants, 20, 0);
+  const auto iterations = [&](double tolerance) {
+    Press joint(true, false);
+    joint.scene.problem.contact->joint_geometry_tolerance = tolerance;
+    const std::vector<double> sunk = joint.solve(instants, 30, 0, 1e-2);
+    if (tolerance < 1e-9) check_same(sunk, reference);
+    return joint.scene.counters.newton_iterations;
+  };
+  const int until_at_rest = iterations(1e-10);
+  CHECK(iterations(1.0) < until_at_rest);
+  CHECK(until_at_rest < 30);  // no step was begun again
+}
+
+TEST_CASE("A step of elastic bodies that joint iterations do not solve is not cut: contact is settled within each iteration") {
+  const std::vector<double> instants = {0.0, 0.5, 1.0};
+  Press joint(true, false);
+  check_same(joint.solve(instants, 2, 3), Press(false, false).solve(instants, 20, 0));
+  CHECK(joint.scene.result.steps.size() == instants.size());
 }
 
 }  // namespace joint_iterations_test
