@@ -18,7 +18,11 @@ class Archive {
   /// the fields that are not wanted. Steps are numbered as they are kept.
   void update(solver::Result& result);
 
+  /// Of the instants named, those between the first step of the computation and its last one at which no step has ended.
+  std::vector<double> missed() const;
+
  private:
+  bool is_at(double wanted, double instant) const;
   bool is_wanted(double instant, int number) const;
 
   std::vector<double> instants_;  ///< empty: by `every_`
@@ -26,6 +30,7 @@ class Archive {
   bool relative_ = true;
   int every_ = 1;
   std::vector<std::string> left_out_;
+  std::vector<double> computed_;  ///< instants of all steps
   int steps_ = 0;            ///< computed so far, the initial state aside
   bool last_wanted_ = true;  ///< of the last step
 };

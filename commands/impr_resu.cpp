@@ -99,6 +99,34 @@ solver::Result result_of_field(const Keywords& print) {
   return result;
 }
 
+// What the keywords name and nothing that is to be written has.
+void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diagnostics) {
+  if (!print.has("RESULTAT") && !print.has("CHAM_GD")) return;
+  const solver::Result result =
+      print.has("RESULTAT") ? chosen_steps(print, interpreter::data_of<ResultConcept>(print.concept_of("RESULTAT"), "RESULTAT").result) : result_of_field(print);
+  const std::string& source = print.concept_of(print.has("RESULTAT") ? "RESULTAT" : "CHAM_GD")->name;
+  std::set<std::string> fields, components;
+  for (const solver::ResultStep& step : result.steps)
+    for (const auto& [name, field] : step.fields) {
+      fields.insert(name);
+      const auto& own = solver::components_of(field);
+      components.insert(own.begin(), own.end());
+    }
+  const auto missing = [&](const char* keyword, const std::set<std::string>& known) {
+    std::vector<std::string> names;
+    if (print.given(keyword))
+      for (const std::string& name : print.texts(keyword))
+        if (!known.contains(name)) names.push_back(name);
+    return names;
+  };
+  if (const auto names = missing("NOM_CHAM", fields); print.has("RESULTAT") && !names.empty())
+    diagnostics.alarm("unknown-field", fmt::format("IMPR_RESU: {} holds no {} in these steps: left out", source, fmt::join(names, ", ")), print.span_of("NOM_CHAM"),
+                      "CALC_CHAMP computes fields");
+  if (const auto names = missing("NOM_CMP", components); !fields.empty() && !names.empty())
+    diagnostics.alarm("unknown-component", fmt::format("IMPR_RESU: no field that is written has {}: left out", fmt::join(names, ", ")), print.span_of("NOM_CMP"),
+                      fmt::format("there is {}", fmt::join(components, ", ")));
+}
+
 PrintedPart part_of(const Keywords& print, bool med) {
   if (!print.has("RESULTAT") && !print.has("CHAM_GD")) {
     const auto& handle = print.concept_of("MAILLAGE");
@@ -315,6 +343,7 @@ Product impr_resu(const Call& call, Context& context) {
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
   const auto path = context.files.output(unit, format.extension, format.unit);
   check_model(call, word);
+  for (const Keywords& print : call.factors("RESU")) warn_of_missing_names(print, context.diagnostics);
   if (word == "MED") {
     write_med(call, path.string());
     context.console.progress("  writes " + path.string());

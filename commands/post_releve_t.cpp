@@ -287,7 +287,7 @@ Profile profile(const Reading& reading, int component) {
     result.nodes.push_back(reading.nodes[i]);
   }
   if (result.values.empty()) {
-    throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no node there carries {}", reading.field.components[component]));
+    throw DiagnosticError("unknown-component", fmt::format("no node there carries {}", reading.field.components[component]));
   }
   return result;
 }
@@ -374,6 +374,7 @@ void act(Table& table, const Keywords& action, Context& context) {
   check_resultant(action);
   warn_of_missing_instants(action, context);
   bool first = true;
+  const std::size_t before = table.rows.size();
   for (const FieldSource& source : field_sources(action)) {
     if (action.text("MOYE_NOEUD") == "NON") {
       extract_by_cells(table, action, source);
@@ -389,6 +390,8 @@ void act(Table& table, const Keywords& action, Context& context) {
       if (operation == "EXTREMA") list_extremes(table, action, reading);
     }
   }
+  if (table.rows.size() == before && !first)
+    context.diagnostics.alarm("unknown-component", "POST_RELEVE_T: no node there has a value: the table has no row of it", action.span, "look at where the field is known, and at NOM_CMP");
 }
 
 }  // namespace

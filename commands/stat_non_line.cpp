@@ -263,6 +263,9 @@ Product stat_non_line(const Call& call, Context& context) {
     return solver::solve_static(product->problem, steps, options, product->result, context.counters, iterated, after_step);
   };
   const auto doubts = solve();
+  if (const auto missed = archive.missed(); !missed.empty())
+    context.diagnostics.alarm("unknown-step", fmt::format("STAT_NON_LINE: no step ends at {}, which ARCHIVAGE is to keep", fmt::join(missed, ", ")),
+                              call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
   warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
