@@ -138,16 +138,35 @@ bool Observer::is_due(const Observation& observation, double instant, int number
   return std::ranges::any_of(observation.instants, [&](double wanted) { return std::abs(wanted - instant) <= instant_reach(keywords, wanted); });
 }
 
-void Observer::observe(const solver::ResultStep& step, int number, Table& table) const {
-  for (const Observation& observation : observations_) {
+void Observer::observe(const solver::ResultStep& step, int number, Table& table) {
+  computed_.push_back(step.instant);
+  for (Observation& observation : observations_) {
     if (is_due(observation, step.instant, number)) observe(observation, step, number, table);
   }
 }
 
-void Observer::observe(const Observation& observation, const solver::ResultStep& step, int number, Table& table) const {
+void Observer::warn_of_nothing(interpreter::Diagnostics& diagnostics) const {
+  for (const Observation& observation : observations_) {
+    const Keywords& keywords = observation.keywords;
+    std::vector<double> missed;
+    for (const double wanted : observation.instants) {
+      const bool is_among = !computed_.empty() && wanted > computed_.front() && wanted < computed_.back();
+      if (is_among && std::ranges::none_of(computed_, [&](double instant) { return std::abs(wanted - instant) <= instant_reach(keywords, wanted); })) missed.push_back(wanted);
+    }
+    if (!missed.empty())
+      diagnostics.alarm("unknown-step", fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")), keywords.span,
+                        "name instants of INCREMENT/LIST_INST");
+    else if (observation.was_due && observation.rows == 0)
+      diagnostics.alarm("unknown-component", fmt::format("OBSERVATION: {} has no value there: the table has no row of it", keywords.text("NOM_CHAM")), keywords.span,
+                        "look at where the field is known, and at NOM_CMP");
+  }
+}
+
+void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const {
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
+  observation.was_due = true;
   solver::Field made;
   const solver::Field& field = watched(keywords, field_of(keywords, step), mesh_, behaviours_, made);
   check_place(keywords, field);
@@ -166,6 +185,7 @@ void Observer::observe(const Observation& observation, const solver::ResultStep&
       row.insert(row.end(), sample.place.begin(), sample.place.end());
       row.emplace_back("VALE", sample.value);
       table.add_row(row);
+      ++observation.rows;
     }
   }
 }

@@ -18,7 +18,10 @@ class Observer {
   bool empty() const { return observations_.empty(); }
   /// Appends the rows of a step; `number` counts the steps, 0 being the initial state. Throws DiagnosticError
   /// `unknown-field`, `unknown-component`, `wrong-type`.
-  void observe(const solver::ResultStep& step, int number, Table& table) const;
+  void observe(const solver::ResultStep& step, int number, Table& table);
+
+  /// Tells of occurrences that have given no row, and of instants among the steps at which none ended.
+  void warn_of_nothing(interpreter::Diagnostics& diagnostics) const;
 
  private:
   struct Observation {
@@ -26,14 +29,17 @@ class Observer {
     std::string name;  ///< in the column NOM_OBSERVATION
     std::vector<int> nodes, cells;
     std::vector<double> instants;  ///< empty: every step
+    bool was_due = false;
+    std::size_t rows = 0;
   };
 
   bool is_due(const Observation& observation, double instant, int number) const;
-  void observe(const Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
+  void observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
 
   const solver::Mesh& mesh_;
   const solver::BehaviourOfCells* behaviours_;
   std::vector<Observation> observations_;
+  std::vector<double> computed_;  ///< instants of all steps
 };
 
 }  // namespace comma::commands

@@ -240,7 +240,7 @@ Product stat_non_line(const Call& call, Context& context) {
   warn_of_lost_variables(call, product->problem, context);
   warn_of_other_laws(call, initial.behaviours.get(), product->problem, context);
   const solver::Counters before = context.counters;
-  const Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
+  Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
   solver::IterationReport last;
@@ -266,6 +266,7 @@ Product stat_non_line(const Call& call, Context& context) {
   if (const auto missed = archive.missed(); !missed.empty())
     context.diagnostics.alarm("unknown-step", fmt::format("STAT_NON_LINE: no step ends at {}, which ARCHIVAGE is to keep", fmt::join(missed, ", ")),
                               call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
+  observer.warn_of_nothing(context.diagnostics);
   warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
