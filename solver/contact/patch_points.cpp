@@ -112,7 +112,8 @@ class PatchGaps {
     gaps_ = area_ = 0.0;
     const bool is_far = search_ && search_->too_far(positions_[point_.node]);
     for (const int face : patch) add_face(face, is_far);
-    if (point_.weight <= covered_tolerance * point_.area) {
+    // Beyond the axis nothing has an area.
+    if (point_.weight <= covered_tolerance * point_.area || !(area_ > 0.0)) {
       point_.weight = 0.0;
       if (is_far) point_.status = PairingStatus::too_far;
       return point_;

@@ -165,6 +165,10 @@ TEST_CASE("The mean gap of a patch is over areas as they are, and by the radius 
   REQUIRE(points.size() == 1);
   CHECK(points[0].weight == exactly(0.5));                // integral of r from 0 to 1
   CHECK(mean_gap(points[0], now) == exactly(4.0 / 3.0));    // of r r over that of r, from 0 to 2
+  // Bodies that have gone through the axis face nothing.
+  for (Vector3d& place : now) place[0] -= 3.0;
+  append_patch_points(definition, 0, model, now, 0.0, points);
+  CHECK(points[1].status == PairingStatus::outside);
 }
 
 TEST_CASE("A patch too far from the master faces nothing, and a slave face needs a patch") {
