@@ -1,9 +1,11 @@
 // Which steps and fields of a nonlinear computation its result keeps (STAT_NON_LINE, ARCHIVAGE; U4.51.03).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "commands/concepts.hpp"
+#include "commands/result_reading.hpp"
 #include "interpreter/call.hpp"
 
 namespace comma::commands {
@@ -18,19 +20,16 @@ class Archive {
   /// the fields that are not wanted. Steps are numbered as they are kept.
   void update(solver::Result& result);
 
-  /// Of the instants named, those between the first step of the computation and its last one at which no step has ended.
-  std::vector<double> missed() const;
+  /// Of the instants named, those among the `computed` ones of all steps at which none has ended.
+  std::vector<double> missed(std::span<const double> computed) const;
 
  private:
-  bool is_at(double wanted, double instant) const;
   bool is_wanted(double instant, int number) const;
 
   std::vector<double> instants_;  ///< empty: by `every_`
-  double precision_ = 0.0;
-  bool relative_ = true;
+  InstantTolerance tolerance_;
   int every_ = 1;
   std::vector<std::string> left_out_;
-  std::vector<double> computed_;  ///< instants of all steps
   int steps_ = 0;            ///< computed so far, the initial state aside
   bool last_wanted_ = true;  ///< of the last step
 };

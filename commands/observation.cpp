@@ -139,21 +139,15 @@ bool Observer::is_due(const Observation& observation, double instant, int number
 }
 
 void Observer::observe(const solver::ResultStep& step, int number, Table& table) {
-  computed_.push_back(step.instant);
   for (Observation& observation : observations_) {
     if (is_due(observation, step.instant, number)) observe(observation, step, number, table);
   }
 }
 
-void Observer::warn_of_nothing(interpreter::Diagnostics& diagnostics) const {
+void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const {
   for (const Observation& observation : observations_) {
     const Keywords& keywords = observation.keywords;
-    std::vector<double> missed;
-    for (const double wanted : observation.instants) {
-      const bool is_among = !computed_.empty() && wanted > computed_.front() && wanted < computed_.back();
-      if (is_among && std::ranges::none_of(computed_, [&](double instant) { return std::abs(wanted - instant) <= instant_reach(keywords, wanted); })) missed.push_back(wanted);
-    }
-    if (!missed.empty())
+    if (const auto missed = missed_instants(instant_tolerance(keywords), observation.instants, computed); !missed.empty())
       diagnostics.alarm("unknown-step", fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")), keywords.span,
                         "name instants of INCREMENT/LIST_INST");
     else if (observation.was_due && observation.rows == 0)

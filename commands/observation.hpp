@@ -1,6 +1,7 @@
 // Values followed through the steps of a nonlinear computation (STAT_NON_LINE, OBSERVATION; U4.51.03).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "commands/concepts.hpp"
@@ -20,8 +21,8 @@ class Observer {
   /// `unknown-field`, `unknown-component`, `wrong-type`.
   void observe(const solver::ResultStep& step, int number, Table& table);
 
-  /// Tells of occurrences that have given no row, and of instants among the steps at which none ended.
-  void warn_of_nothing(interpreter::Diagnostics& diagnostics) const;
+  /// Tells of occurrences that have given no row, and of instants among the `computed` ones of all steps at which none ended.
+  void warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const;
 
  private:
   struct Observation {
@@ -39,7 +40,6 @@ class Observer {
   const solver::Mesh& mesh_;
   const solver::BehaviourOfCells* behaviours_;
   std::vector<Observation> observations_;
-  std::vector<double> computed_;  ///< instants of all steps
 };
 
 }  // namespace comma::commands

@@ -21,26 +21,6 @@ using solver::ResultStep;
 
 namespace {
 
-// How near a stored instant must lie to the one asked for.
-struct InstantTolerance {
-  double precision = 1e-6;
-  bool relative = true;
-
-  double reach(double instant) const { return relative && instant != 0.0 ? precision * std::abs(instant) : precision; }
-};
-
-// PRECISION and CRITERE, but in TEST_* the second values of TOLE_MACHINE and CRITERE, whose first ones are the verdict's (U4.92.01).
-InstantTolerance instant_tolerance(const Keywords& keywords) {
-  InstantTolerance tolerance;
-  const bool verdict = keywords.has("TOLE_MACHINE");
-  const auto precisions = verdict ? keywords.reals("TOLE_MACHINE") : keywords.reals("PRECISION");
-  const auto criteria = keywords.texts("CRITERE");
-  const std::size_t which = verdict ? 1 : 0;
-  if (precisions.size() > which) tolerance.precision = precisions[which];
-  if (criteria.size() > which) tolerance.relative = criteria[which] == "RELATIF";
-  return tolerance;
-}
-
 std::string known_instants(const solver::Result& result) {
   if (result.steps.empty()) return "the result holds no step";
   return fmt::format("the result holds {} steps, from INST={} to INST={}", result.steps.size(), result.steps.front().instant,
@@ -72,6 +52,17 @@ const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& 
 
 }  // namespace
 
+InstantTolerance instant_tolerance(const Keywords& keywords) {
+  InstantTolerance tolerance;
+  const bool verdict = keywords.has("TOLE_MACHINE");
+  const auto precisions = verdict ? keywords.reals("TOLE_MACHINE") : keywords.reals("PRECISION");
+  const auto criteria = keywords.texts("CRITERE");
+  const std::size_t which = verdict ? 1 : 0;
+  if (precisions.size() > which) tolerance.precision = precisions[which];
+  if (criteria.size() > which) tolerance.relative = criteria[which] == "RELATIF";
+  return tolerance;
+}
+
 double instant_reach(const Keywords& keywords, double instant) { return instant_tolerance(keywords).reach(instant); }
 
 std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const solver::Result& result) {
@@ -99,6 +90,16 @@ std::vector<double> missing_instants(const Keywords& keywords, const solver::Res
   for (const double instant : keywords.data<ListConcept>("LIST_INST").values)
     if (find_step(keywords, result, instant) == nullptr) missing.push_back(instant);
   return missing;
+}
+
+std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted, std::span<const double> computed) {
+  std::vector<double> missed;
+  for (const double instant : wanted) {
+    const double reach = tolerance.reach(instant);
+    const bool is_among = !computed.empty() && instant > computed.front() && instant < computed.back();
+    if (is_among && std::ranges::none_of(computed, [&](double each) { return std::abs(instant - each) <= reach; })) missed.push_back(instant);
+  }
+  return missed;
 }
 
 const ResultStep& only_step(const Keywords& keywords, const solver::Result& result, const char* reason) {

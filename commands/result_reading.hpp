@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <string>
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "commands/concepts.hpp"
@@ -17,9 +19,22 @@ std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keyword
 /// The instants of LIST_INST at which the result has no step.
 std::vector<double> missing_instants(const interpreter::Keywords& keywords, const solver::Result& result);
 
-/// How far from `instant` a step may stand to be meant, by PRECISION and CRITERE (in TEST_... the second values of TOLE_MACHINE
-/// and CRITERE).
+/// How near a stored instant must lie to the one asked for.
+struct InstantTolerance {
+  double precision = 1e-6;
+  bool relative = true;
+
+  double reach(double instant) const { return relative && instant != 0.0 ? precision * std::abs(instant) : precision; }
+};
+
+/// PRECISION and CRITERE, but in TEST_* the second values of TOLE_MACHINE and CRITERE, whose first ones are the verdict's (U4.92.01).
+InstantTolerance instant_tolerance(const interpreter::Keywords& keywords);
+
+/// How far from `instant` a step may stand to be meant (see instant_tolerance).
 double instant_reach(const interpreter::Keywords& keywords, double instant);
+
+/// Of `wanted` instants those between the first and the last of `computed`, rising, at which none of these stands.
+std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted, std::span<const double> computed);
 
 /// The one step that the keywords name. Throws DiagnosticError `wrong-count` with the reason for one alone when they name several.
 const solver::ResultStep& only_step(const interpreter::Keywords& keywords, const solver::Result& result, const char* reason);

@@ -243,6 +243,7 @@ Product stat_non_line(const Call& call, Context& context) {
   Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
+  std::vector<double> computed;
   solver::IterationReport last;
   const auto iterated = [&last, show = live_table(context)](const solver::IterationReport& report) {
     if (report.event.empty()) last = report;
@@ -252,6 +253,7 @@ Product stat_non_line(const Call& call, Context& context) {
   const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
     if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
     ++number;
+    computed.push_back(result.steps.back().instant);
     keep_residuals(last, result.steps.back());
     archive.update(result);
   };
@@ -263,10 +265,10 @@ Product stat_non_line(const Call& call, Context& context) {
     return solver::solve_static(product->problem, steps, options, product->result, context.counters, iterated, after_step);
   };
   const auto doubts = solve();
-  if (const auto missed = archive.missed(); !missed.empty())
+  if (const auto missed = archive.missed(computed); !missed.empty())
     context.diagnostics.alarm("unknown-step", fmt::format("STAT_NON_LINE: no step ends at {}, which ARCHIVAGE is to keep", fmt::join(missed, ", ")),
                               call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
-  observer.warn_of_nothing(context.diagnostics);
+  observer.warn_of_nothing(computed, context.diagnostics);
   warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
