@@ -76,16 +76,20 @@ void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, so
   keep_nodes_of_cells(element, mesh, selected_nodes(print, mesh, node_places));
 }
 
+bool is_chosen(const Keywords& print, const std::string& field) {
+  if (print.given("TOUT_CHAM") && print.text("TOUT_CHAM") == "NON") return false;
+  if (!print.given("NOM_CHAM")) return true;
+  const auto names = print.texts("NOM_CHAM");
+  return std::ranges::find(names, field) != names.end();
+}
+
 solver::Result chosen_steps(const Keywords& print, const solver::Result& result) {
   solver::Result part;
   part.model = result.model;
   part.bare_mesh = result.bare_mesh;
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
-    if (print.given("TOUT_CHAM") && print.text("TOUT_CHAM") == "NON") copy.fields.clear();
-    if (!print.given("NOM_CHAM")) continue;
-    const auto names = print.texts("NOM_CHAM");
-    std::erase_if(copy.fields, [&](const auto& item) { return std::ranges::find(names, item.first) == names.end(); });
+    std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first); });
   }
   return part;
 }
@@ -102,16 +106,21 @@ solver::Result result_of_field(const Keywords& print) {
 // What the keywords name and nothing that is to be written has.
 void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diagnostics) {
   if (!print.has("RESULTAT") && !print.has("CHAM_GD")) return;
-  const solver::Result result =
-      print.has("RESULTAT") ? chosen_steps(print, interpreter::data_of<ResultConcept>(print.concept_of("RESULTAT"), "RESULTAT").result) : result_of_field(print);
-  const std::string& source = print.concept_of(print.has("RESULTAT") ? "RESULTAT" : "CHAM_GD")->name;
+  const bool whole_result = print.has("RESULTAT");
+  const auto& source = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
   std::set<std::string> fields, components;
-  for (const solver::ResultStep& step : result.steps)
-    for (const auto& [name, field] : step.fields) {
-      fields.insert(name);
-      const auto& own = solver::components_of(field);
-      components.insert(own.begin(), own.end());
-    }
+  const auto add = [&](const std::string& name, const solver::Field& field) {
+    fields.insert(name);
+    const auto& own = solver::components_of(field);
+    components.insert(own.begin(), own.end());
+  };
+  if (!whole_result) {
+    add("", number_field(source, print, "CHAM_GD").field);
+  } else {
+    for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+      for (const auto& [name, field] : step->fields)
+        if (is_chosen(print, name)) add(name, field);
+  }
   const auto missing = [&](const char* keyword, const std::set<std::string>& known) {
     std::vector<std::string> names;
     if (print.given(keyword))
@@ -119,8 +128,8 @@ void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diag
         if (!known.contains(name)) names.push_back(name);
     return names;
   };
-  if (const auto names = missing("NOM_CHAM", fields); print.has("RESULTAT") && !names.empty())
-    diagnostics.alarm("unknown-field", fmt::format("IMPR_RESU: {} holds no {} in these steps: left out", source, fmt::join(names, ", ")), print.span_of("NOM_CHAM"),
+  if (const auto names = missing("NOM_CHAM", fields); whole_result && !names.empty())
+    diagnostics.alarm("unknown-field", fmt::format("IMPR_RESU: {} holds no {} in these steps: left out", source->name, fmt::join(names, ", ")), print.span_of("NOM_CHAM"),
                       "CALC_CHAMP computes fields");
   if (const auto names = missing("NOM_CMP", components); !fields.empty() && !names.empty())
     diagnostics.alarm("unknown-component", fmt::format("IMPR_RESU: no field that is written has {}: left out", fmt::join(names, ", ")), print.span_of("NOM_CMP"),
