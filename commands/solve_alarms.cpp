@@ -106,8 +106,8 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
             fmt::format("master nodes of zone {} have gone through the slave side, {:.3g} deep on the mean, and contact pushes nothing back: no slave node has faced "
                         "the master",
                         zone, doubt.length),
-            is_mixed ? "look which way the normals point (VECT_MAIT, VECT_ESCL, ORIE_PEAU), and what DIST_APPA, TOLE_PROJ_EXT and SANS_GROUP_NO leave out; " + hint
-                     : "look which way the normals point (VECT_MAIT, VECT_ESCL, ORIE_PEAU), and what DIST_APPA, TOLE_PROJ_EXT and SANS_GROUP_NO leave out; or " + hint};
+            std::string("look which way the normals point (VECT_MAIT, VECT_ESCL, ORIE_PEAU), and what DIST_APPA, TOLE_PROJ_EXT and SANS_GROUP_NO leave out; ") +
+                (is_mixed ? "" : "or ") + hint};
   return {"coarse-slave",
           fmt::format("master nodes of zone {} go through the slave side between its nodes, {:.3g} deep on the mean, {:.0f} % of what contact pushes "
                       "back: forces come out too small or motions too large by about that share",

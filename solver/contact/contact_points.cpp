@@ -81,9 +81,7 @@ class ZonePoints {
   }
 
   /// Of the initial face: pressures are forces over the area before deformation.
-  double measure(int cell, const Eigen::Vector2d& xi) const {
-    return facet_stretch(mesh_.cell_types[cell], initial_places(mesh_, cell).span(), xi, is_axisymmetric(model_.formulations[cell]));
-  }
+  double measure(int cell, const Eigen::Vector2d& xi) const { return initial_stretch(mesh_, cell, xi, is_axisymmetric(model_.formulations[cell])); }
 
   void face_master(const FacePoint& at, FacedFacet before, ContactPoint& point) const {
     const Vector3d here = position(point);
@@ -152,10 +150,11 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
 
 }  // namespace
 
-InitialPlaces initial_places(const Mesh& mesh, int cell) {
-  InitialPlaces places;
-  for (const int node : mesh.cell(cell)) places.points[places.count++] = Vector3d(mesh.nodes[node].data());
-  return places;
+double initial_stretch(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, bool times_radius) {
+  std::array<Vector3d, max_facet_nodes> points;
+  const auto nodes = mesh.cell(facet);
+  for (std::size_t i = 0; i < nodes.size(); ++i) points[i] = Vector3d(mesh.nodes[nodes[i]].data());
+  return facet_stretch(mesh.cell_types[facet], {points.data(), nodes.size()}, xi, times_radius);
 }
 
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -48,12 +47,7 @@ struct ContactPoint {
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
                                          const FacedFacets& before = {});
 
-/// Where a cell's nodes are in the mesh.
-struct InitialPlaces {
-  std::array<Eigen::Vector3d, max_facet_nodes> points;
-  std::size_t count = 0;
-  std::span<const Eigen::Vector3d> span() const { return {points.data(), count}; }
-};
-InitialPlaces initial_places(const Mesh& mesh, int cell);
+/// Of a facet as the mesh has it (see facet_stretch).
+double initial_stretch(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, bool times_radius);
 
 }  // namespace comma::solver

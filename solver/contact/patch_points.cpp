@@ -129,7 +129,7 @@ class PatchGaps {
  private:
   void add_face(int face, bool is_far) {
     const Gathered slave = slaves_.gather(face);
-    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * initial_stretch(face, at.xi);
+    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * initial_stretch(mesh_, face, at.xi, is_axisymmetric_);
     if (is_far) return;
     const Reach reach(slave);
     for (std::size_t m = 0; m < masters_.size(); ++m)
@@ -142,16 +142,16 @@ class PatchGaps {
       const Vector3d here = point_at(slave.geometry(), at.slave);
       const Vector3d foot = point_at(master.geometry(), at.master);
       const Vector3d normal = -normal_at(slave.geometry(), at.slave);
-      const double area = at.weight * stretch(slave.type, slave.span(), at.slave);
+      const double area = at.weight * facet_stretch(slave.type, slave.span(), at.slave, is_axisymmetric_);
       gaps_ += area * (normal.dot(here - foot) - thickness_at(zone_, here, foot, time_));
       area_ += area;
       point_.normal += area * normal;
       point_.facet = facet;
-      const double before = at.weight * initial_stretch(face, at.slave);
+      const double before = at.weight * initial_stretch(mesh_, face, at.slave, is_axisymmetric_);
       point_.weight += before;
       add_shares(face, slave, at.slave, -before);
     }
-    for (const FacePoint& at : overlap.master) add_shares(facet, master, at.xi, -at.weight * initial_stretch(facet, at.xi));
+    for (const FacePoint& at : overlap.master) add_shares(facet, master, at.xi, -at.weight * initial_stretch(mesh_, facet, at.xi, is_axisymmetric_));
   }
 
   /// Adds what the gap takes of a facet's nodes where they move along outward normals.
@@ -161,13 +161,6 @@ class PatchGaps {
     const Vector3d own = facet.is_smooth ? Vector3d(Vector3d::Zero()) : normal_at(facet.geometry(), xi);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
-  }
-
-  /// Area a unit of the reference cell's, times the radius where axisymmetric.
-  double stretch(CellType type, std::span<const Vector3d> points, const Vector2d& xi) const { return facet_stretch(type, points, xi, is_axisymmetric_); }
-  double initial_stretch(int cell, const Vector2d& xi) const {
-    const InitialPlaces places = initial_places(mesh_, cell);
-    return stretch(mesh_.cell_types[cell], places.span(), xi);
   }
 
   static constexpr int area_order = 4;

@@ -101,8 +101,7 @@ std::optional<Projection> project_along(const Vector3d& direction, const Vector3
     size = std::max(size, (points[i] - points[0]).norm());
   }
   const std::span<const Vector3d> view(flat.data(), points.size());
-  const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, view, facet_centre(type));
-  const double area = dimension(type) == 1 ? size * tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
+  const double area = (dimension(type) == 1 ? size : 1.0) * facet_stretch(type, view, facet_centre(type), false);
   if (!(area > edge_on * size * size)) return std::nullopt;
   auto found = project(seen(node), type, view);
   if (!found) return std::nullopt;

@@ -241,6 +241,12 @@ class SlaveCutter {
     return pieces;
   }
 
+  /// The inner node below one on the face, towards a corner of the body's base about its centre.
+  int add_deep(int shallow, int base, const Vector3d& base_centre) {
+    const Vector3d beneath = base_centre + inner_share * (place(base) - base_centre);
+    return add_node((1 - inner_depth) * place(shallow) + inner_depth * beneath);
+  }
+
   /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's other sides.
   std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) {
     std::vector<int> corner = cell(body).nodes;  // the first two on the face
@@ -248,10 +254,7 @@ class SlaveCutter {
     const std::array<int, 2> shallow = {inner_.at(corner[0]), inner_.at(corner[1])};
     const Vector3d base_centre = (place(corner[2]) + place(corner[3])) / 2;
     std::array<int, 2> deep{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Vector3d beneath = base_centre + inner_share * (place(corner[3 - i]) - base_centre);
-      deep[i] = add_node((1 - inner_depth) * place(shallow[i]) + inner_depth * beneath);
-    }
+    for (std::size_t i = 0; i < 2; ++i) deep[i] = add_deep(shallow[i], corner[3 - i], base_centre);
     return {{quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
             {quad4, {corner[0], shallow[0], deep[0], corner[3]}},
             {quad4, {shallow[1], corner[1], corner[2], deep[1]}},
@@ -271,10 +274,7 @@ class SlaveCutter {
       shallow[i] = inner_.at(top[i]);
       base_centre += place(base[i]) / 4;
     }
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vector3d beneath = base_centre + inner_share * (place(base[i]) - base_centre);
-      deep[i] = add_node((1 - inner_depth) * place(shallow[i]) + inner_depth * beneath);
-    }
+    for (std::size_t i = 0; i < 4; ++i) deep[i] = add_deep(shallow[i], base[i], base_centre);
     const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
       return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
     };

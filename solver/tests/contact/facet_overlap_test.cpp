@@ -31,9 +31,7 @@ template <class Function>
 double integral(const FacetGeometry& slave, const FacetGeometry& master, Function f) {
   double sum = 0.0;
   for (const OverlapPoint& at : facet_overlap(slave, master).points) {
-    const auto tangents = facet_tangents(slave.type, slave.points, at.slave);
-    const double stretch = dimension(slave.type) == 1 ? tangents.col(0).norm() : Vector3d(tangents.col(0)).cross(Vector3d(tangents.col(1))).norm();
-    sum += at.weight * stretch * f(at);
+    sum += at.weight * facet_stretch(slave.type, slave.points, at.slave, false) * f(at);
   }
   return sum;
 }
