@@ -47,6 +47,8 @@ Product impr_resu(const Call& call, Context& context);
 Product impr_table(const Call& call, Context& context);
 Product lire_maillage(const Call& call, Context& context);
 Product meca_statique(const Call& call, Context& context);
+/// Null: see make_preparation_table.
+Product prepare_meca_statique(const Call& call, Context& context);
 Product modi_maillage(const Call& call, Context& context);
 Product post_champ(const Call& call, Context& context);
 Product post_elem(const Call& call, Context& context);
@@ -54,6 +56,8 @@ Product post_releve_t(const Call& call, Context& context);
 Product recu_fonction(const Call& call, Context& context);
 Product recu_table(const Call& call, Context& context);
 Product stat_non_line(const Call& call, Context& context);
+/// Null: see make_preparation_table.
+Product prepare_stat_non_line(const Call& call, Context& context);
 Product test_fonction(const Call& call, Context& context);
 Product test_resu(const Call& call, Context& context);
 Product test_table(const Call& call, Context& context);

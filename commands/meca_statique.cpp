@@ -36,20 +36,36 @@ std::vector<double> new_instants(std::vector<double> instants, const solver::Res
   return instants;
 }
 
+solver::LinearStaticOptions options_of(const Call& call) {
+  const SolverChoice choice = solver_choice(call);
+  return {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
+}
+
+void warn_of_scene(const Call& call, const solver::StaticProblem& problem, Context& context) {
+  warn_of_locking(call, problem, context);
+  warn_of_missing_data(call, problem, context);
+}
+
 }  // namespace
+
+Product prepare_meca_statique(const Call& call, Context& context) {
+  const solver::StaticProblem problem = static_problem(call);
+  instants(call);
+  solver::require_solvable(problem, options_of(call));
+  if (context.only_checks) warn_of_scene(call, problem, context);
+  return nullptr;
+}
 
 Product meca_statique(const Call& call, Context& context) {
   auto product = call.reuse ? to_go_on_with(call) : std::make_shared<ResultConcept>();
   product->problem = static_problem(call);
   product->result.model = product->problem.model;
-  const SolverChoice choice = solver_choice(call);
-  const solver::LinearStaticOptions options = {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
+  const solver::LinearStaticOptions options = options_of(call);
   context.console.progress(fmt::format("MECA_STATIQUE {}", call.result->name));
   const auto wanted = new_instants(instants(call), product->result);
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
-  warn_of_locking(call, product->problem, context);
-  warn_of_missing_data(call, product->problem, context);
+  warn_of_scene(call, product->problem, context);
   const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
   warn_of_repeated_loads(call, context);

@@ -1,5 +1,6 @@
 #include "commands/registry.hpp"
 
+#include <span>
 #include <utility>
 
 #include "solver/error.hpp"
@@ -59,6 +60,11 @@ constexpr std::pair<const char*, Function> functions[] = {
     {"TEST_TABLE", test_table},
 };
 
+constexpr std::pair<const char*, Function> preparations[] = {
+    {"MECA_STATIQUE", prepare_meca_statique},
+    {"STAT_NON_LINE", prepare_stat_non_line},
+};
+
 // An error of a command says where it was called, unless the command knew better.
 Product run_located(Function function, const Call& call, Context& context) {
   try {
@@ -74,14 +80,18 @@ Product run_located(Function function, const Call& call, Context& context) {
   }
 }
 
-}  // namespace
-
-interpreter::CommandTable make_command_table(Context& context) {
+interpreter::CommandTable table_of(std::span<const std::pair<const char*, Function>> named, Context& context) {
   interpreter::CommandTable table;
-  for (const auto& [name, function] : functions) {
+  for (const auto& [name, function] : named) {
     table.emplace(name, [function = function, &context](const Call& call) { return run_located(function, call, context); });
   }
   return table;
 }
+
+}  // namespace
+
+interpreter::CommandTable make_command_table(Context& context) { return table_of(functions, context); }
+
+interpreter::CommandTable make_preparation_table(Context& context) { return table_of(preparations, context); }
 
 }  // namespace comma::commands

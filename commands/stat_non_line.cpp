@@ -217,9 +217,15 @@ void keep_residuals(const solver::IterationReport& last, solver::ResultStep& ste
   if (last.relative_residual >= 0.0) step.parameters["RESI_GLOB_RELA"] = last.relative_residual;
 }
 
-}  // namespace
+// All that the keywords say.
+struct Scene {
+  InitialStateChoice initial;
+  std::shared_ptr<ResultConcept> product;
+  solver::NewtonOptions options;
+  solver::StepPlan steps;
+};
 
-Product stat_non_line(const Call& call, Context& context) {
+Scene scene_of(const Call& call) {
   const InitialStateChoice initial = initial_state(call);
   auto product = call.reuse ? continued(call, initial) : std::make_shared<ResultConcept>();
   product->problem = problem_of(call, initial);
@@ -228,17 +234,40 @@ Product stat_non_line(const Call& call, Context& context) {
   solver::NewtonOptions options = newton_options(call, product->result.mesh());
   solver::StepPlan steps = steps_of(call.factor("INCREMENT"), initial.instant);
   if (steps.adaptation) steps.adaptation->usual_iterations = options.max_iterations / 2;
+  options.stability = stability_analysis(call, *product);
+  return {initial, product, options, steps};
+}
+
+void warn_of_scene(const Call& call, const Scene& scene, Context& context) {
+  const solver::StaticProblem& problem = scene.product->problem;
+  warn_of_locking(call, problem, context);
+  warn_of_missing_data(call, problem, context);
+  warn_of_strained_start(call, problem, scene.steps.instants.front(), context);
+  warn_of_cells_without_behaviour(call, *problem.model, context);
+  warn_of_repeated_loads(call, context);
+  warn_of_initial_strains(call, problem, context);
+  warn_of_lost_variables(call, problem, context);
+  warn_of_other_laws(call, scene.initial.behaviours.get(), problem, context);
+}
+
+}  // namespace
+
+Product prepare_stat_non_line(const Call& call, Context& context) {
+  const Scene scene = scene_of(call);
+  const Observer observer(call, scene.product->result.mesh(), scene.product->problem.behaviours.get());
+  const Archive archive(call);
+  solver::require_solvable(scene.product->problem, scene.steps, scene.options);
+  if (context.only_checks) warn_of_scene(call, scene, context);
+  return nullptr;
+}
+
+Product stat_non_line(const Call& call, Context& context) {
+  Scene scene = scene_of(call);
+  const auto& product = scene.product;
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
-  warn_of_locking(call, product->problem, context);
-  warn_of_missing_data(call, product->problem, context);
-  warn_of_strained_start(call, product->problem, steps.instants.front(), context);
-  warn_of_cells_without_behaviour(call, *product->problem.model, context);
-  warn_of_repeated_loads(call, context);
-  warn_of_initial_strains(call, product->problem, context);
-  warn_of_lost_variables(call, product->problem, context);
-  warn_of_other_laws(call, initial.behaviours.get(), product->problem, context);
+  warn_of_scene(call, scene, context);
   const solver::Counters before = context.counters;
   Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
   if (!observer.empty() && !product->observations) product->observations.emplace();
@@ -257,12 +286,11 @@ Product stat_non_line(const Call& call, Context& context) {
     keep_residuals(last, result.steps.back());
     archive.update(result);
   };
-  options.stability = stability_analysis(call, *product);
   std::set<double> unconverged;
-  if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON") options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
+  if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON") scene.options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
-    return solver::solve_static(product->problem, steps, options, product->result, context.counters, iterated, after_step);
+    return solver::solve_static(product->problem, scene.steps, scene.options, product->result, context.counters, iterated, after_step);
   };
   const auto doubts = solve();
   if (const auto missed = archive.missed(computed); !missed.empty())

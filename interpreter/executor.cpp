@@ -27,8 +27,26 @@ DiagnosticError not_computed(const CommandNode& source) {
 
 }  // namespace
 
+template <typename Act>
+void Executor::report_errors(const Act& act, Severity unsupported) {
+  try {
+    act();
+  } catch (const DiagnosticError& error) {
+    Diagnostic finding = error.diagnostic();
+    if (finding.code == "unsupported") finding.severity = unsupported;
+    diagnostics_.add(std::move(finding));
+  }
+}
+
+bool Executor::is_to_prepare(const CommandNode& node) const {
+  return preparations_ != nullptr && node.complete && !node.caught && preparations_->contains(node.call.command) && is_in_turn(node) && missing_source(node) == nullptr;
+}
+
 void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) {
   const auto needs = graph_.needs();
+  const Severity unsupported = nothing_more ? Severity::alarm : Severity::error;
+  const auto solves = [](const CommandNode& node) { return node.state == NodeState::waiting && node.cost == Cost::solve; };
+  const bool prepares = nothing_more || std::ranges::count_if(graph_.nodes(), solves) > 1;  // one alone runs next, and tells the same itself
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
     if (check && !check(node)) {
@@ -36,7 +54,8 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
       continue;
     }
     const bool runs = node.complete && is_preparation(node) && (nothing_more || is_in_turn(node)) && missing_source(node) == nullptr;
-    if (runs) run_reporting(node, nothing_more ? Severity::alarm : Severity::error);
+    if (runs) report_errors([&] { run(node); }, unsupported);
+    if (prepares && solves(node) && is_to_prepare(node)) report_errors([&] { invoke(*preparations_, node); }, unsupported);
   }
 }
 
@@ -52,7 +71,7 @@ void Executor::run_all(Need least) {
     if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
     if (wanted && node.complete && missing_source(node) == nullptr)
-      run_reporting(node);
+      report_errors([&] { run(node); }, Severity::error);
     else
       node.state = NodeState::skipped;
   }
@@ -81,23 +100,13 @@ void Executor::forgive(int id) {
   graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true;
 }
 
-void Executor::run_reporting(CommandNode& node, Severity unsupported) {
-  try {
-    run(node);
-  } catch (const DiagnosticError& error) {
-    Diagnostic finding = error.diagnostic();
-    if (finding.code == "unsupported") finding.severity = unsupported;
-    diagnostics_.add(std::move(finding));
-  }
-}
-
 void Executor::run(CommandNode& node) {
   const auto start = std::chrono::steady_clock::now();
   const auto stop_clock = [&] {
     node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   try {
-    auto data = invoke(node);
+    auto data = invoke(commands_, node);
     if (node.product && data) node.product->data = std::move(data);
     node.state = NodeState::done;
     stop_clock();
@@ -108,10 +117,10 @@ void Executor::run(CommandNode& node) {
   }
 }
 
-std::shared_ptr<ConceptData> Executor::invoke(const CommandNode& node) const {
+std::shared_ptr<ConceptData> Executor::invoke(const CommandTable& commands, const CommandNode& node) {
   const Call& call = node.call;
-  const auto command = commands_.find(call.command);
-  if (command == commands_.end())
+  const auto command = commands.find(call.command);
+  if (command == commands.end())
     throw DiagnosticError("unsupported", fmt::format("comma does not run {} yet", call.command), call.span);
   try {
     return command->second(call);

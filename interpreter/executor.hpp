@@ -30,8 +30,11 @@ class Executor {
   /// Runs what is cheap, makes no output, gives no verdict, and waits for nothing that is not: meshes, groups, models,
   /// loads. Their errors are those that a check can find before anything is solved. Every call, also one that will not
   /// run now, goes through `check` (unless it is empty) when its turn in the file has come; one that is wrong counts as
-  /// failed. `nothing_more`: what is not cheap will never run, so nothing waits for it.
+  /// failed. What solves is prepared, if it waits for nothing that solves. `nothing_more`: what is not cheap will never run, so nothing waits for it.
   void run_cheap(Need least, bool nothing_more, const CallCheck& check);
+
+  /// What of commands that solve can go wrong before they do: called like them, for its errors alone. `preparations` must outlive the executor.
+  void prepare_with(const CommandTable& preparations) { preparations_ = &preparations; }
 
   /// Runs all nodes that are needed at least so much. A failing node is reported and stops those that build on it; the
   /// others still run.
@@ -49,10 +52,13 @@ class Executor {
  private:
   /// Marks the node done, or failed and throws.
   void run(CommandNode& node);
-  /// `unsupported`: how grave it is that comma cannot do what the node asks.
-  void run_reporting(CommandNode& node, Severity unsupported = Severity::error);
+  /// `unsupported`: how grave it is that comma cannot do what a node asks.
+  template <typename Act>
+  void report_errors(const Act& act, Severity unsupported);
+  /// Whether there is something to prepare, and all that it reads is there.
+  bool is_to_prepare(const CommandNode& node) const;
   /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
-  std::shared_ptr<ConceptData> invoke(const CommandNode& node) const;
+  static std::shared_ptr<ConceptData> invoke(const CommandTable& commands, const CommandNode& node);
   /// Whether nothing that it waits for is still to run.
   bool is_in_turn(const CommandNode& node) const;
   /// The first node that this one builds on and that is not there, or null.
@@ -60,6 +66,7 @@ class Executor {
 
   CommandGraph& graph_;
   const CommandTable& commands_;
+  const CommandTable* preparations_ = nullptr;
   Diagnostics& diagnostics_;
 };
 

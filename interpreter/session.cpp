@@ -39,7 +39,9 @@ Value Session::call(const CommandCall& written, bool eager) {
   ConceptPtr product = checked.call.result;
   if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);
   checked.call.result = product;
-  const int id = graph_.add(std::move(checked.call), product, page, checked.complete).id;
+  CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
+  node.caught = eager;
+  const int id = node.id;
   if (eager && may_run(id)) {
     try {
       executor_.force(id);

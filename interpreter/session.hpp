@@ -46,6 +46,8 @@ class Session : public CommandHost {
   void act_at_once(std::string command, std::function<void(const Call&)> action) {
     immediate_[std::move(command)] = std::move(action);
   }
+  /// See Executor::prepare_with.
+  void prepare_with(const CommandTable& preparations) { executor_.prepare_with(preparations); }
   /// Looks at each call before anything is solved; see Executor::run_cheap.
   void set_call_check(CallCheck check) { call_check_ = std::move(check); }
 

@@ -57,8 +57,11 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
       limits_(limits),
       context_{Files(study_.command_files.front(), study_.files, fs::current_path()), Console(verbosity), diagnostics_},
       commands_(make_command_table(context_)),
+      preparations_(make_preparation_table(context_)),
       catalogue_(catalogue_blobs()),
       session_(catalogue_, commands_, diagnostics_, options) {
+  context_.only_checks = options.check_only;
+  session_.prepare_with(preparations_);
   session_.set_assertion_sink([this](const interpreter::Assertion& assertion) {
     if (!unreadable_) context_.report(verdict_of(assertion));
   });

@@ -43,7 +43,7 @@ class StudyRun {
   interpreter::Limits limits_;
   interpreter::Diagnostics diagnostics_;
   Context context_;
-  interpreter::CommandTable commands_;
+  interpreter::CommandTable commands_, preparations_;
   interpreter::Catalogue catalogue_;
   interpreter::Session session_;
   std::unique_ptr<interpreter::Evaluator> evaluator_;

@@ -129,6 +129,39 @@ TEST_CASE("A check runs what is cheap and solves, prints and verifies nothing") 
   CHECK(result.as_concept()->data == nullptr);
 }
 
+TEST_CASE("Calls that solve are prepared before the first of them runs, unless they wait for one that solves, or the file catches what goes wrong") {
+  const bool check_only = GENERATE(true, false);
+  World world({.check_only = check_only});
+  CommandTable preparations;
+  preparations["SOLVE"] = [&](const Call& call) -> std::shared_ptr<ConceptData> {
+    world.log.push_back("prepare " + call.result->name);
+    throw DiagnosticError(call.result->name == "R1" ? "unsupported" : "contradictory-conditions", "");
+  };
+  world.session.prepare_with(preparations);
+  const Value mesh = world.call("MESH", {}, "MA");
+  const Value model = world.call("MODEL", {{"MESH", mesh}}, "MO");
+  world.call("SOLVE", {{"MODEL", model}}, "R1");
+  world.call("SOLVE", {{"MODEL", model}}, "R2");
+  if (check_only) world.call("SOLVE", {{"MODEL", model}}, "R3", true);
+  world.session.finish();
+  CHECK(world.log == Log{"MESH MA", "MODEL MO", "prepare R1", "prepare R2"});
+  REQUIRE(world.codes() == Log{"unsupported", "contradictory-conditions"});
+  CHECK((world.diagnostics.items()[0].severity == Severity::alarm) == check_only);
+}
+
+TEST_CASE("A call that solves alone tells its errors itself") {
+  World world;
+  CommandTable preparations;
+  preparations["SOLVE"] = [&](const Call&) -> std::shared_ptr<ConceptData> {
+    world.log.emplace_back("prepare");
+    return nullptr;
+  };
+  world.session.prepare_with(preparations);
+  world.call("SOLVE", {{"MODEL", world.call("MODEL", {{"MESH", world.call("MESH", {}, "MA")}}, "MO")}}, "R");
+  world.session.finish();
+  CHECK(world.log == Log{"MESH MA", "MODEL MO", "SOLVE R"});
+}
+
 TEST_CASE("Where nothing is solved, a cheap change in place need not wait for the solve that reads the old state") {
   World world({.check_only = true});
   const Value mesh = world.call("MESH", {}, "MA");

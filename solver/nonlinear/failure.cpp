@@ -90,6 +90,10 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
   return fmt::format("{} at {}", name_of(dofs.component_of(dof)), mesh.node_name(dofs.node_of(dof)));
 }
 
+bool is_failure_of_step(std::string_view code) {
+  return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
+}
+
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history) {
   if (!options.note_unconverged || history.empty() || !std::isfinite(history.back().absolute_residual)) return false;
   options.note_unconverged(history.back().instant);

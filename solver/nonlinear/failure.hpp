@@ -13,6 +13,9 @@ namespace comma::solver {
 /// "DY at N12": where a reduced residual is largest.
 std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh);
 
+/// Of the code of an error: what a shorter step may overcome.
+bool is_failure_of_step(std::string_view code);
+
 /// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);
 

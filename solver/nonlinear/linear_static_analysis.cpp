@@ -80,14 +80,22 @@ class LinearStaticAnalysis {
   TangentSystem tangent_;
 };
 
+void refuse_conditions(const StaticProblem& problem) {
+  if (!problem.contact && problem.unilateral.empty()) return;
+  throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions", "solve the problem as a nonlinear one");
+}
+
 }  // namespace
+
+void require_solvable(const StaticProblem& problem, const LinearStaticOptions& options) {
+  refuse_conditions(problem);
+  Counters counters;
+  const LinearStaticAnalysis analysis(problem, options, 1, counters);
+}
 
 void solve_linear_static(const StaticProblem& problem, std::span<const double> instants,
                          const LinearStaticOptions& options, Result& result, Counters& counters) {
-  if (problem.contact || !problem.unilateral.empty()) {
-    throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions",
-                "solve the problem as a nonlinear one");
-  }
+  refuse_conditions(problem);
   LinearStaticAnalysis analysis(problem, options, instants.size(), counters);
   result.model = problem.model;
   for (const double time : instants) {

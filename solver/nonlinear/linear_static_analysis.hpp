@@ -13,6 +13,9 @@ struct LinearStaticOptions {
   bool stresses = true;  ///< archive SIEF_ELGA besides DEPL
 };
 
+/// Throws what solve_linear_static() can tell before it solves.
+void require_solvable(const StaticProblem& problem, const LinearStaticOptions& options);
+
 /// Solves K(t) u = f_ext(t) + f_strains(t) under the conditions of the loads at each instant, the strains being those
 /// of the command variables, and appends a step for each to `result` (orders from 1 on, or after those it has): DEPL,
 /// SIEF_ELGA. K is factorised again only where command variables or time change material properties. Instants are

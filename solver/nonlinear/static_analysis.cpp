@@ -99,6 +99,13 @@ class StaticAnalysis {
     if (surface_doubts_) surface_doubts_->conclude(doubts_);
   }
 
+  void watch(const StepPlan& plan) {
+    require_watchable(plan, problem_, options_);
+    newton_.watch(residual_watch(plan));
+    limit_depth(plan.event(StepEventKind::depth));
+    watch_.emplace(plan, mesh_);
+  }
+
   const ContactDoubts& doubts() const { return doubts_; }
 
  private:
@@ -247,11 +254,6 @@ class StaticAnalysis {
     now_.paired = false;
   }
 
-  /// What a shorter step may overcome.
-  static bool is_failure_of_step(std::string_view code) {
-    return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
-  }
-
   /// Inequalities are solved on the compliance of bodies that stand without them.
   Error advised(const Error& error) const {
     const bool has_inequalities = !problem_.unilateral.empty() || (problem_.contact && !is_mixed());
@@ -261,15 +263,8 @@ class StaticAnalysis {
     return Error(error.code(), error.what(), otherwise + error.hint());
   }
 
-  void watch(const StepPlan& plan) {
-    require_watchable(plan, problem_, options_);
-    newton_.watch(residual_watch(plan));
-    limit_depth(plan.event(StepEventKind::depth));
-    watch_.emplace(plan, mesh_);
-  }
-
   void limit_depth(const StepEvent* event) {
-    if (event == nullptr) return;
+    if (!event) return;
     if (!mixed_ || !mixed_->has_penalties())
       throw Error("contradictory-keywords", "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')", "take ALGO_CONT='PENALISATION', or leave out the event");
     if (event->most_stiffening) mixed_->limit_depth(event->limit, *event->most_stiffening);
@@ -689,6 +684,12 @@ class StaticAnalysis {
 };
 
 }  // namespace
+
+void require_solvable(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options) {
+  Result result;
+  Counters counters;
+  StaticAnalysis(problem, options, result, counters, {}, {}).watch(plan);
+}
 
 ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
                            Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {

@@ -154,6 +154,9 @@ using IterationObserver = std::function<void(const IterationReport&)>;
 /// keeps of the steps, but must leave the last one at its end.
 using StepObserver = std::function<void(Result& result)>;
 
+/// Throws what solve_static() can tell before it solves: what does not go together, materials, sections and elements that are missing, contradictory conditions.
+void require_solvable(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options);
+
 /// Solves the steps of the plan (its first instant is the initial state, archived as order 0) and appends each converged one to
 /// `result`: DEPL, SIEF_ELGA, VARI_ELGA (one zero where materials have no memory), CONT_NOEU with contact, and the parameter ETA_PILOTAGE where the
 /// intensity of loads is an unknown (whose last step is the one that reaches a bound). Steps already appended stay when it throws.
