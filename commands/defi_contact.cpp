@@ -37,6 +37,7 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
   const solver::DofMap dofs(model);
   solver::UnilateralCondition condition;
   condition.nodes = remaining_nodes(zone, *model.mesh);
+  if (condition.nodes.empty()) throw DiagnosticError("nothing-left", "DEFI_CONTACT: all nodes of the zone are left out of it", zone.span, "leave out fewer (SANS_GROUP_NO), or the zone");
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
@@ -350,6 +351,29 @@ void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& def
   }
 }
 
+// Nodes that are left out of contact, or of friction, are slaves: others change nothing.
+void warn_of_idle_exclusions(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
+  struct Exclusion {
+    const char* keyword;
+    PlaceKeywords names;
+  };
+  static const Exclusion exclusions[] = {{"SANS_GROUP_NO", {"", "SANS_GROUP_NO", "", "", ""}},     {"SANS_NOEUD", {"", "", "SANS_NOEUD", "", ""}},
+                                         {"SANS_GROUP_MA", {"", "", "", "SANS_GROUP_MA", ""}},     {"SANS_MAILLE", {"", "", "", "", "SANS_MAILLE"}},
+                                         {"SANS_GROUP_NO_FR", {"", "SANS_GROUP_NO_FR", "", "", ""}}, {"SANS_NOEUD_FR", {"", "", "SANS_NOEUD_FR", "", ""}}};
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const std::vector<int> slaves = mesh.nodes_of_cells(definition.zones[k].slave_cells);
+    const std::set<int> known(slaves.begin(), slaves.end());
+    for (const auto& [keyword, names] : exclusions) {
+      if (!zones[k].given(keyword)) continue;
+      const std::vector<int> nodes = selected_nodes(zones[k], mesh, names);
+      if (std::ranges::any_of(nodes, [&](int node) { return known.contains(node); })) continue;
+      context.diagnostics.alarm("idle-exclusion", fmt::format("DEFI_CONTACT: {} names no node of the slave surface, and leaves out nothing", keyword), zones[k].span_of(keyword),
+                                "name nodes of GROUP_MA_ESCL, or leave it out");
+    }
+  }
+}
+
 // With fewer points than nodes a face leaves its multipliers undetermined.
 void warn_of_few_points(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
   if (definition.formulation != solver::ContactFormulation::mixed) return;
@@ -386,6 +410,7 @@ Product defi_contact(const Call& call, Context& context) {
     solver::ContactDefinition definition = contact(call, model);
     warn_of_few_points(call, definition, *model.mesh, context);
     warn_of_shared_nodes(call, definition, *model.mesh, context);
+    warn_of_idle_exclusions(call, definition, *model.mesh, context);
     product->conditions = std::move(definition);
   }
   return product;

@@ -112,7 +112,7 @@ void throw_no_convergence(double time, std::span<const IterationReport> history,
 
 void throw_active_set_limit(int limit, bool by_gradients) {
   if (by_gradients)
-    throw Error("contact-cycling", fmt::format("projected conjugate gradients did not find the contact forces within {} iterations", limit),
+    throw Error("contact-cycling", fmt::format("projected conjugate gradients did not find the contact forces within {} iteration{}", limit, limit == 1 ? "" : "s"),
                 "raise ITER_GCP_MAXI or RESI_ABSO, or take ALGO_CONT='CONTRAINTE'");
   throw Error("contact-cycling", fmt::format("the contact status did not settle within {} changes", limit),
               "raise ITER_CONT_MULT, or check that the bodies are held without contact");
