@@ -61,6 +61,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("with {} = {:.3g} the slave nodes of zone {} sink in by {:.3g}, {:.2g} times the size of the slave side", penalty,
                           doubt.penalty, zone, doubt.length, doubt.share),
               fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+    case solver::DoubtKind::soft_bound:
+      return {"soft-penalty",
+              fmt::format("with COEF_PENA = {:.3g} bounds are passed by {:.3g}, {:.0f} % of what they would be without them: forces come out too small by about that share",
+                          doubt.penalty, doubt.length, 100.0 * doubt.share),
+              fmt::format("take COEF_PENA = {:.0e}, or ALGO_CONT='CONTRAINTE'", doubt.wanted)};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",
               fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without contact: "

@@ -315,6 +315,24 @@ double NewtonSolver::pushed_back() {
   return largest_component(push_of_active());
 }
 
+void NewtonSolver::note_doubts(ContactDoubts& doubts) {
+  const Eigen::VectorXd& softness = reduced_.inequalities.softness;
+  if (active_.empty() || softness.isZero(0.0)) return;
+  const Eigen::VectorXd pushed = push_of_active();
+  double passed = 0.0, reach = 0.0, softest = 0.0;
+  for (const int row : active_) {
+    if (!(softness[row] > 0.0)) continue;
+    const double here = softness[row] * row_multipliers_[row];
+    reach = std::max(reach, here + pushed[row]);
+    if (here <= passed) continue;
+    passed = here;
+    softest = softness[row];
+  }
+  if (passed <= doubtful_share * reach) return;
+  const double share = passed / reach;
+  doubts.note({.kind = DoubtKind::soft_bound, .share = share, .length = passed, .penalty = 1.0 / softest, .wanted = wanted_penalty(1.0 / softest, share)});
+}
+
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
   if (tangent_.is_indefinite()) return solve_by_statuses(*schur_, problem);
   return by_gradients() ? solve_by_gradients(problem) : solve_active_set(*schur_, problem, memory_);

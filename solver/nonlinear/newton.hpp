@@ -65,6 +65,8 @@ class NewtonSolver {
 
   /// How far contact forces move the conditions' nodes, at most (a length).
   double pushed_back();
+  /// Of a step that has converged: how far bounds that give way are passed.
+  void note_doubts(ContactDoubts& doubts);
 
   int accepted_steps() const { return steps_; }
   /// Which stiffness the first iteration of the next steps takes.

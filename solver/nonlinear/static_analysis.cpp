@@ -81,7 +81,7 @@ class StaticAnalysis {
       newton_.accept_step();
       if (mixed_) mixed_->accept_step(instant - from);
       if (path_) path_->accept_step(now_.state.u);
-      if (mixed_) mixed_->note_doubts(now_.state.u, doubts_);
+      mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(doubts_);
       note_doubts_about_surfaces(instant);
       archive(instant, *iterations);
       assembler_.accept(now_.state.u);

@@ -93,6 +93,18 @@ TEST_CASE("A spring that closes a gap: closed form") {
     const double expected = (push + s * gap) / (k + s);
     for (const int step : {1, 2}) CHECK(scene.displacement(left, Component::dx, step) == Approx(expected).epsilon(1e-13));
     CHECK(push - scene.internal_force(left, Component::dx) == Approx(s * (expected - gap)).epsilon(1e-12));
+    // Without it the node would be 0.4 beyond.
+    for (const double penalty : {s, 1e6 * s}) {
+      scene.problem.unilateral[0].penalty = penalty;
+      Result again;
+      const auto doubts = solve_static(scene.problem, StepPlan({0.0, 1.0}), {}, again, scene.counters).all();
+      REQUIRE(doubts.size() == (penalty == s ? 1 : 0));
+      if (doubts.empty()) continue;
+      CHECK(doubts[0].kind == DoubtKind::soft_bound);
+      CHECK(doubts[0].length == Approx(expected - gap));
+      CHECK(doubts[0].share == Approx((expected - gap) / (push / k - gap)));
+      CHECK(doubts[0].wanted == Approx(1e5));
+    }
   }
   SECTION("soft stop that the node is pushed beyond") {
     scene.problem.unilateral[0].penalty = s;
