@@ -19,6 +19,7 @@ constexpr double open_multiplier = 1e-10;
 bool has_points_on_nodes(const CondensedProblem& problem) {
   std::vector<char> taken(static_cast<std::size_t>(problem.node_count), 0);
   for (const CondensedPoint& point : problem.points) {
+    if (point.node_count > 1) return false;
     if (point.rows == 0) continue;
     if (point.node_count != 1 || point.shape[0] != 1.0 || point.rows != point.components) return false;
     const auto node = static_cast<std::size_t>(point.nodes[0]);

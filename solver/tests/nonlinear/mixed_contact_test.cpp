@@ -184,6 +184,27 @@ TEST_CASE("A pressed block sticks below the limit of friction and slides at it")
   }
 }
 
+TEST_CASE("A surface that faces nothing takes no pressure, wherever its points lie") {
+  for (const ContactRule rule : {ContactRule::automatic, ContactRule::gauss})
+    for (const double friction : {0.0, 0.3}) {
+      Scene scene;
+      const auto ground = scene.block("g", {0, 0}, {1, 1}, 2, 1, 1000.0, 0.0);
+      const auto block = scene.block("b", {5, 0.9}, {1, 1}, 2, 1, 1000.0, 0.0);
+      for (const auto& row : ground.nodes) scene.impose(row, Component::dx, 0), scene.impose(row, Component::dy, 0);
+      scene.impose(block.nodes[1], Component::dy, -0.1);
+      scene.impose({block.nodes[1][0]}, Component::dx, 0);
+      MixedZone& mixed = scene.zone(ground.top, block.bottom).mixed;
+      mixed.rule = rule;
+      mixed.friction = friction;
+      scene.problem.contact->formulation = ContactFormulation::mixed;
+      scene.solve(1);
+      for (const int node : block.nodes[0]) {
+        CHECK(pressure(scene, node) == 0.0);
+        CHECK(scene.displacement(node, Component::dy) == Approx(-0.1));
+      }
+    }
+}
+
 TEST_CASE("With a penalty of friction what sticks creeps by its share of the limit over the coefficient") {
   for (const ContactRule rule : {ContactRule::automatic, ContactRule::gauss})
     for (const bool penalised : {false, true}) {
