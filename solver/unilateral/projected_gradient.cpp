@@ -31,10 +31,11 @@ class ProjectedGradient {
     const double step = 1.0 / largest_eigenvalue();
     VectorXd direction = free_gradient();
     while (!settled()) {
-      if (++solution_.iterations > limit_) {
+      if (solution_.iterations == limit_) {
         solution_.verdict = ActiveSetVerdict::too_many_iterations;
         break;
       }
+      ++solution_.iterations;
       const VectorXd chopped = chopped_gradient();
       const VectorXd free = free_gradient();
       if (chopped.squaredNorm() <= reduced(free, step).dot(free)) {

@@ -63,5 +63,7 @@ TEST_CASE("rows that nothing resists, and too few iterations, are told") {
   CHECK(random.by_gradients().verdict == ActiveSetVerdict::contradictory);
   ProjectedGradientOptions options;
   options.max_iterations = 2;
-  CHECK(Random(60, 1).by_gradients(options).verdict == ActiveSetVerdict::too_many_iterations);
+  const ActiveSetSolution short_of = Random(60, 1).by_gradients(options);
+  CHECK(short_of.verdict == ActiveSetVerdict::too_many_iterations);
+  CHECK(short_of.iterations == 2);
 }
