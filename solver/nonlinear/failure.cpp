@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "solver/error.hpp"
-
 namespace comma::solver {
 namespace {
 
@@ -92,6 +90,14 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
 
 bool is_failure_of_step(std::string_view code) {
   return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" || code == "integration-failure";
+}
+
+Error advised(const Error& error, const StaticProblem& problem) {
+  const bool has_inequalities = !problem.unilateral.empty() || (problem.contact && !is_condensed(*problem.contact));
+  if (error.code() != "singular-matrix" || !has_inequalities) return error;
+  const std::string otherwise =
+      problem.contact ? "if contact is to hold it, take FORMULATION='CONTINUE' or ALGO_CONT='PENALISATION', which do without; else " : "bounds alone cannot hold it: ";
+  return Error(error.code(), error.what(), otherwise + error.hint());
 }
 
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history) {

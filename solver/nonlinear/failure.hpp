@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/constraints/elimination.hpp"
+#include "solver/error.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {
@@ -15,6 +16,9 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
 
 /// Of the code of an error: what a shorter step may overcome.
 bool is_failure_of_step(std::string_view code);
+
+/// An error as it is, but of a singular stiffness with what helps bodies that only inequalities hold: these are solved on the compliance of bodies that stand without them.
+Error advised(const Error& error, const StaticProblem& problem);
 
 /// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);

@@ -67,9 +67,7 @@ class StaticAnalysis {
 
   void run(const StepPlan& plan) {
     if (plan.instants.empty()) return;
-    plan_ = &plan;
-    watch(plan);
-    start(plan.instants.front());
+    begin(plan);
     begin_measuring();
     if (mixed_) mixed_->iterate_jointly(iterates_jointly());
     StepSequence sequence(plan);
@@ -99,11 +97,14 @@ class StaticAnalysis {
     if (surface_doubts_) surface_doubts_->conclude(doubts_);
   }
 
-  void watch(const StepPlan& plan) {
+  /// All that comes before the first step.
+  void begin(const StepPlan& plan) {
+    plan_ = &plan;
     require_watchable(plan, problem_, options_);
     newton_.watch(residual_watch(plan));
     limit_depth(plan.event(StepEventKind::depth));
     watch_.emplace(plan, mesh_);
+    start(plan.instants.front());
   }
 
   const ContactDoubts& doubts() const { return doubts_; }
@@ -132,7 +133,7 @@ class StaticAnalysis {
       return take_again(instant, before, sequence, "meets a change of contact");
     } catch (const Error& error) {
       const StepEvent* event = watch_->event_behind(error.code());
-      if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error);
+      if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_);
       if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
         if (event) throw;
         return solve_as_last_resort(instant, before, error);
@@ -190,11 +191,11 @@ class StaticAnalysis {
 
   /// Of a step that cannot be cut.
   int solve_as_last_resort(double instant, const Progress& before, const Error& error) {
-    if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error);
+    if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error, problem_);
     try {
       return solve_settled(instant, before);
     } catch (const Error& again) {
-      throw advised(again);
+      throw advised(again, problem_);
     }
   }
 
@@ -252,15 +253,6 @@ class StaticAnalysis {
     if (!mixed_) return;
     mixed_->restore();
     now_.paired = false;
-  }
-
-  /// Inequalities are solved on the compliance of bodies that stand without them.
-  Error advised(const Error& error) const {
-    const bool has_inequalities = !problem_.unilateral.empty() || (problem_.contact && !is_mixed());
-    if (error.code() != "singular-matrix" || !has_inequalities) return error;
-    const std::string otherwise =
-        problem_.contact ? "if contact is to hold it, take FORMULATION='CONTINUE' or ALGO_CONT='PENALISATION', which do without; else " : "bounds alone cannot hold it: ";
-    return Error(error.code(), error.what(), otherwise + error.hint());
   }
 
   void limit_depth(const StepEvent* event) {
@@ -688,7 +680,7 @@ class StaticAnalysis {
 void require_solvable(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options) {
   Result result;
   Counters counters;
-  StaticAnalysis(problem, options, result, counters, {}, {}).watch(plan);
+  StaticAnalysis(problem, options, result, counters, {}, {}).begin(plan);
 }
 
 ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
