@@ -26,9 +26,9 @@ void require_no_interpenetration(const ContactDefinition& contact, const Mesh& m
     const double depth = -surface_gap(pair, mesh, now);
     if (depth <= contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
     throw Error("contact-interpenetration",
-                fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
-                            mesh.cell_name(pair.facet)),
-                "enforce contact in that zone, or allow the depth");
+                fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
+                            mesh.cell_name(pair.facet), pair.zone + 1),
+                "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)");
   }
 }
 
