@@ -18,7 +18,7 @@ Archive::Archive(const interpreter::Call& call) {
 
 bool Archive::is_wanted(double instant, int number) const {
   if (instants_.empty()) return number % every_ == 0;
-  return std::ranges::any_of(instants_, [&](double wanted) { return std::abs(wanted - instant) <= tolerance_.reach(wanted); });
+  return std::ranges::any_of(instants_, [&](double wanted) { return tolerance_.meets(wanted, instant); });
 }
 
 std::vector<double> Archive::missed(std::span<const double> computed) const {

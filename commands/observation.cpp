@@ -12,7 +12,6 @@
 #include "commands/field_reading.hpp"
 #include "commands/field_types.hpp"
 #include "commands/reductions.hpp"
-#include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -124,7 +123,7 @@ Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh, cons
     Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
                             everywhere ? all_indices(mesh.node_count()) : selected_nodes(given, mesh, places_of_nodes),
                             everywhere ? all_indices(mesh.cell_count()) : selected_cells(given, mesh, cell_places),
-                            given.reals("INST")};
+                            given.reals("INST"), instant_tolerance(given)};
     if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;
     observations_.push_back(std::move(observation));
   }
@@ -135,7 +134,7 @@ bool Observer::is_due(const Observation& observation, double instant, int number
   if (number == 0) return keywords.text("OBSE_ETAT_INIT") == "OUI";
   if (keywords.has("PAS_OBSE")) return number % std::max<std::int64_t>(1, keywords.integer("PAS_OBSE")) == 0;
   if (observation.instants.empty()) return true;
-  return std::ranges::any_of(observation.instants, [&](double wanted) { return std::abs(wanted - instant) <= instant_reach(keywords, wanted); });
+  return std::ranges::any_of(observation.instants, [&](double wanted) { return observation.tolerance.meets(wanted, instant); });
 }
 
 void Observer::observe(const solver::ResultStep& step, int number, Table& table) {
@@ -147,7 +146,7 @@ void Observer::observe(const solver::ResultStep& step, int number, Table& table)
 void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const {
   for (const Observation& observation : observations_) {
     const Keywords& keywords = observation.keywords;
-    if (const auto missed = missed_instants(instant_tolerance(keywords), observation.instants, computed); !missed.empty())
+    if (const auto missed = missed_instants(observation.tolerance, observation.instants, computed); !missed.empty())
       diagnostics.alarm("unknown-step", fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")), keywords.span,
                         "name instants of INCREMENT/LIST_INST");
     else if (observation.was_due && observation.rows == 0)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "commands/concepts.hpp"
+#include "commands/result_reading.hpp"
 #include "interpreter/call.hpp"
 
 namespace comma::commands {
@@ -30,6 +31,7 @@ class Observer {
     std::string name;  ///< in the column NOM_OBSERVATION
     std::vector<int> nodes, cells;
     std::vector<double> instants;  ///< empty: every step
+    InstantTolerance tolerance;    ///< of these
     bool was_due = false;
     std::size_t rows = 0;
   };

@@ -29,9 +29,9 @@ std::string known_instants(const solver::Result& result) {
 
 // Null where no step stands.
 const ResultStep* find_step(const Keywords& keywords, const solver::Result& result, double instant) {
-  const double reach = instant_reach(keywords, instant);
+  const InstantTolerance tolerance = instant_tolerance(keywords);
   for (const ResultStep& step : result.steps) {
-    if (std::abs(step.instant - instant) <= reach) return &step;
+    if (tolerance.meets(instant, step.instant)) return &step;
   }
   return nullptr;
 }
@@ -95,9 +95,8 @@ std::vector<double> missing_instants(const Keywords& keywords, const solver::Res
 std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted, std::span<const double> computed) {
   std::vector<double> missed;
   for (const double instant : wanted) {
-    const double reach = tolerance.reach(instant);
     const bool is_among = !computed.empty() && instant > computed.front() && instant < computed.back();
-    if (is_among && std::ranges::none_of(computed, [&](double each) { return std::abs(instant - each) <= reach; })) missed.push_back(instant);
+    if (is_among && std::ranges::none_of(computed, [&](double each) { return tolerance.meets(instant, each); })) missed.push_back(instant);
   }
   return missed;
 }

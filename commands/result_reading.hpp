@@ -1,10 +1,10 @@
 // Finding a step, a field and a component in a result by the keywords of post-processing commands.
 #pragma once
 
-#include <functional>
-#include <string>
 #include <cmath>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "commands/concepts.hpp"
@@ -25,6 +25,8 @@ struct InstantTolerance {
   bool relative = true;
 
   double reach(double instant) const { return relative && instant != 0.0 ? precision * std::abs(instant) : precision; }
+  /// Whether a step that stands there is the one `wanted`.
+  bool meets(double wanted, double stands) const { return std::abs(wanted - stands) <= reach(wanted); }
 };
 
 /// PRECISION and CRITERE, but in TEST_* the second values of TOLE_MACHINE and CRITERE, whose first ones are the verdict's (U4.92.01).
