@@ -62,6 +62,9 @@ inline constexpr double doubtful_passage = 0.05;
 /// compliance of the bodies.
 double wanted_penalty(double penalty, double share);
 
+/// A doubt about a penalty that leaves the doubt's length of `reach`, what there would be without it; none where that is within `doubtful_share`.
+void note_soft_penalty(ContactDoubt doubt, double reach, ContactDoubts& doubts);
+
 /// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone in, beyond where
 /// the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back. Zones of local averages see all of the
 /// master side and have none, nor have those whose penalty is known to be soft. Where contact pushes

@@ -56,14 +56,9 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
     depth = std::max(depth, -now[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
   }
-  ContactDoubt doubt{.zone = zone, .length = depth, .penalty = definition.mixed.augmentation};
+  ContactDoubt doubt{.kind = DoubtKind::soft_penalty, .zone = zone, .length = depth, .penalty = definition.mixed.augmentation};
   // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
-  if (problem_.springs.empty() && depth > doubtful_share * reach) {
-    doubt.kind = DoubtKind::soft_penalty;
-    doubt.share = std::min(1.0, depth / reach);
-    doubt.wanted = wanted_penalty(doubt.penalty, doubt.share);
-    doubts.note(doubt);
-  }
+  if (problem_.springs.empty()) note_soft_penalty(doubt, reach, doubts);
   const double size = extent(mesh_, definition.slave_cells);
   if (depth <= doubtful_depth * size) return;
   doubt.kind = DoubtKind::deep_penalty;

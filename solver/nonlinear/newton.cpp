@@ -328,9 +328,7 @@ void NewtonSolver::note_doubts(ContactDoubts& doubts) {
     passed = here;
     softest = softness[row];
   }
-  if (passed <= doubtful_share * reach) return;
-  const double share = passed / reach;
-  doubts.note({.kind = DoubtKind::soft_bound, .share = share, .length = passed, .penalty = 1.0 / softest, .wanted = wanted_penalty(1.0 / softest, share)});
+  note_soft_penalty({.kind = DoubtKind::soft_bound, .length = passed, .penalty = 1.0 / softest}, reach, doubts);
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
