@@ -39,7 +39,7 @@ void Executor::report_errors(const Act& act, Severity unsupported) {
 }
 
 bool Executor::is_to_prepare(const CommandNode& node) const {
-  return preparations_ != nullptr && node.complete && !node.caught && preparations_->contains(node.call.command) && is_in_turn(node) && missing_source(node) == nullptr;
+  return preparations_ != nullptr && preparations_->contains(node.call.command) && !node.caught && is_in_turn(node) && can_run(node);
 }
 
 void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) {
@@ -53,9 +53,8 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
       node.state = NodeState::failed;
       continue;
     }
-    const bool runs = node.complete && is_preparation(node) && (nothing_more || is_in_turn(node)) && missing_source(node) == nullptr;
-    if (runs) report_errors([&] { run(node); }, unsupported);
-    if (prepares && solves(node) && is_to_prepare(node)) report_errors([&] { invoke(*preparations_, node); }, unsupported);
+    if (is_preparation(node) && (nothing_more || is_in_turn(node)) && can_run(node)) report_errors([&] { run(node); }, unsupported);
+    if (prepares && is_to_prepare(node)) report_errors([&] { invoke(*preparations_, node); }, unsupported);
   }
 }
 
@@ -70,7 +69,7 @@ void Executor::run_all(Need least) {
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
-    if (wanted && node.complete && missing_source(node) == nullptr)
+    if (wanted && can_run(node))
       report_errors([&] { run(node); }, Severity::error);
     else
       node.state = NodeState::skipped;

@@ -55,8 +55,10 @@ class Executor {
   /// `unsupported`: how grave it is that comma cannot do what a node asks.
   template <typename Act>
   void report_errors(const Act& act, Severity unsupported);
-  /// Whether there is something to prepare, and all that it reads is there.
+  /// Whether there is something to prepare now.
   bool is_to_prepare(const CommandNode& node) const;
+  /// Whether its values are known, and all that it reads is there.
+  bool can_run(const CommandNode& node) const { return node.complete && missing_source(node) == nullptr; }
   /// Calls the command. Throws DiagnosticError, with the call's place when the command gave none.
   static std::shared_ptr<ConceptData> invoke(const CommandTable& commands, const CommandNode& node);
   /// Whether nothing that it waits for is still to run.
