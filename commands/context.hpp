@@ -51,7 +51,7 @@ struct Context {
   interpreter::Diagnostics& diagnostics;
   std::vector<Verdict> verdicts = {};
   solver::Counters counters = {};
-  bool only_checks = false;             ///< nothing will be solved
+  bool only_checks = false;            ///< nothing will be solved
   std::set<std::string> written = {};  ///< outputs that this run has opened: the first writing replaces, later ones append
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.

@@ -44,6 +44,7 @@ solver::LinearStaticOptions options_of(const Call& call) {
 void warn_of_scene(const Call& call, const solver::StaticProblem& problem, Context& context) {
   warn_of_locking(call, problem, context);
   warn_of_missing_data(call, problem, context);
+  warn_of_repeated_loads(call, context);
 }
 
 }  // namespace
@@ -68,7 +69,6 @@ Product meca_statique(const Call& call, Context& context) {
   warn_of_scene(call, product->problem, context);
   const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
-  warn_of_repeated_loads(call, context);
   warn_of_indefinite_stiffness(call, before, context);
   return product;
 }

@@ -122,10 +122,10 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
 
 }  // namespace
 
-void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& contact, const solver::ContactDoubts& doubts, Context& context) {
-  const auto& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
+void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem, const solver::ContactDoubts& doubts, Context& context) {
+  static const solver::ContactDefinition bounds_alone;
   for (const solver::ContactDoubt& doubt : doubts.all()) {
-    const Advice advice = advice_on(doubt, contact, mesh);
+    const Advice advice = advice_on(doubt, problem.contact ? *problem.contact : bounds_alone, *problem.model->mesh);
     context.diagnostics.alarm(advice.code, call.command + ": " + advice.message, call.span, advice.hint);
   }
 }

@@ -38,7 +38,7 @@ void warn_of_initial_strains(const interpreter::Call& call, const solver::Static
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
 
 /// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave` on what may be wrong with the contact and the bounds of a solution.
-void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& contact, const solver::ContactDoubts& doubts, Context& context);
+void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem, const solver::ContactDoubts& doubts, Context& context);
 
 /// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);

@@ -256,7 +256,7 @@ class StaticAnalysis {
   }
 
   void limit_depth(const StepEvent* event) {
-    if (!event) return;
+    if (event == nullptr) return;
     if (!mixed_ || !mixed_->has_penalties())
       throw Error("contradictory-keywords", "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')", "take ALGO_CONT='PENALISATION', or leave out the event");
     if (event->most_stiffening) mixed_->limit_depth(event->limit, *event->most_stiffening);
