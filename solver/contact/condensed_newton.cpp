@@ -45,7 +45,8 @@ constexpr double farthest_state = 1e4;
 
 /// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
 int direct_rows(const CondensedProblem& problem) {
-  return problem.one_step || has_penalty(problem) ? std::max(problem.direct_rows, problem.most_direct_rows) : problem.direct_rows;
+  const int usual = has_points_on_nodes(problem) ? problem.direct_rows : problem.direct_rows_between;
+  return problem.one_step || has_penalty(problem) ? std::max(usual, problem.most_direct_rows) : usual;
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ struct CondensedProblem {
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
   int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and have no penalty (solver/contact/nodal_step.hpp)
+  int direct_rows_between = 200;  ///< the same where points lie between nodes: a direct system has all jumps and multipliers there, one by products the multipliers alone (solver/contact/interpolated_step.hpp)
   int most_products = 150;      ///< a system
   int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
   bool indefinite = false;      ///< S may be: no active-set method on it

@@ -46,7 +46,7 @@ std::optional<VectorXd> InterpolatedStep::solve_by_products(SchurComplement& sch
   const SparseColumns forces = matrix(rows, unknowns_, forces_), law = matrix(laws, unknowns_, laws_);
   const SparseColumns by_jumps = forces.leftCols(rows), law_by_jumps = law.leftCols(rows);
   const MatrixXd by_multipliers = responses(schur, forces.rightCols(laws));
-  const Eigen::PartialPivLU<MatrixXd> without_augmentation(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
+  const DenseLu without_augmentation(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
 
   // The solution without the forces that jumps bring by themselves leaves these, and nothing of the laws.
   const auto solved_without = [&](const VectorXd& of_jumps, const VectorXd& of_laws) {

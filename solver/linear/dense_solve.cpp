@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "solver/linear/blas_threads.hpp"
 #include "solver/linear/largest_component.hpp"
@@ -42,26 +40,24 @@ const Lapack& lapack() {
   return loaded;
 }
 
-/// P M = L U.
-class DenseLu {
- public:
-  explicit DenseLu(const Eigen::MatrixXd& matrix);
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// The diagonal of U.
-  Eigen::VectorXd pivots() const { return small_ ? small_->matrixLU().diagonal() : factors_.diagonal(); }
+/// All i > j, those of a tile that fits the cache one after the other.
+template <class Function>
+void for_pairs(Eigen::Index n, const Function& function) {
+  constexpr Eigen::Index tile = 64;
+  for (Eigen::Index column = 0; column < n; column += tile)
+    for (Eigen::Index row = column; row < n; row += tile)
+      for (Eigen::Index j = column; j < std::min(n, column + tile); ++j)
+        for (Eigen::Index i = std::max(row, j + 1); i < std::min(n, row + tile); ++i) function(i, j);
+}
 
- private:
-  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> small_;
-  Eigen::MatrixXd factors_;
-  std::vector<int> interchanges_;
-};
+}  // namespace
 
-DenseLu::DenseLu(const Eigen::MatrixXd& matrix) {
+DenseLu::DenseLu(Eigen::MatrixXd matrix) {
   if (matrix.rows() < large_dense) {
     small_.emplace(matrix);
     return;
   }
-  factors_ = matrix;
+  factors_ = std::move(matrix);
   const int n = static_cast<int>(factors_.rows());
   interchanges_.resize(static_cast<std::size_t>(n));
   int info = 0;
@@ -78,18 +74,6 @@ Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& b) const {
   lapack().solve("N", &n, &one, factors_.data(), &n, interchanges_.data(), x.data(), &n, &info);
   return x;
 }
-
-/// All i > j, those of a tile that fits the cache one after the other.
-template <class Function>
-void for_pairs(Eigen::Index n, const Function& function) {
-  constexpr Eigen::Index tile = 64;
-  for (Eigen::Index column = 0; column < n; column += tile)
-    for (Eigen::Index row = column; row < n; row += tile)
-      for (Eigen::Index j = column; j < std::min(n, column + tile); ++j)
-        for (Eigen::Index i = std::max(row, j + 1); i < std::min(n, row + tile); ++i) function(i, j);
-}
-
-}  // namespace
 
 bool factorise_dense(Eigen::MatrixXd& lower) {
   if (lower.rows() < large_dense) return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(lower).info() == Eigen::Success;

@@ -1,9 +1,27 @@
 // Dense systems whose unknowns differ in size by any number of decades.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <Eigen/Dense>
 
 namespace comma::solver {
+
+/// P M = L U for a square M (n x n), by LAPACK from `large_dense` unknowns on.
+class DenseLu {
+ public:
+  explicit DenseLu(Eigen::MatrixXd matrix);
+  /// x (n) with M x = b, not finite where a pivot vanished.
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// The diagonal of U.
+  Eigen::VectorXd pivots() const { return small_ ? small_->matrixLU().diagonal() : factors_.diagonal(); }
+
+ private:
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> small_;
+  Eigen::MatrixXd factors_;
+  std::vector<int> interchanges_;
+};
 
 /// x (n) with M x = b for a square M (n x n): rows and columns are first brought to the size of one, then LU with row interchanges and one step of
 /// refinement, by LAPACK on all cores from `large_dense` unknowns on. Where rows depend on each other, the x of least size that comes nearest.
