@@ -57,6 +57,13 @@ class CondensedSearch {
     return solution_;
   }
 
+  /// By Newton's method alone, from a state near the solution and the jumps that go with it.
+  CondensedSolution attempt() {
+    newton_.balance_jumps();
+    conclude(settle(Rubbing::by_law, Patience::short_of_growth));
+    return solution_;
+  }
+
   /// From a state near the solution, and no other.
   CondensedSolution refine() {
     if (has_penalty(problem_)) newton_.balance_jumps();  // forces of penalties come from jumps, not from multipliers
@@ -195,6 +202,7 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
   if (has_shared_friction(problem))
     return solve_shared_friction(problem, state, {[&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).run(); },
                                                   [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).refine(); },
+                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).attempt(); },
                                                   [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).smooth(Augmentations::of_law); },
                                                   [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).smooth(Augmentations::of_pressures); }});
   return CondensedSearch(schur, problem, state).run();

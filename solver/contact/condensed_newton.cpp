@@ -96,6 +96,23 @@ void CondensedNewton::balance_jumps() {
   number_unknowns();
   require_columns();
   jumps_ = balanced_jumps();
+  take_jumps_of_penalties();
+}
+
+/// Of a stiff penalty, jumps that are a little off make any force.
+void CondensedNewton::take_jumps_of_penalties() {
+  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    const ContactLaw law = law_of(p);
+    const Vector3d multiplier = multiplier_at(point);
+    if (law.penalised) jumps_[point.first_row] = -multiplier[0] / law.augmentation;
+    if (!law.friction_penalised || point.rows == 1) continue;
+    auto slip = jumps_.segment(point.first_row + 1, point.rows - 1);
+    const Eigen::VectorXd sticking = multiplier.segment(1, point.rows - 1) / law.friction_augmentation;
+    const bool slides = state_.statuses[p] == ContactStatus::sliding && sticking.norm() > 0.0;
+    slip = (slides ? std::max(1.0, slip.norm() / sticking.norm()) : 1.0) * sticking;
+  }
 }
 
 ContactLaw CondensedNewton::law_of(std::size_t p) const {

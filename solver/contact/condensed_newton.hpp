@@ -37,7 +37,7 @@ class CondensedNewton {
 
   CondensedPlace place() const { return {state_, jumps_, forces_}; }
   void go_to(const CondensedPlace& place);
-  /// Jumps as the multipliers have them.
+  /// Jumps as the multipliers have them: those that bodies come to under their forces, and at penalties those that ask for these forces.
   void balance_jumps();
   /// Laws that are smooth at first need no statuses. On nodes augmentations are not in the solution, and those of the bodies lead there.
   bool follow_smoothed(int& iterations, Augmentations augmentations);
@@ -66,6 +66,7 @@ class CondensedNewton {
   bool is_lost() const { return is_lost_; }
 
  private:
+  void take_jumps_of_penalties();
   ContactLaw law_of(std::size_t p) const;
   /// The share of the correction that was taken.
   double correct_partly();

@@ -13,6 +13,8 @@ constexpr int most_turns = 20;
 constexpr int most_failures = 6;
 /// Shares of pressure that change by less are near enough to those of the solution for Newton's method.
 constexpr double near_share = 1e-2;
+/// The largest pressure counts as the same within this share of itself.
+constexpr double same_pressure = 1e-6;
 
 enum class Shears : std::uint8_t { none, as_they_are, by_shares };
 
@@ -38,20 +40,9 @@ class SharedFriction {
   CondensedSolution run(CondensedState& state) {
     const CondensedState start = state;
     CondensedSolution solution;
-    pressure_ = largest_pressure(given_, state);
-    const bool searched = search_.found_last;
-    if (searched && search_shares(start, state, solution)) return counted(start, state, solution);
-    if (pressure_ > 0.0 && solve_by_shares(state, solution)) return counted(start, state, solution);
-    state = start;
-    find_pressure(state);
-    take(Shears::as_they_are);
-    solution = solve_once(state, methods_.refine);
-    if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return counted(start, state, solution);
-    if (!searched && search_shares(start, state, solution)) return counted(start, state, solution);
-    if (solution.verdict != CondensedVerdict::solved) {
-      state = start;
-      solution = solve_by_shears(state);
-      if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return counted(start, state, solution);
+    if (find_shares(start, state, solution)) {
+      take_own_pressure(state, solution);
+      return counted(start, state, solution);
     }
     if (lets_creep()) solution.verdict = CondensedVerdict::too_many_iterations;
     solution.by_shears = solution.verdict == CondensedVerdict::solved;
@@ -59,6 +50,49 @@ class SharedFriction {
   }
 
  private:
+  /// Whether there is a solution by shares; otherwise what stands in for it.
+  bool find_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
+    if (solve_as_expected(state, solution)) return true;
+    pressure_ = largest_pressure(given_, state);
+    const bool searched = search_.found_last;
+    if (searched && search_shares(start, state, solution)) return true;
+    if (pressure_ > 0.0 && solve_by_shares(state, solution)) return true;
+    state = start;
+    find_pressure(state);
+    take(Shears::as_they_are);
+    solution = solve_once(state, methods_.refine);
+    if (solution.verdict == CondensedVerdict::solved && shares_follow(state, solution)) return true;
+    if (!searched && search_shares(start, state, solution)) return true;
+    if (solution.verdict == CondensedVerdict::solved) return false;
+    state = start;
+    solution = solve_by_shears(state);
+    return solution.verdict == CondensedVerdict::solved && shares_follow(state, solution);
+  }
+
+  /// Where points of a node are open and others closed, the law there depends on the pressure of shares: it is to be the largest of the solution, whatever that was found from.
+  void take_own_pressure(CondensedState& state, CondensedSolution& solution) {
+    for (int turn = 0; turn < most_turns && is_partly_open(state); ++turn) {
+      const double pressure = largest_pressure(given_, state);
+      if (!(pressure > 0.0) || std::abs(pressure - pressure_) <= same_pressure * pressure) return;
+      pressure_ = pressure;
+      CondensedSolution next;
+      if (!solve_at_once(state, next)) return;
+      solution = next;
+    }
+  }
+
+  bool is_partly_open(const CondensedState& state) const {
+    std::vector<char> open(shared_.size(), 0), closed = open;
+    for (std::size_t p = 0; p < given_.points.size(); ++p) {
+      const CondensedPoint& point = given_.points[p];
+      std::vector<char>& touched = state.statuses[p] == ContactStatus::open ? open : closed;
+      for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i) touched[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+    }
+    for (std::size_t node = 0; node < open.size(); ++node)
+      if (open[node] && closed[node]) return true;
+    return false;
+  }
+
   bool lets_creep() const {
     return std::ranges::any_of(given_.points, [](const CondensedPoint& point) { return point.share_augmentation > 0.0 && point.law.friction_penalised; });
   }
@@ -94,10 +128,8 @@ class SharedFriction {
   bool shares_follow(CondensedState& state, CondensedSolution& solution) {
     pressure_ = largest_pressure(given_, state);
     if (!(pressure_ > 0.0)) return true;
-    CondensedState shared_state = state;
     CondensedSolution shared;
-    if (!solve_by_shares(shared_state, shared)) return false;
-    state = shared_state;
+    if (!solve_by_shares(state, shared)) return false;
     solution = shared;
     return true;
   }
@@ -122,8 +154,7 @@ class SharedFriction {
     CondensedState shared_state = start;
     const CondensedSolution shared = solve_once(shared_state, methods_.smooth);
     if (shared.verdict != CondensedVerdict::solved) return false;
-    scale_shears(shared_state, [this](double pressure) { return pressure / pressure_; });
-    state = shared_state;
+    state = in_shears(shared_state);
     solution = shared;
     return true;
   }
@@ -144,30 +175,45 @@ class SharedFriction {
     return solve_once(state);
   }
 
-  /// Pressures that weigh shares follow those of the solution, in turns; the last of them by Newton's method. Whether that leads anywhere.
-  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) {
-    const CondensedState start = state;
-    take(Shears::by_shares);
-    scale_shears(state, [this](double pressure) { return pressure_ / pressure; });
-    bool solved = false;
-    double change = hold_shares(state);
-    for (int turn = 0; turn < most_turns && !solved; ++turn) {
-      const CondensedState before = state;
-      solution = solve_once(state, methods_.refine);
-      if (solution.verdict != CondensedVerdict::solved && lets_creep()) {
-        state = before;
-        solution = solve_once(state);
-      }
-      if (solution.verdict != CondensedVerdict::solved) break;
-      change = hold_shares(state);
-      if (change < near_share) solved = finish(state, solution);
-    }
-    if (!solved) {
-      state = start;
-      return false;
-    }
-    scale_shears(state, [this](double pressure) { return pressure / pressure_; });
+  /// From the multipliers that earlier steps let expect, where there are any.
+  bool solve_as_expected(CondensedState& state, CondensedSolution& solution) {
+    if (given_.expected.size() != state.multipliers.size()) return false;
+    CondensedState expected{given_.expected, state.statuses};
+    pressure_ = largest_pressure(given_, expected);
+    if (!(pressure_ > 0.0) || !solve_at_once(expected, solution)) return false;
+    state = expected;
     return true;
+  }
+
+  /// Shares of the limit that the pressures of the solution weigh: at once from the pressures at hand, or in turns. Whether that leads anywhere; if not, the state stays.
+  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) { return solve_at_once(state, solution) || solve_in_turns(state, solution); }
+
+  bool solve_at_once(CondensedState& state, CondensedSolution& solution) {
+    CondensedState tried = in_shares(state);
+    solution = solve_once(tried, methods_.attempt);
+    if (solution.verdict != CondensedVerdict::solved) return false;
+    state = in_shears(tried);
+    return true;
+  }
+
+  /// Pressures that weigh shares follow those of the solution, in turns; the last of them by Newton's method.
+  bool solve_in_turns(CondensedState& state, CondensedSolution& solution) {
+    CondensedState tried = in_shares(state);
+    hold_shares(tried);
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const CondensedState before = tried;
+      solution = solve_once(tried, methods_.refine);
+      if (solution.verdict != CondensedVerdict::solved && lets_creep()) {
+        tried = before;
+        solution = solve_once(tried);
+      }
+      if (solution.verdict != CondensedVerdict::solved) return false;
+      if (hold_shares(tried) < near_share && finish(tried, solution)) {
+        state = in_shears(tried);
+        return true;
+      }
+    }
+    return false;
   }
 
   /// With the pressures themselves.
@@ -205,6 +251,17 @@ class SharedFriction {
       point.law.held_share = share;
     }
     return change;
+  }
+
+  /// With the laws by shares: shears for shares, and back.
+  CondensedState in_shares(CondensedState state) {
+    take(Shears::by_shares);
+    scale_shears(state, [this](double pressure) { return pressure_ / pressure; });
+    return state;
+  }
+  CondensedState in_shears(CondensedState state) const {
+    scale_shears(state, [this](double pressure) { return pressure / pressure_; });
+    return state;
   }
 
   /// Shears at nodes that nothing presses on vanish.

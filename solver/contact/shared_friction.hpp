@@ -7,11 +7,12 @@
 
 namespace comma::solver {
 
-/// Solutions of a condensed problem with the laws as they stand: from wherever, or from a state that is near.
+/// Solutions of a condensed problem with the laws as they stand: from wherever, or from a state that is near (`attempt` by Newton's method alone).
 struct CondensedMethods {
   using Method = std::function<CondensedSolution(const CondensedProblem& problem, CondensedState& state)>;
   Method solve;
   Method refine;
+  Method attempt;
   Method smooth;
   Method stand_in;
 };

@@ -45,7 +45,7 @@ TEST_CASE("A solution by shears says that it is one where none by shares of the 
       return solution;
     };
     CondensedState state{.multipliers = Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), .statuses = {ContactStatus::sticking}};
-    const CondensedSolution solution = solve_shared_friction(problem, state, {method, method, method, method});
+    const CondensedSolution solution = solve_shared_friction(problem, state, {method, method, method, method, method});
     REQUIRE(solution.verdict == CondensedVerdict::solved);
     CHECK(solution.by_shears == !finds_shares);
   }
@@ -67,4 +67,27 @@ TEST_CASE("A solution with penalties is gone on from by its forces, not from gap
   CHECK_FALSE(solution.by_shears);
   CHECK(std::ranges::count(bodies.state.statuses, ContactStatus::sticking) == 8);
   CHECK(solution.iterations <= 12);
+}
+
+TEST_CASE("Shares of friction are found in a few iterations, and are the same whatever they are found from") {
+  constexpr int edge = 16;
+  CoupledSurface surface(edge);
+  surface.share_multipliers(edge);
+  for (CondensedPoint& point : surface.problem.points) point.share_augmentation = 1.0;
+  REQUIRE(solve_condensed(surface.schur, surface.problem, surface.state).verdict == CondensedVerdict::solved);
+  for (const int count : surface.counts()) CHECK(count > 0);
+
+  const CondensedState before = surface.state;
+  surface.problem.free *= 1.2;
+  CondensedState from_before = before, expected = before;
+  const CondensedSolution slower = solve_condensed(surface.schur, surface.problem, from_before);
+  surface.problem.expected = 1.2 * before.multipliers;
+  const CondensedSolution solution = solve_condensed(surface.schur, surface.problem, expected);
+  REQUIRE(slower.verdict == CondensedVerdict::solved);
+  REQUIRE(solution.verdict == CondensedVerdict::solved);
+  CHECK_FALSE(solution.by_shears);
+  CHECK(expected.statuses == from_before.statuses);
+  CHECK((solution.forces - slower.forces).norm() < 1e-8 * solution.forces.norm());
+  CHECK(solution.iterations <= 5);
+  CHECK(slower.iterations <= 9);
 }
