@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "solver/linear/blas_threads.hpp"
 #include "solver/linear/largest_component.hpp"
@@ -27,6 +28,9 @@ struct Lapack {
   Solve* solve = library.function<Solve>("dgetrs_");
   using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* x_step,
                        const double* beta, double* y, const int* y_step);
+  using LeastSquares = void(const int* rows, const int* columns, const int* count, double* a, const int* lda, double* b, const int* ldb, int* interchanges,
+                            const double* smallest, int* rank, double* work, const int* work_size, int* info);
+  LeastSquares* least_squares = library.function<LeastSquares>("dgelsy_");
   Cholesky* cholesky = library.function<Cholesky>("dpotrf_");
   Product* product = library.function<Product>("dsymv_");
   using SingleProduct = void(const char* triangle, const int* n, const float* alpha, const float* a, const int* lda, const float* x, const int* x_step,
@@ -48,6 +52,26 @@ void for_pairs(Eigen::Index n, const Function& function) {
     for (Eigen::Index row = column; row < n; row += tile)
       for (Eigen::Index j = column; j < std::min(n, column + tile); ++j)
         for (Eigen::Index i = std::max(row, j + 1); i < std::min(n, row + tile); ++i) function(i, j);
+}
+
+/// The x of least size that comes nearest to M x = b, by a complete orthogonal factorisation.
+Eigen::VectorXd nearest_solution(Eigen::MatrixXd matrix, Eigen::VectorXd b) {
+  if (matrix.rows() < large_dense) return matrix.completeOrthogonalDecomposition().solve(b);
+  const int n = static_cast<int>(matrix.rows()), one = 1, ask = -1;
+  const double smallest = std::numeric_limits<double>::epsilon() * n;
+  std::vector<int> interchanges(static_cast<std::size_t>(n), 0);
+  int rank = 0, info = 0;
+  const auto solve = [&](std::vector<double>& work, const int* size) {
+    lapack().least_squares(&n, &n, &one, matrix.data(), &n, b.data(), &n, interchanges.data(), &smallest, &rank, work.data(), size, &info);
+  };
+  std::vector<double> work(1);
+  solve(work, &ask);
+  work.resize(static_cast<std::size_t>(work[0]));
+  const int size = static_cast<int>(work.size());
+  if (n >= large_factor) lapack().threads.use_all();
+  solve(work, &size);
+  lapack().threads.use(1);
+  return b;
 }
 
 }  // namespace
@@ -136,7 +160,7 @@ Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
     solution = factor.solve(rhs);
     solution += factor.solve(rhs - matrix * solution);
   } else {
-    solution = matrix.completeOrthogonalDecomposition().solve(rhs);
+    solution = nearest_solution(std::move(matrix), std::move(rhs));
   }
   return columns.asDiagonal() * solution;
 }

@@ -1,5 +1,6 @@
 #include "solver/linear/dense_solve.hpp"
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -41,4 +42,18 @@ TEST_CASE("A triangle fills the other one") {
   filled.triangularView<Eigen::StrictlyLower>().setZero();
   fill_lower(filled);
   CHECK(filled == matrix);
+}
+
+TEST_CASE("Where rows depend on each other, the solution is the one of least size") {
+  for (const int n : {60, 2 * large_dense}) {
+    // Two unknowns count only together, and so do two others; the right-hand side is one that can be reached.
+    Eigen::MatrixXd matrix = random_symmetric(n);
+    matrix.col(1) = matrix.col(0);
+    matrix.col(7) = -matrix.col(5);
+    const Eigen::VectorXd b = matrix * Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+    const Eigen::VectorXd x = solve_dense(matrix, b);
+    CHECK((matrix * x - b).norm() < 1e-10 * b.norm());
+    CHECK(std::abs(x[0] - x[1]) < 1e-10 * x.norm());
+    CHECK(std::abs(x[5] + x[7]) < 1e-10 * x.norm());
+  }
 }
