@@ -57,7 +57,6 @@ class SharedFriction {
     const bool searched = search_.found_last;
     if (searched && search_shares(start, state, solution)) return true;
     if (pressure_ > 0.0 && solve_by_shares(state, solution)) return true;
-    state = start;
     find_pressure(state);
     take(Shears::as_they_are);
     solution = solve_once(state, methods_.refine);
