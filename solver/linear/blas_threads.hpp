@@ -22,4 +22,18 @@ class BlasThreads {
   void (*set_)(int);
 };
 
+/// All threads where they are wanted, and one again at the end of the scope.
+class AllThreads {
+ public:
+  explicit AllThreads(const BlasThreads& threads, bool wanted = true) : threads_(threads) {
+    if (wanted) threads_.use_all();
+  }
+  ~AllThreads() { threads_.use(1); }
+  AllThreads(const AllThreads&) = delete;
+  AllThreads& operator=(const AllThreads&) = delete;
+
+ private:
+  const BlasThreads& threads_;
+};
+
 }  // namespace comma::solver

@@ -85,9 +85,8 @@ class SchurFactorisation {
     data_.listvar_schur = last.data();
     data_.schur = result.data();
     const BlasThreads threads(library_);
-    threads.use_all();
+    const AllThreads all(threads);
     run(job_analyse_and_factorise);
-    threads.use(1);
     check();
     return result;
   }

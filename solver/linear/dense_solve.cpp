@@ -24,13 +24,13 @@ struct Lapack {
   using Solve = void(const char* transposed, const int* n, const int* columns, const double* a, const int* lda, const int* interchanges, double* b, const int* ldb,
                      int* info);
   using Cholesky = void(const char* triangle, const int* n, double* a, const int* lda, int* info);
-  Factorise* factorise = library.function<Factorise>("dgetrf_");
-  Solve* solve = library.function<Solve>("dgetrs_");
-  using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* x_step,
-                       const double* beta, double* y, const int* y_step);
   using LeastSquares = void(const int* rows, const int* columns, const int* count, double* a, const int* lda, double* b, const int* ldb, int* interchanges,
                             const double* smallest, int* rank, double* work, const int* work_size, int* info);
+  Factorise* factorise = library.function<Factorise>("dgetrf_");
+  Solve* solve = library.function<Solve>("dgetrs_");
   LeastSquares* least_squares = library.function<LeastSquares>("dgelsy_");
+  using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* x_step,
+                       const double* beta, double* y, const int* y_step);
   Cholesky* cholesky = library.function<Cholesky>("dpotrf_");
   Product* product = library.function<Product>("dsymv_");
   using SingleProduct = void(const char* triangle, const int* n, const float* alpha, const float* a, const int* lda, const float* x, const int* x_step,
@@ -68,9 +68,8 @@ Eigen::VectorXd nearest_solution(Eigen::MatrixXd matrix, Eigen::VectorXd b) {
   solve(work, &ask);
   work.resize(static_cast<std::size_t>(work[0]));
   const int size = static_cast<int>(work.size());
-  if (n >= large_factor) lapack().threads.use_all();
+  const AllThreads threads(lapack().threads, n >= large_factor);
   solve(work, &size);
-  lapack().threads.use(1);
   return b;
 }
 
@@ -85,9 +84,8 @@ DenseLu::DenseLu(Eigen::MatrixXd matrix) {
   const int n = static_cast<int>(factors_.rows());
   interchanges_.resize(static_cast<std::size_t>(n));
   int info = 0;
-  if (n >= large_factor) lapack().threads.use_all();
+  const AllThreads threads(lapack().threads, n >= large_factor);
   lapack().factorise(&n, &n, factors_.data(), &n, interchanges_.data(), &info);
-  lapack().threads.use(1);
 }
 
 Eigen::VectorXd DenseLu::solve(const Eigen::VectorXd& b) const {
@@ -103,9 +101,8 @@ bool factorise_dense(Eigen::MatrixXd& lower) {
   if (lower.rows() < large_dense) return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(lower).info() == Eigen::Success;
   const int n = static_cast<int>(lower.rows());
   int info = 0;
-  if (n >= large_factor) lapack().threads.use_all();
+  const AllThreads threads(lapack().threads, n >= large_factor);
   lapack().cholesky("L", &n, lower.data(), &n, &info);
-  lapack().threads.use(1);
   return info == 0;
 }
 
@@ -114,9 +111,8 @@ Eigen::VectorXd symmetric_product(const Eigen::MatrixXd& lower, const Eigen::Vec
   Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
   const int n = static_cast<int>(lower.rows()), step = 1;
   const double plus = 1.0;
-  lapack().threads.use_all();
+  const AllThreads threads(lapack().threads);
   lapack().product("L", &n, &plus, lower.data(), &n, x.data(), &step, &plus, product.data(), &step);
-  lapack().threads.use(1);
   return product;
 }
 
@@ -140,9 +136,8 @@ Eigen::VectorXd SingleTriangle::operator*(const Eigen::VectorXd& x) const {
   Eigen::VectorXf product = Eigen::VectorXf::Zero(x.size());
   const int n = static_cast<int>(values_.rows()), step = 1;
   const float plus = 1.0F;
-  lapack().threads.use_all();
+  const AllThreads threads(lapack().threads);
   lapack().single_product("L", &n, &plus, values_.data(), &n, given.data(), &step, &plus, product.data(), &step);
-  lapack().threads.use(1);
   return size * product.cast<double>();
 }
 
