@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "solver/contact/condensed_newton.hpp"
@@ -199,12 +200,19 @@ class CondensedSearch {
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
   if (problem.one_step) return CondensedSearch(schur, problem, state).step();
   if (const auto solution = solve_frictionless(schur, problem, state)) return *solution;
+  const auto by = [&schur](auto way) {
+    return [&schur, way](const CondensedProblem& each, CondensedState& at) {
+      CondensedSearch search(schur, each, at);
+      return std::invoke(way, search);
+    };
+  };
   if (has_shared_friction(problem))
-    return solve_shared_friction(problem, state, {[&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).run(); },
-                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).refine(); },
-                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).attempt(); },
-                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).smooth(Augmentations::of_law); },
-                                                  [&](const CondensedProblem& each, CondensedState& at) { return CondensedSearch(schur, each, at).smooth(Augmentations::of_pressures); }});
+    return solve_shared_friction(problem, state,
+                                 {.solve = by(&CondensedSearch::run),
+                                  .refine = by(&CondensedSearch::refine),
+                                  .attempt = by(&CondensedSearch::attempt),
+                                  .smooth = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_law); }),
+                                  .stand_in = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_pressures); })});
   return CondensedSearch(schur, problem, state).run();
 }
 
