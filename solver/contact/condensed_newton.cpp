@@ -322,9 +322,10 @@ Eigen::VectorXd CondensedNewton::unbalanced_jumps() {
 }
 
 Eigen::VectorXd CondensedNewton::solved(const InterpolatedStep& equations, const Eigen::VectorXd& balance) {
+  InterpolatedSolver& solver = problem_.interpolated_solver ? *problem_.interpolated_solver : own_interpolated_solver_;
   if (static_cast<int>(unknown_rows_.size()) > direct_rows_)
-    if (const auto step = equations.solve_by_products(schur_, balance, {.tolerance = product_tolerance, .most_products = problem_.most_products})) return *step;
-  return equations.solve(schur_, balance);
+    if (const auto step = solver.solve_by_products(equations, schur_, balance, {.tolerance = product_tolerance, .most_products = problem_.most_products})) return *step;
+  return solver.solve(equations, schur_, balance);
 }
 
 void CondensedNewton::add_point(std::size_t p, InterpolatedStep& equations, Eigen::VectorXd& balance) {

@@ -129,6 +129,7 @@ class CondensedNewton {
   const bool is_nodal_;
   const int direct_rows_;
   NearInverse own_near_inverse_;
+  InterpolatedSolver own_interpolated_solver_;
   Eigen::VectorXd balanced_forces_, balanced_;
   std::vector<int> row_unknowns_;         ///< unknown of a row of the Schur complement, or -1
   std::vector<int> multiplier_unknowns_;  ///< the same of a multiplier

@@ -8,6 +8,7 @@
 
 #include "solver/contact/contact_law.hpp"
 #include "solver/contact/facet.hpp"
+#include "solver/contact/interpolated_step.hpp"
 #include "solver/contact/near_inverse.hpp"
 #include "solver/unilateral/active_set.hpp"
 
@@ -62,6 +63,7 @@ struct CondensedProblem {
   bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
   Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
   NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
+  InterpolatedSolver* interpolated_solver = nullptr;  ///< of those whose points lie between nodes, if one is to serve them all
   ShareSearch* share_search = nullptr;  ///< of shares of friction, if searches are to learn from each other
   ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
 };

@@ -2,69 +2,87 @@
 
 #include <algorithm>
 
-#include "solver/linear/dense_solve.hpp"
-
 namespace comma::solver {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-}  // namespace
-
-InterpolatedStep::SparseColumns InterpolatedStep::matrix(Index height, Index width, const Entries& entries) {
-  SparseColumns result(height, width);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
+using SparseColumns = InterpolatedStep::SparseColumns;
 
 /// S F between unknown rows.
-MatrixXd InterpolatedStep::responses(const SchurComplement& schur, const SparseColumns& forces) const {
-  MatrixXd result = MatrixXd::Zero(row_count(), forces.cols());
-  const bool is_whole = row_count() == schur.size() && std::ranges::is_sorted(rows_);
+MatrixXd responses(const SchurComplement& schur, const std::vector<int>& rows, const SparseColumns& forces) {
+  const auto count = static_cast<Index>(rows.size());
+  MatrixXd result = MatrixXd::Zero(count, forces.cols());
+  const bool is_whole = count == schur.size() && std::ranges::is_sorted(rows);
   for (Index unknown = 0; unknown < forces.cols(); ++unknown)
     for (SparseColumns::InnerIterator force(forces, unknown); force; ++force) {
-      const SchurComplement::Column column = schur.column(rows_[static_cast<std::size_t>(force.row())]);
+      const SchurComplement::Column column = schur.column(rows[static_cast<std::size_t>(force.row())]);
       if (is_whole) result.col(unknown) += force.value() * column;
-      else for (int k = 0; k < row_count(); ++k) result(k, unknown) += force.value() * column[rows_[static_cast<std::size_t>(k)]];
+      else for (Index k = 0; k < count; ++k) result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
     }
   return result;
 }
 
-VectorXd InterpolatedStep::solve(const SchurComplement& schur, const VectorXd& b) const {
-  MatrixXd all = MatrixXd::Zero(unknowns_, unknowns_);
-  all.topRows(row_count()) = -responses(schur, matrix(row_count(), unknowns_, forces_));
-  all.topLeftCorner(row_count(), row_count()).diagonal().array() += 1.0;
-  for (const Eigen::Triplet<double>& law : laws_) all(row_count() + law.row(), law.col()) += law.value();
-  return solve_dense(std::move(all), b);
+}  // namespace
+
+SparseColumns InterpolatedStep::matrix(int height, const std::vector<Entry>& entries) const {
+  SparseColumns result(height, unknowns_);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
 }
 
-std::optional<VectorXd> InterpolatedStep::solve_by_products(SchurComplement& schur, const VectorXd& b, const GmresOptions& options) const {
-  const Index rows = row_count(), laws = law_count();
-  if (laws == 0) return std::nullopt;
-  const SparseColumns forces = matrix(rows, unknowns_, forces_), law = matrix(laws, unknowns_, laws_);
-  const SparseColumns by_jumps = forces.leftCols(rows), law_by_jumps = law.leftCols(rows);
-  const MatrixXd by_multipliers = responses(schur, forces.rightCols(laws));
-  const DenseLu without_augmentation(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
+void InterpolatedSolver::take(const InterpolatedStep& step, const SchurComplement& schur) {
+  if (version_ == schur.version() && step_ == step) return;
+  step_ = step;
+  version_ = schur.version();
+  all_.reset();
+  without_augmentation_.reset();
+}
 
-  // The solution without the forces that jumps bring by themselves leaves these, and nothing of the laws.
-  const auto solved_without = [&](const VectorXd& of_jumps, const VectorXd& of_laws) {
-    VectorXd x(unknowns_);
-    x.tail(laws) = without_augmentation.solve(of_laws - law_by_jumps * of_jumps);
-    x.head(rows) = of_jumps + by_multipliers * x.tail(laws);
-    return x;
-  };
-  const auto left_by = [&](const VectorXd& x) { return schur.times_roughly(rows_, by_jumps * x.head(rows)); };
+VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComplement& schur, const VectorXd& b) {
+  take(step, schur);
+  if (!all_) {
+    const Index rows = step.row_count();
+    MatrixXd all(step.unknowns(), step.unknowns());
+    all.topRows(rows) = -responses(schur, step.rows(), step.forces());
+    all.topLeftCorner(rows, rows).diagonal().array() += 1.0;
+    all.bottomRows(step.law_count()) = step.laws();
+    all_.emplace(std::move(all));
+  }
+  return all_->solve(b);
+}
+
+/// x that leaves nothing of the laws.
+VectorXd InterpolatedSolver::WithoutAugmentation::solve(const VectorXd& of_jumps, const VectorXd& of_laws) const {
+  const Index rows = by_multipliers.rows(), count = by_multipliers.cols();
+  VectorXd x(rows + count);
+  x.tail(count) = laws.solve(of_laws - law_by_jumps * of_jumps);
+  x.head(rows) = of_jumps + by_multipliers * x.tail(count);
+  return x;
+}
+
+std::optional<VectorXd> InterpolatedSolver::solve_by_products(const InterpolatedStep& step, SchurComplement& schur, const VectorXd& b, const GmresOptions& options) {
+  const Index rows = step.row_count(), laws = step.law_count();
+  if (laws == 0) return std::nullopt;
+  take(step, schur);
+  if (!without_augmentation_) {
+    const SparseColumns forces = step.forces(), law = step.laws(), law_by_jumps = law.leftCols(rows);
+    MatrixXd by_multipliers = responses(schur, step.rows(), forces.rightCols(laws));
+    DenseLu factor(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
+    without_augmentation_.emplace(WithoutAugmentation{forces.leftCols(rows), law_by_jumps, std::move(by_multipliers), std::move(factor)});
+  }
+  const WithoutAugmentation& without = *without_augmentation_;
+  const auto left_by = [&](const VectorXd& x) { return schur.times_roughly(step.rows(), without.by_jumps * x.head(rows)); };
   const VectorXd none = VectorXd::Zero(laws);
-  VectorXd x = solved_without(b.head(rows), b.tail(laws));
+  VectorXd x = without.solve(b.head(rows), b.tail(laws));
   if (!x.allFinite()) return std::nullopt;
   const VectorXd left = left_by(x);
   if (left.norm() <= options.tolerance * x.head(rows).norm()) return x;
   const GmresSolution solution = solve_gmres(
-      [&](const VectorXd& jumps) { return VectorXd(jumps - left_by(solved_without(jumps, none))); }, [](const VectorXd& jumps) { return jumps; }, left, options);
+      [&](const VectorXd& jumps) { return VectorXd(jumps - left_by(without.solve(jumps, none))); }, [](const VectorXd& jumps) { return jumps; }, left, options);
   if (!solution.reached) return std::nullopt;
-  x += solved_without(solution.x, none);
+  x += without.solve(solution.x, none);
   return x;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "solver/linear/dense_solve.hpp"
 #include "solver/linear/gmres.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
@@ -16,35 +18,69 @@ namespace comma::solver {
 /// unknown rows of the compliance S, and the laws L x = b_l, one a multiplier.
 class InterpolatedStep {
  public:
-  /// `rows`: those of S that are unknown; must outlive the step.
-  InterpolatedStep(const std::vector<int>& rows, int unknowns) : rows_(rows), unknowns_(unknowns) {}
+  InterpolatedStep() = default;
+  /// `rows`: those of S that are unknown.
+  InterpolatedStep(std::vector<int> rows, int unknowns) : rows_(std::move(rows)), unknowns_(unknowns) {}
 
   /// Of the force on a row, at its place among the unknown ones. Derivatives by nothing that is unknown (-1) are left out.
   void add_force_derivative(int place, int unknown, double derivative) { add(forces_, place, unknown, derivative); }
   /// Of the law that is equation `equation` of all.
   void add_law_derivative(int equation, int unknown, double derivative) { add(laws_, equation - row_count(), unknown, derivative); }
 
-  /// x for b (one an unknown, jumps first); columns of S must have been required.
-  Eigen::VectorXd solve(const SchurComplement& schur, const Eigen::VectorXd& b) const;
-  /// The same for many rows by products with S, in single precision; nothing where the tolerance is not reached. Fast where multipliers carry most of the forces, and
-  /// augmentations by jumps little: without them only as many equations as multipliers are left, which precondition the others.
-  std::optional<Eigen::VectorXd> solve_by_products(SchurComplement& schur, const Eigen::VectorXd& b, const GmresOptions& options) const;
-
- private:
-  using Entries = std::vector<Eigen::Triplet<double>>;
   using SparseColumns = Eigen::SparseMatrix<double>;
-
+  const std::vector<int>& rows() const { return rows_; }
+  int unknowns() const { return unknowns_; }
   int row_count() const { return static_cast<int>(rows_.size()); }
   int law_count() const { return unknowns_ - row_count(); }
-  static void add(Entries& entries, int row, int unknown, double derivative) {
-    if (derivative != 0.0 && unknown >= 0) entries.emplace_back(row, unknown, derivative);
-  }
-  static SparseColumns matrix(Eigen::Index height, Eigen::Index width, const Entries& entries);
-  Eigen::MatrixXd responses(const SchurComplement& schur, const SparseColumns& forces) const;
+  SparseColumns forces() const { return matrix(row_count(), forces_); }
+  SparseColumns laws() const { return matrix(law_count(), laws_); }
 
-  const std::vector<int>& rows_;
-  const int unknowns_;
-  Entries forces_, laws_;
+  bool operator==(const InterpolatedStep&) const = default;
+
+ private:
+  struct Entry {
+    int at = 0, unknown = 0;
+    double derivative = 0.0;
+    int row() const { return at; }
+    int col() const { return unknown; }
+    double value() const { return derivative; }
+    bool operator==(const Entry&) const = default;
+  };
+
+  static void add(std::vector<Entry>& entries, int row, int unknown, double derivative) {
+    if (derivative != 0.0 && unknown >= 0) entries.push_back({row, unknown, derivative});
+  }
+  SparseColumns matrix(int height, const std::vector<Entry>& entries) const;
+
+  std::vector<int> rows_;
+  int unknowns_ = 0;
+  std::vector<Entry> forces_, laws_;
+};
+
+/// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step with other right-hand sides.
+class InterpolatedSolver {
+ public:
+  /// x for b (one an unknown, jumps first); columns of S must have been required.
+  Eigen::VectorXd solve(const InterpolatedStep& step, const SchurComplement& schur, const Eigen::VectorXd& b);
+  /// The same for many rows by products with S, in single precision; nothing where the tolerance is not reached. Fast where multipliers carry most of the forces, and
+  /// augmentations by jumps little: without them only as many equations as multipliers are left, which precondition the others.
+  std::optional<Eigen::VectorXd> solve_by_products(const InterpolatedStep& step, SchurComplement& schur, const Eigen::VectorXd& b, const GmresOptions& options);
+
+ private:
+  /// The equations without the forces that jumps bring by themselves.
+  struct WithoutAugmentation {
+    InterpolatedStep::SparseColumns by_jumps, law_by_jumps;
+    Eigen::MatrixXd by_multipliers;
+    DenseLu laws;
+    Eigen::VectorXd solve(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const;
+  };
+
+  void take(const InterpolatedStep& step, const SchurComplement& schur);
+
+  InterpolatedStep step_;
+  long version_ = -1;  ///< of S
+  std::optional<DenseSystem> all_;
+  std::optional<WithoutAugmentation> without_augmentation_;
 };
 
 }  // namespace comma::solver

@@ -141,23 +141,28 @@ Eigen::VectorXd SingleTriangle::operator*(const Eigen::VectorXd& x) const {
   return size * product.cast<double>();
 }
 
-Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs) {
+DenseSystem::DenseSystem(Eigen::MatrixXd matrix) : matrix_(std::move(matrix)) {
   constexpr double tiny = std::numeric_limits<double>::min();
-  const Eigen::VectorXd columns = matrix.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(tiny).cwiseInverse();
-  matrix = matrix * columns.asDiagonal();
-  const Eigen::VectorXd rows = matrix.cwiseAbs().rowwise().maxCoeff().cwiseMax(tiny).cwiseInverse();
-  matrix = rows.asDiagonal() * matrix;
-  rhs = rows.asDiagonal() * rhs;
-  const DenseLu factor(matrix);
-  const Eigen::VectorXd pivots = factor.pivots().cwiseAbs();
-  Eigen::VectorXd solution;
-  if (pivots.minCoeff() > singular_pivot * pivots.maxCoeff()) {
-    solution = factor.solve(rhs);
-    solution += factor.solve(rhs - matrix * solution);
-  } else {
-    solution = nearest_solution(std::move(matrix), std::move(rhs));
-  }
-  return columns.asDiagonal() * solution;
+  column_scales_ = matrix_.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(tiny).cwiseInverse();
+  matrix_ = matrix_ * column_scales_.asDiagonal();
+  row_scales_ = matrix_.cwiseAbs().rowwise().maxCoeff().cwiseMax(tiny).cwiseInverse();
+  matrix_ = row_scales_.asDiagonal() * matrix_;
+  factor_.emplace(matrix_);
+  const Eigen::VectorXd pivots = factor_->pivots().cwiseAbs();
+  if (!(pivots.minCoeff() > singular_pivot * pivots.maxCoeff())) factor_.reset();
 }
+
+Eigen::VectorXd DenseSystem::solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd rhs = row_scales_.asDiagonal() * b, solution;
+  if (factor_) {
+    solution = factor_->solve(rhs);
+    solution += factor_->solve(rhs - matrix_ * solution);
+  } else {
+    solution = nearest_solution(matrix_, std::move(rhs));
+  }
+  return column_scales_.asDiagonal() * solution;
+}
+
+Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, const Eigen::VectorXd& rhs) { return DenseSystem(std::move(matrix)).solve(rhs); }
 
 }  // namespace comma::solver

@@ -23,9 +23,21 @@ class DenseLu {
   std::vector<int> interchanges_;
 };
 
-/// x (n) with M x = b for a square M (n x n): rows and columns are first brought to the size of one, then LU with row interchanges and one step of
+/// A square M (n x n): rows and columns are first brought to the size of one, then LU with row interchanges and one step of
 /// refinement, by LAPACK on all cores from `large_dense` unknowns on. Where rows depend on each other, the x of least size that comes nearest.
-Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, Eigen::VectorXd rhs);
+class DenseSystem {
+ public:
+  explicit DenseSystem(Eigen::MatrixXd matrix);
+  /// x (n) with M x = b.
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  Eigen::VectorXd column_scales_, row_scales_;
+  Eigen::MatrixXd matrix_;  ///< of entries up to one
+  std::optional<DenseLu> factor_;  ///< nothing where rows depend on each other
+};
+
+Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, const Eigen::VectorXd& rhs);
 
 /// Overwrites the lower triangle of a positive definite S (n x n) by its Cholesky factor; what is above it stays. False, and S is lost, where a
 /// pivot is not positive.

@@ -94,6 +94,7 @@ void MixedContact::number_multipliers() {
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
   problem_.near_inverse = &near_inverse_;
+  problem_.interpolated_solver = &interpolated_solver_;
   problem_.share_search = &share_search_;
   state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
   rates_ = start_ = state_.multipliers;
@@ -439,6 +440,7 @@ void MixedContact::update_schur() {
     schur_->use_whole([this](const RowMatrix& all) { return tangent_.compliance(all); });
     spring_count_ = springs.size();
     near_inverse_ = {};
+    interpolated_solver_ = {};
   } else {
     schur_->replace_rows(std::move(rows), std::move(keys));
   }

@@ -156,6 +156,7 @@ class MixedContact {
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;
   NearInverse near_inverse_;
+  InterpolatedSolver interpolated_solver_;
   ShareSearch share_search_;
   CondensedProblem problem_;
   CondensedState state_;
