@@ -16,6 +16,8 @@ constexpr double near_share = 1e-2;
 /// The largest pressure counts as the same within this share of itself.
 constexpr double same_pressure = 1e-6;
 
+/// Whether a solution is looked for near the one before alone, or anew where there is none.
+enum class Turn : std::uint8_t { near, anew };
 enum class Shears : std::uint8_t { none, as_they_are, by_shares };
 
 double largest_pressure(const CondensedProblem& problem, const CondensedState& state) {
@@ -54,9 +56,15 @@ class SharedFriction {
   bool find_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
     if (solve_as_expected(state, solution)) return true;
     pressure_ = largest_pressure(given_, state);
-    const bool searched = search_.found_last;
+    if (pressure_ > 0.0 && solve_at_once(state, solution)) return true;
+    bool searched = search_.found_last;
     if (searched && search_shares(start, state, solution)) return true;
-    if (pressure_ > 0.0 && solve_by_shares(state, solution)) return true;
+    if (pressure_ > 0.0 && solve_in_turns(state, solution, Turn::near)) return true;
+    if (pressure_ > 0.0 && lets_creep()) {
+      if (!searched && search_shares(start, state, solution)) return true;
+      searched = true;
+      if (solve_in_turns(state, solution, Turn::anew)) return true;
+    }
     find_pressure(state);
     take(Shears::as_they_are);
     solution = solve_once(state, methods_.refine);
@@ -185,7 +193,7 @@ class SharedFriction {
   }
 
   /// Shares of the limit that the pressures of the solution weigh: at once from the pressures at hand, or in turns. Whether that leads anywhere; if not, the state stays.
-  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) { return solve_at_once(state, solution) || solve_in_turns(state, solution); }
+  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) { return solve_at_once(state, solution) || solve_in_turns(state, solution, Turn::near); }
 
   bool solve_at_once(CondensedState& state, CondensedSolution& solution) {
     CondensedState tried = in_shares(state);
@@ -196,18 +204,13 @@ class SharedFriction {
   }
 
   /// Pressures that weigh shares follow those of the solution, in turns; the last of them by Newton's method.
-  bool solve_in_turns(CondensedState& state, CondensedSolution& solution) {
+  bool solve_in_turns(CondensedState& state, CondensedSolution& solution, Turn turns) {
     CondensedState tried = in_shares(state);
     hold_shares(tried);
     for (int turn = 0; turn < most_turns; ++turn) {
-      const CondensedState before = tried;
-      solution = solve_once(tried, methods_.refine);
-      if (solution.verdict != CondensedVerdict::solved && lets_creep()) {
-        tried = before;
-        solution = solve_once(tried);
-      }
+      solution = solve_turn(tried, turns);
       if (solution.verdict != CondensedVerdict::solved) return false;
-      if (hold_shares(tried) < near_share && finish(tried, solution)) {
+      if (hold_shares(tried) < near_share && finish(tried, solution, turns)) {
         state = in_shears(tried);
         return true;
       }
@@ -215,16 +218,20 @@ class SharedFriction {
     return false;
   }
 
+  CondensedSolution solve_turn(CondensedState& state, Turn turn) {
+    const CondensedState before = state;
+    CondensedSolution solution = solve_once(state, methods_.refine);
+    if (solution.verdict == CondensedVerdict::solved || turn == Turn::near) return solution;
+    state = before;
+    return solve_once(state);
+  }
+
   /// With the pressures themselves.
-  bool finish(CondensedState& state, CondensedSolution& solution) {
+  bool finish(CondensedState& state, CondensedSolution& solution, Turn turn) {
     const std::vector<double> held = held_shares();
     for (CondensedPoint& point : problem_.points) point.law.held_share = 0.0;
     CondensedState finished = state;
-    CondensedSolution last = solve_once(finished, methods_.refine);
-    if (last.verdict != CondensedVerdict::solved && lets_creep()) {
-      finished = state;
-      last = solve_once(finished);
-    }
+    const CondensedSolution last = solve_turn(finished, turn);
     for (std::size_t p = 0; p < held.size(); ++p) problem_.points[p].law.held_share = held[p];
     if (last.verdict != CondensedVerdict::solved) return false;
     state = finished;
