@@ -353,6 +353,7 @@ void CondensedNewton::add_laws(const CondensedPoint& point, const ContactLawValu
       if (equation < 0) continue;
       const double weight = point.weight * point.shape[i];
       balance[equation] += weight * value.residual[a];
+      equations.add_law_weight(equation, std::abs(weight));
       for (int b = 0; b < point.rows; ++b) equations.add_law_derivative(equation, row_unknowns_[point.first_row + b], weight * value.residual_by_jump(a, b));
       for (int j = 0; j < point.node_count; ++j)
         for (int b = 0; b < problem_.components; ++b)

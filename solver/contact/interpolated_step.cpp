@@ -10,6 +10,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseColumns = InterpolatedStep::SparseColumns;
 
+/// Products that take about a third as long as the factors of so many multipliers, one of so many.
+constexpr Index multipliers_a_product = 200;
+
 /// S F between unknown rows.
 MatrixXd responses(const SchurComplement& schur, const std::vector<int>& rows, const SparseColumns& forces) {
   const auto count = static_cast<Index>(rows.size());
@@ -57,14 +60,40 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
 VectorXd InterpolatedSolver::WithoutAugmentation::solve(const VectorXd& of_jumps, const VectorXd& of_laws) const {
   const Index rows = by_multipliers.rows(), count = by_multipliers.cols();
   VectorXd x(rows + count);
-  x.tail(count) = laws.solve(of_laws - law_by_jumps * of_jumps);
+  x.tail(count) = multipliers(of_jumps, of_laws);
   x.head(rows) = of_jumps + by_multipliers * x.tail(count);
   return x;
+}
+
+std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedStep& step, SchurComplement& schur, const VectorXd& b, double tolerance) const {
+  const Index rows = step.row_count(), laws = step.law_count();
+  const auto most = static_cast<int>(laws / multipliers_a_product);
+  if (most < 2 || !without_augmentation_ || version_ != schur.version() || !step_.has_unknowns_of(step) || step_ == step) return std::nullopt;
+  const SparseColumns forces = step.forces(), law = step.laws(), last_by_multipliers = step_.forces().rightCols(laws);
+  const auto in_lengths = [&](VectorXd all) {
+    all.tail(laws).array() /= step.weights().array();
+    return all;
+  };
+  const auto product = [&](const VectorXd& x) {
+    VectorXd result(rows + laws);
+    result << x.head(rows) - schur.times_roughly(step.rows(), forces * x), law * x;
+    return in_lengths(std::move(result));
+  };
+  const auto precondition = [&](const VectorXd& lengths) {
+    const VectorXd multipliers = without_augmentation_->multipliers(lengths.head(rows), lengths.tail(laws).cwiseProduct(step.weights()));
+    VectorXd x(rows + laws);
+    x << lengths.head(rows) + schur.times_roughly(step.rows(), last_by_multipliers * multipliers), multipliers;
+    return x;
+  };
+  GmresSolution solution = solve_gmres(product, precondition, in_lengths(b), {.tolerance = tolerance, .most_products = most});
+  if (!solution.reached) return std::nullopt;
+  return std::move(solution.x);
 }
 
 std::optional<VectorXd> InterpolatedSolver::solve_by_products(const InterpolatedStep& step, SchurComplement& schur, const VectorXd& b, const GmresOptions& options) {
   const Index rows = step.row_count(), laws = step.law_count();
   if (laws == 0) return std::nullopt;
+  if (auto x = solve_near_last(step, schur, b, options.tolerance)) return x;
   take(step, schur);
   if (!without_augmentation_) {
     const SparseColumns forces = step.forces(), law = step.laws(), law_by_jumps = law.leftCols(rows);

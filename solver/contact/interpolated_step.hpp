@@ -20,12 +20,14 @@ class InterpolatedStep {
  public:
   InterpolatedStep() = default;
   /// `rows`: those of S that are unknown.
-  InterpolatedStep(std::vector<int> rows, int unknowns) : rows_(std::move(rows)), unknowns_(unknowns) {}
+  InterpolatedStep(std::vector<int> rows, int unknowns) : rows_(std::move(rows)), unknowns_(unknowns), weights_(Eigen::VectorXd::Zero(law_count())) {}
 
   /// Of the force on a row, at its place among the unknown ones. Derivatives by nothing that is unknown (-1) are left out.
   void add_force_derivative(int place, int unknown, double derivative) { add(forces_, place, unknown, derivative); }
   /// Of the law that is equation `equation` of all.
   void add_law_derivative(int equation, int unknown, double derivative) { add(laws_, equation - row_count(), unknown, derivative); }
+  /// By which the law is a length, as jumps are.
+  void add_law_weight(int equation, double weight) { weights_[equation - row_count()] += weight; }
 
   using SparseColumns = Eigen::SparseMatrix<double>;
   const std::vector<int>& rows() const { return rows_; }
@@ -34,8 +36,12 @@ class InterpolatedStep {
   int law_count() const { return unknowns_ - row_count(); }
   SparseColumns forces() const { return matrix(row_count(), forces_); }
   SparseColumns laws() const { return matrix(law_count(), laws_); }
+  /// One a law.
+  const Eigen::VectorXd& weights() const { return weights_; }
 
-  bool operator==(const InterpolatedStep&) const = default;
+  /// Of the equations.
+  bool operator==(const InterpolatedStep& other) const { return rows_ == other.rows_ && unknowns_ == other.unknowns_ && forces_ == other.forces_ && laws_ == other.laws_; }
+  bool has_unknowns_of(const InterpolatedStep& other) const { return rows_ == other.rows_ && unknowns_ == other.unknowns_; }
 
  private:
   struct Entry {
@@ -55,9 +61,11 @@ class InterpolatedStep {
   std::vector<int> rows_;
   int unknowns_ = 0;
   std::vector<Entry> forces_, laws_;
+  Eigen::VectorXd weights_;
 };
 
-/// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step with other right-hand sides.
+/// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step with other right-hand sides, and the next iteration of Newton's
+/// method for one that is little different.
 class InterpolatedSolver {
  public:
   /// x for b (one an unknown, jumps first); columns of S must have been required.
@@ -72,9 +80,12 @@ class InterpolatedSolver {
     InterpolatedStep::SparseColumns by_jumps, law_by_jumps;
     Eigen::MatrixXd by_multipliers;
     DenseLu laws;
+    Eigen::VectorXd multipliers(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const { return laws.solve(of_laws - law_by_jumps * of_jumps); }
     Eigen::VectorXd solve(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const;
   };
 
+  /// With the factors at hand for a preconditioner. Nothing where they are of other unknowns, or too much has changed for new ones to take longer.
+  std::optional<Eigen::VectorXd> solve_near_last(const InterpolatedStep& step, SchurComplement& schur, const Eigen::VectorXd& b, double tolerance) const;
   void take(const InterpolatedStep& step, const SchurComplement& schur);
 
   InterpolatedStep step_;
