@@ -253,7 +253,7 @@ void MixedContact::build_rows() {
 }
 
 /// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier lie on its node, and no penalty lets them
-/// creep, the solution is that of shears, which need no scale. A penalty of contact is one: shears then take its coefficient.
+/// creep, the solution is that of shears, which need no scale.
 void MixedContact::share_friction() {
   if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
   const std::vector<char> shared = shared_multipliers();
@@ -263,7 +263,7 @@ void MixedContact::share_friction() {
     const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     if (mixed.friction_penalised)
       point.share_augmentation = point.law.friction_augmentation;
-    else if (shared[static_cast<std::size_t>(point.nodes[0])] && !mixed.penalised)
+    else if (shared[static_cast<std::size_t>(point.nodes[0])])
       point.share_augmentation = mixed.friction_augmentation;
   }
 }
