@@ -32,6 +32,9 @@ constexpr double rounding_scale = 1e-6;
 /// precision leave 1e-7.
 constexpr double product_tolerance = 1e-5;
 
+/// So many iterations may leave more than before, however little patience there is: on nodes, where sliding is linearised such that they come back, some more.
+constexpr int free_iterations = 2, free_iterations_on_nodes = 5;
+
 /// A share of a correction has to bring what is left of the equations down by this much of itself.
 constexpr double least_decrease = 1e-4;
 /// It is halved down to this; corrections shorter than the other lead nowhere, and so many of them are the end.
@@ -118,6 +121,7 @@ void CondensedNewton::take_jumps_of_penalties() {
 ContactLaw CondensedNewton::law_of(std::size_t p) const {
   ContactLaw law = problem_.points[p].law;
   law.friction *= friction_share_;
+  law.pointwise = is_nodal_;
   if (law.penalised) law.augmentation *= penalty_share_;
   if (law.friction_penalised) law.friction_augmentation *= penalty_share_;
   if (pressures_by_bodies_ && !law.penalised) law.augmentation = bodies_[p].normal;
@@ -158,7 +162,7 @@ bool CondensedNewton::settle(Rubbing rubbing, int& iterations, Patience patience
     if (!settled) same_statuses_ = 0;
     if (problem_.components == 1 || rubbing_ != Rubbing::by_law) continue;
     if (one_at_a_time_) return false;  // with friction a cycle stays one
-    led_away_ = patience == Patience::short_of_growth && iteration >= 2 && residual_ > before_last;
+    led_away_ = patience == Patience::short_of_growth && iteration >= (is_nodal_ ? free_iterations_on_nodes : free_iterations) && residual_ > before_last;
     if (led_away_) return false;
     before_last = last;
     // Where nothing is left with statuses that change, it says nothing of what will be.

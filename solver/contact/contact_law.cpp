@@ -35,17 +35,26 @@ struct Shear {
   Vector2d by_pressure = Vector2d::Zero();
 };
 
-Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, const Vector2d& trial) {
+/// Of a shear that slides at the limit. Pointwise the multiplier, as far as it is within the limit, stands for the shear that it is to be.
+Matrix2d sliding_by_trial(const ContactLaw& law, double limit, const Vector2d& trial, const Vector2d& multiplier) {
+  const double size = trial.norm();
+  const Vector2d direction = trial / size;
+  if (!law.pointwise || law.friction_penalised || !(limit > 0.0)) return limit / size * (Matrix2d::Identity() - direction * direction.transpose());
+  const Vector2d share = multiplier / std::max(limit, multiplier.norm());
+  const double against = std::max(0.0, -share.dot(direction));
+  return limit / size * (Matrix2d::Identity() - share * direction.transpose() / (1.0 + against));
+}
+
+Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, const Vector2d& multiplier, const Vector2d& trial) {
   Shear shear;
   if (status == ContactStatus::sticking) {
     shear.value = trial;
     shear.by_trial.setIdentity();
   } else if (status == ContactStatus::sliding && law.friction > 0.0 && trial.norm() > 0.0) {
-    const double size = trial.norm();
-    const Vector2d direction = trial / size;
+    const Vector2d direction = trial.normalized();
     const double limit = law.friction * pressure;
     shear.value = limit * direction;
-    shear.by_trial = limit / size * (Matrix2d::Identity() - direction * direction.transpose());
+    shear.by_trial = sliding_by_trial(law, limit, trial, multiplier);
     shear.by_pressure = law.friction * direction;
   }
   return shear;
@@ -107,7 +116,7 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
   const double limiting = limiting_pressure(law, multiplier, jump);
-  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), trial_shear(law, multiplier, jump));
+  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), multiplier.tail<2>(), trial_shear(law, multiplier, jump));
   if (law.share_pressure > 0.0) {
     add_shear_by_shares(law, status, shear, limiting, multiplier, jump, value);
     return value;

@@ -19,6 +19,8 @@ struct ContactLaw {
   /// Positive: a shear is a share of the limit of friction, in units of `friction` times this pressure: what the law gives at this pressure
   /// times the present one over it. 0: shears are themselves.
   double share_pressure = 0.0;
+  /// Whether the multiplier is that of this point alone, and so the traction once the law holds.
+  bool pointwise = false;
   double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in the limit of friction
 };
 
@@ -44,7 +46,8 @@ struct ContactLawValue {
 /// closed: pressure - augmentation * gap pushes, and the gap vanishes; open: the pressure vanishes. Shear: sticking, it is
 /// shear + friction_augmentation * slip, and the slip vanishes; sliding, it is cut down to friction * pressure, the pressure being the
 /// multiplier without the augmentation. By shares (see share_pressure), which R5.03.52 takes for multipliers of friction, the residual of shears
-/// counts by the pressure.
+/// counts by the pressure. Where the law holds pointwise, derivatives of shears that slide are those of Hüeber, Stadler and Wohlmuth (SIAM Journal on Scientific Computing 30,
+/// 2008): exact once it holds, and farther away such that Newton's method does not overshoot.
 ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
 /// A multiplier or a jump without what lies along the dead direction of the law.

@@ -67,6 +67,25 @@ TEST_CASE("Tangents of the contact law are its derivatives") {
       }
 }
 
+TEST_CASE("Pointwise, tangents of a shear that slides are its derivatives once the multiplier is that shear") {
+  ContactLaw law;
+  law.augmentation = 900.0;
+  law.friction = 0.3;
+  law.friction_augmentation = 700.0;
+  const Vector3d multiplier(100.0, 18.0, -24.0);  // at the limit of friction
+  const Vector3d jump(-0.03, 0.06, -0.08);
+  const ContactLawValue exact = contact_law(law, ContactStatus::sliding, multiplier, jump);
+  law.pointwise = true;
+  const ContactLawValue value = contact_law(law, ContactStatus::sliding, multiplier, jump);
+  CHECK(value.residual == exact.residual);
+  CHECK((value.traction_by_jump - exact.traction_by_jump).norm() < 1e-12 * exact.traction_by_jump.norm());
+  CHECK((value.residual_by_multiplier - exact.residual_by_multiplier).norm() < 1e-12 * exact.residual_by_multiplier.norm());
+
+  // Without a shear yet, slip brings one along the slip too.
+  const Vector3d none(100.0, 0.0, 0.0), slip(-0.03, 0.1, 0.0);
+  CHECK(contact_law(law, ContactStatus::sliding, none, slip).traction_by_jump(1, 1) == Approx(-0.3 * 100.0 / 0.1));
+}
+
 TEST_CASE("A sliding point bears the limit of friction against the slip; a sticking one its shear") {
   ContactLaw law;
   law.friction = 0.5;
