@@ -46,10 +46,13 @@ constexpr double most_growth = 1e6;
 /// States this many times as far as the nearest one that was met are those of bodies that have lost their contact: only if there is no nearer one.
 constexpr double farthest_state = 1e4;
 
-/// A single step has no other that would take along what products leave; and of penalties, forces are far less exact than jumps.
-int direct_rows(const CondensedProblem& problem) {
-  const int usual = has_points_on_nodes(problem) ? problem.direct_rows : problem.direct_rows_between;
-  return problem.one_step || has_penalty(problem) ? std::max(usual, problem.most_direct_rows) : usual;
+/// A single step has no other that would take along what products leave; and of penalties that jumps bring alone, forces are far less exact than these.
+int direct_rows(const CondensedProblem& problem, bool is_nodal) {
+  const bool by_jumps = std::ranges::any_of(problem.points, [&](const CondensedPoint& point) {
+    return (point.law.penalised || point.law.friction_penalised) && !(is_nodal && point.stiffness > 0.0);
+  });
+  const int usual = is_nodal ? problem.direct_rows : problem.direct_rows_between;
+  return problem.one_step || by_jumps ? std::max(usual, problem.most_direct_rows) : usual;
 }
 
 }  // namespace
@@ -59,7 +62,7 @@ bool has_penalty(const CondensedProblem& problem) {
 }
 
 CondensedNewton::CondensedNewton(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-    : schur_(schur), problem_(problem), state_(state), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem)) {
+    : schur_(schur), problem_(problem), state_(state), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem, is_nodal_)) {
   assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
   assert(state.statuses.size() == problem.points.size());
 }
@@ -109,12 +112,25 @@ void CondensedNewton::take_jumps_of_penalties() {
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
     const ContactLaw law = law_of(p);
     const Vector3d multiplier = multiplier_at(point);
-    if (law.penalised) jumps_[point.first_row] = -multiplier[0] / law.augmentation;
+    if (law.penalised) jumps_[point.first_row] = -multiplier[0] / law.penalty();
     if (!law.friction_penalised || point.rows == 1) continue;
     auto slip = jumps_.segment(point.first_row + 1, point.rows - 1);
-    const Eigen::VectorXd sticking = multiplier.segment(1, point.rows - 1) / law.friction_augmentation;
+    const Eigen::VectorXd sticking = multiplier.segment(1, point.rows - 1) / law.friction_penalty();
     const bool slides = state_.statuses[p] == ContactStatus::sliding && sticking.norm() > 0.0;
     slip = (slides ? std::max(1.0, slip.norm() / sticking.norm()) : 1.0) * sticking;
+  }
+}
+
+/// Forces of what is much stiffer than the bodies are far less exact than jumps.
+void CondensedNewton::let_multipliers_bear_penalties(double stiffness, ContactLaw& law) {
+  if (!(stiffness > 0.0)) return;
+  if (law.penalised && law.augmentation > stiffness) {
+    law.pressure_share = 1.0 - stiffness / law.augmentation;
+    law.augmentation = stiffness;
+  }
+  if (law.friction_penalised && law.friction_augmentation > stiffness) {
+    law.shear_share = 1.0 - stiffness / law.friction_augmentation;
+    law.friction_augmentation = stiffness;
   }
 }
 
@@ -124,6 +140,7 @@ ContactLaw CondensedNewton::law_of(std::size_t p) const {
   law.pointwise = is_nodal_;
   if (law.penalised) law.augmentation *= penalty_share_;
   if (law.friction_penalised) law.friction_augmentation *= penalty_share_;
+  if (is_nodal_) let_multipliers_bear_penalties(problem_.points[p].stiffness, law);
   if (pressures_by_bodies_ && !law.penalised) law.augmentation = bodies_[p].normal;
   if (shears_by_bodies_ && !law.friction_penalised) law.friction_augmentation = bodies_[p].along;
   return law;
@@ -289,9 +306,10 @@ bool CondensedNewton::correct_at_nodes() {
   for (std::size_t p = 0; p < problem_.points.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
-    const ContactLawValue value = law_at(p);
+    const ContactLaw law = law_of(p);
+    const ContactLawValue value = contact_law(law, state_.statuses[p], multiplier_at(point), jump_at(point));
     for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
-    if (!step.add_point(row_unknowns_[point.first_row], point, value)) return false;
+    if (!step.add_point(row_unknowns_[point.first_row], point, law, value)) return false;
   }
   for (const CondensedSpring& spring : problem_.springs) {
     forces_[spring.row] += spring.stiffness * jumps_[spring.row];
@@ -484,7 +502,7 @@ bool CondensedNewton::is_meant(std::size_t p, ContactStatus now, ContactStatus w
   const ContactLaw law = law_of(p);
   const Vector3d multiplier = multiplier_at(point);
   const Vector3d jump = jump_at(point);
-  const double pressure = (law.penalised ? 0.0 : multiplier[0]) - law.augmentation * jump[0];
+  const double pressure = trial_pressure(law, multiplier, jump);
   if (now == ContactStatus::open) return pressure > status_tolerance * law.augmentation * scale_;
   if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
   const double beyond = std::abs(shear_beyond_limit(law, multiplier, jump));

@@ -67,6 +67,7 @@ class CondensedNewton {
 
  private:
   void take_jumps_of_penalties();
+  static void let_multipliers_bear_penalties(double stiffness, ContactLaw& law);
   ContactLaw law_of(std::size_t p) const;
   /// The share of the correction that was taken.
   double correct_partly();

@@ -24,6 +24,7 @@ struct CondensedPoint {
   int node_count = 0;
   double weight = 0.0;
   ContactLaw law;
+  double stiffness = 0.0;  ///< of the bodies at a point on a node (a pressure a length): what penalties are stiffer by, multipliers bring; 0: not known, and penalties bring all
   /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length (see shared_friction.hpp).
   double share_augmentation = 0.0;
   bool bilateral = false;                       ///< once closed it stays closed
@@ -55,7 +56,7 @@ struct CondensedProblem {
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;     ///< of each attempt
-  int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and have no penalty (solver/contact/nodal_step.hpp)
+  int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and jumps alone bring no force of a penalty (solver/contact/nodal_step.hpp)
   int direct_rows_between = 200;  ///< the same where points lie between nodes: a direct system has all jumps and multipliers there, one by products the multipliers alone (solver/contact/interpolated_step.hpp)
   int most_products = 150;      ///< a system
   int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)

@@ -9,9 +9,9 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return (law.penalised ? 0.0 : multiplier[0]) - law.augmentation * jump[0];
-}
+/// What of the multiplier the law takes.
+double pressure_share(const ContactLaw& law) { return law.penalised ? law.pressure_share : 1.0; }
+double shear_share(const ContactLaw& law) { return law.friction_penalised ? law.shear_share : 1.0; }
 
 /// The pressure that limits shear is the multiplier itself, without the augmentation (R5.03.52): the gap vanishes in the mean alone
 /// where points lie between nodes.
@@ -20,9 +20,7 @@ double limiting_pressure(const ContactLaw& law, const Vector3d& multiplier, cons
 }
 
 Vector2d trial_shear(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  const Vector2d slip = law.friction_augmentation * jump.tail<2>();
-  if (law.friction_penalised) return slip;
-  return multiplier.tail<2>() + slip;
+  return shear_share(law) * multiplier.tail<2>() + law.friction_augmentation * jump.tail<2>();
 }
 
 double pressure_that_limits(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
@@ -39,7 +37,7 @@ struct Shear {
 Matrix2d sliding_by_trial(const ContactLaw& law, double limit, const Vector2d& trial, const Vector2d& multiplier) {
   const double size = trial.norm();
   const Vector2d direction = trial / size;
-  if (!law.pointwise || law.friction_penalised || !(limit > 0.0)) return limit / size * (Matrix2d::Identity() - direction * direction.transpose());
+  if (!law.pointwise || !(shear_share(law) > 0.0) || !(limit > 0.0)) return limit / size * (Matrix2d::Identity() - direction * direction.transpose());
   const Vector2d share = multiplier / std::max(limit, multiplier.norm());
   const double against = std::max(0.0, -share.dot(direction));
   return limit / size * (Matrix2d::Identity() - share * direction.transpose() / (1.0 + against));
@@ -62,11 +60,10 @@ Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, con
 
 /// The traction of a shear, and its derivatives.
 void add_traction(const ContactLaw& law, const Shear& shear, ContactLawValue& value) {
-  const double by_multiplier = law.friction_penalised ? 0.0 : 1.0;
   value.traction.tail<2>() = -shear.value;
-  value.traction_by_multiplier.bottomRightCorner<2, 2>() = -by_multiplier * shear.by_trial;
+  value.traction_by_multiplier.bottomRightCorner<2, 2>() = -shear_share(law) * shear.by_trial;
   value.traction_by_jump.bottomRightCorner<2, 2>() = -law.friction_augmentation * shear.by_trial;
-  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -(law.penalised ? 0.0 : 1.0) * shear.by_pressure;
+  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -pressure_share(law) * shear.by_pressure;
   value.traction_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? law.augmentation : 0.0) * shear.by_pressure;
 }
 
@@ -95,11 +92,10 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
   const bool counts_by_pressure = status != ContactStatus::open && !law.friction_penalised;
   const double weight = !counts_by_pressure ? 1.0 : is_held ? law.held_share : std::max(present, least_pressure_share);
   value.residual.tail<2>() = weight * left;
-  const double by_multiplier = law.friction_penalised ? 0.0 : 1.0;
-  value.residual_by_multiplier.bottomRightCorner<2, 2>() = weight / augmentation * (by_multiplier * unit.by_trial - Matrix2d::Identity());
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() = weight / augmentation * (shear_share(law) * unit.by_trial - Matrix2d::Identity());
   value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
   if (!counts_by_pressure || is_held || present <= least_pressure_share) return;
-  value.residual_by_multiplier.bottomLeftCorner<2, 1>() = (law.penalised ? 0.0 : 1.0) / law.share_pressure * left;
+  value.residual_by_multiplier.bottomLeftCorner<2, 1>() = pressure_share(law) / law.share_pressure * left;
   value.residual_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
@@ -107,7 +103,7 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
   ContactLawValue value;
   if (status != ContactStatus::open) {
     value.traction[0] = trial_pressure(law, multiplier, jump);
-    value.traction_by_multiplier(0, 0) = law.penalised ? 0.0 : 1.0;
+    value.traction_by_multiplier(0, 0) = pressure_share(law);
     value.traction_by_jump(0, 0) = -law.augmentation;
   }
   value.residual[0] = (value.traction[0] - multiplier[0]) / law.augmentation;
@@ -127,6 +123,8 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
 }
 
 }  // namespace
+
+double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) { return pressure_share(law) * multiplier[0] - law.augmentation * jump[0]; }
 
 Vector3d live_part(const ContactLaw& law, Vector3d value) {
   value.tail<2>() -= law.dead.dot(value.tail<2>()) * law.dead;

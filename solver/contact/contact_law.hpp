@@ -10,10 +10,13 @@ namespace comma::solver {
 /// Coefficients are pressures a unit of length.
 struct ContactLaw {
   double augmentation = 100.0;             ///< of the pressure by the gap
-  bool penalised = false;                  ///< the pressure is `augmentation` times the depth
+  bool penalised = false;                  ///< the pressure is penalty() times the depth
+  /// Of a penalty, how much of the pressure the multiplier brings, less than one; the augmentation brings the rest.
+  double pressure_share = 0.0;
   double friction = 0.0;                   ///< Coulomb's coefficient
   double friction_augmentation = 100.0;    ///< of the shear by the slip
-  bool friction_penalised = false;         ///< the shear is `friction_augmentation` times the slip while it sticks
+  bool friction_penalised = false;         ///< the shear is friction_penalty() times the slip while it sticks
+  double shear_share = 0.0;                ///< the same as pressure_share
   /// A unit vector along the tangents, or zero: what cannot slip along it, whatever the shear, takes none.
   Eigen::Vector2d dead = Eigen::Vector2d::Zero();
   /// Positive: a shear is a share of the limit of friction, in units of `friction` times this pressure: what the law gives at this pressure
@@ -22,6 +25,9 @@ struct ContactLaw {
   /// Whether the multiplier is that of this point alone, and so the traction once the law holds.
   bool pointwise = false;
   double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in the limit of friction
+
+  double penalty() const { return augmentation / (1.0 - pressure_share); }
+  double friction_penalty() const { return friction_augmentation / (1.0 - shear_share); }
 };
 
 /// The least share of pressure by which a share of the limit of friction counts: one that nothing presses on is still one.
@@ -54,6 +60,9 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const E
 Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
 /// Makes of a law of live parts that of the whole: multipliers along the dead direction vanish.
 void leave_out_dead(const ContactLaw& law, const Eigen::Vector3d& multiplier, ContactLawValue& value);
+
+/// The pressure that the law brings while it is closed; it opens where this does not push.
+double trial_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
 /// The status that the law gives a point. `closed` points stay so.
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);

@@ -31,14 +31,14 @@ bool has_points_on_nodes(const CondensedProblem& problem) {
 
 NodalStep::NodalStep(const std::vector<int>& rows) : rows_(rows) {}
 
-bool NodalStep::add_point(int first, const CondensedPoint& point, const ContactLawValue& law) {
+bool NodalStep::add_point(int first, const CondensedPoint& point, const ContactLaw& law, const ContactLawValue& value) {
   Point added;
   added.first = first;
   added.rows = point.rows;
   added.weight = point.weight;
-  added.law = law;
+  added.law = value;
   for (int c = 0; c < 3; ++c) {
-    const double augmentation = c == 0 ? point.law.augmentation : point.law.friction_augmentation;
+    const double augmentation = c == 0 ? law.augmentation : law.friction_augmentation;
     const double scale = augmentation > 0.0 ? augmentation : 1.0;
     added.law.residual[c] *= scale;
     added.law.residual_by_jump.row(c) *= scale;

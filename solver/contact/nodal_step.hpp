@@ -31,7 +31,7 @@ class NodalStep {
   explicit NodalStep(const std::vector<int>& rows);
 
   /// `first`: the place of its first row among the unknown ones. False where the law does not determine the multiplier.
-  bool add_point(int first, const CondensedPoint& point, const ContactLawValue& law);
+  bool add_point(int first, const CondensedPoint& point, const ContactLaw& law, const ContactLawValue& value);
   void add_spring(int place, double stiffness);
 
   /// The jumps (one an unknown row) for what exceeds them now; columns of S must have been required.

@@ -391,8 +391,9 @@ void MixedContact::add_natural_augmentation() {
     double stiffness = 0.0;
     for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
       stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
-    if (!point.law.penalised) point.law.augmentation = stiffness / point.weight;
-    if (!point.law.friction_penalised) point.law.friction_augmentation = stiffness / point.weight;
+    point.stiffness = stiffness / point.weight;
+    if (!point.law.penalised) point.law.augmentation = point.stiffness;
+    if (!point.law.friction_penalised) point.law.friction_augmentation = point.stiffness;
   }
 }
 

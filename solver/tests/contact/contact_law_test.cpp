@@ -52,19 +52,36 @@ TEST_CASE("Tangents of the contact law are its derivatives") {
   for (const bool penalised : {false, true})
     for (const bool friction_penalised : {false, true})
       for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking})
-        for (const double share_pressure : {0.0, 80.0, -80.0}) {
-        ContactLaw law;
-        law.share_pressure = std::abs(share_pressure);
-        if (share_pressure < 0.0) law.held_share = 0.7;
-        law.augmentation = 900.0;
-        law.penalised = penalised;
-        law.friction = 0.3;
-        law.friction_augmentation = 700.0;
-        law.friction_penalised = friction_penalised;
-        check_tangents(law, status);
-        law.dead = Eigen::Vector2d(0.6, 0.8);
-        check_tangents(law, status);
-      }
+        for (const double share_pressure : {0.0, 80.0, -80.0})
+          for (const bool multiplier_takes_part : {false, true}) {
+            ContactLaw law;
+            law.share_pressure = std::abs(share_pressure);
+            if (share_pressure < 0.0) law.held_share = 0.7;
+            if (multiplier_takes_part) law.pressure_share = law.shear_share = 0.75;
+            law.augmentation = 900.0;
+            law.penalised = penalised;
+            law.friction = 0.3;
+            law.friction_augmentation = 700.0;
+            law.friction_penalised = friction_penalised;
+            check_tangents(law, status);
+            law.dead = Eigen::Vector2d(0.6, 0.8);
+            check_tangents(law, status);
+          }
+}
+
+TEST_CASE("A penalty that the multiplier takes part of is the same penalty once the law holds") {
+  ContactLaw law;
+  law.penalised = law.friction_penalised = true;
+  law.friction = 0.3;
+  law.pressure_share = law.shear_share = 0.75;
+  law.augmentation = 500.0;
+  law.friction_augmentation = 250.0;
+  CHECK(law.penalty() == Approx(2000.0));
+  CHECK(law.friction_penalty() == Approx(1000.0));
+  const Vector3d jump(-0.05, 0.004, -0.003), multiplier(100.0, 4.0, -3.0);
+  const ContactLawValue value = contact_law(law, ContactStatus::sticking, multiplier, jump);
+  CHECK(value.residual.norm() == Approx(0.0).margin(1e-12));
+  CHECK(value.traction.isApprox(Vector3d(100.0, -4.0, 3.0), 1e-12));
 }
 
 TEST_CASE("Pointwise, tangents of a shear that slides are its derivatives once the multiplier is that shear") {

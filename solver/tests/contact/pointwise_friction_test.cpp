@@ -4,21 +4,54 @@
 
 using namespace comma::solver;
 
-TEST_CASE("Friction on a round patch that turns as it is pressed settles in a few iterations, whatever the augmentation") {
-  constexpr int edge = 12;
-  for (const double augmentation : {1.0, 10.0, 100.0}) {
-    CoupledSurface surface(edge);
+namespace {
+
+/// A round patch that turns as it is pressed: some of it sticks.
+struct TurningPatch : CoupledSurface {
+  static constexpr int edge = 12;
+  static constexpr std::array<int, 3> statuses{112, 28, 4};  // open, sliding, sticking
+
+  TurningPatch() : CoupledSurface(edge) {
     for (int p = 0; p < edge * edge; ++p) {
       const double x = (p % edge + 0.5) / edge - 0.5, y = (p / edge + 0.5) / edge - 0.5;
-      CondensedPoint& point = surface.problem.points[static_cast<std::size_t>(p)];
+      CondensedPoint& point = problem.points[static_cast<std::size_t>(p)];
       point.law.friction = 0.2;
+      problem.free.segment<3>(3 * p) << -0.5 + 4.0 * (x * x + y * y), 0.2 * (0.3 + 2.0 * x * x - y), 0.2 * (y * y - 2.0 * x);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Friction on points that turn as they are pressed settles in a few iterations, whatever the augmentation") {
+  for (const double augmentation : {1.0, 10.0, 100.0}) {
+    TurningPatch patch;
+    for (CondensedPoint& point : patch.problem.points) {
       point.law.augmentation *= augmentation;
       point.law.friction_augmentation *= augmentation;
-      surface.problem.free.segment<3>(3 * p) << -0.5 + 4.0 * (x * x + y * y), 0.2 * (0.3 + 2.0 * x * x - y), 0.2 * (y * y - 2.0 * x);
     }
-    const CondensedSolution solution = solve_condensed(surface.schur, surface.problem, surface.state);
+    const CondensedSolution solution = solve_condensed(patch.schur, patch.problem, patch.state);
     REQUIRE(solution.verdict == CondensedVerdict::solved);
     CHECK(solution.iterations <= 15);
-    CHECK(surface.counts() == std::array{112, 28, 4});  // open, sliding, sticking
+    CHECK(patch.counts() == TurningPatch::statuses);
+  }
+}
+
+TEST_CASE("Penalties a hundred million times as stiff as the bodies settle as fast, by products as well, and differ by no more from contact without") {
+  TurningPatch rigid;
+  REQUIRE(solve_condensed(rigid.schur, rigid.problem, rigid.state).verdict == CondensedVerdict::solved);
+  for (const int most_direct_rows : {1000, 0}) {
+    TurningPatch patch;
+    patch.problem.direct_rows = patch.problem.most_direct_rows = most_direct_rows;
+    for (CondensedPoint& point : patch.problem.points) {
+      point.stiffness = point.law.augmentation;
+      point.law.penalised = point.law.friction_penalised = true;
+      point.law.augmentation = point.law.friction_augmentation = 1e8 * point.stiffness;
+    }
+    const CondensedSolution solution = solve_condensed(patch.schur, patch.problem, patch.state);
+    REQUIRE(solution.verdict == CondensedVerdict::solved);
+    CHECK(solution.iterations <= 15);
+    CHECK(patch.counts() == TurningPatch::statuses);
+    CHECK((patch.state.multipliers - rigid.state.multipliers).norm() < 1e-7 * rigid.state.multipliers.norm());
   }
 }
