@@ -518,6 +518,13 @@ ContactStatus CondensedNewton::wanted_status(std::size_t p) const {
   return wanted == now || is_meant(p, now, wanted) ? wanted : now;
 }
 
+/// At nodes, where sliding is linearised such that iterations come nearer, statuses come back before all of them are right: not a cycle while less is left than then.
+bool CondensedNewton::is_cycle(const std::vector<ContactStatus>& next) {
+  if (const auto now = visited_.find(state_.statuses); now != visited_.end()) now->second = residual_;
+  const auto [before, is_new] = visited_.try_emplace(next, 0.0);
+  return !is_new && (!is_nodal_ || std::max(residual_, residual_tolerance * scale_) > 0.5 * before->second);
+}
+
 bool CondensedNewton::update_statuses() {
   pressure_scale_ = largest_pressure();
   bool changed = false;
@@ -526,7 +533,7 @@ bool CondensedNewton::update_statuses() {
     next[p] = wanted_status(p);
     changed |= next[p] != state_.statuses[p];
   }
-  if (changed && !visited_.insert(next).second) one_at_a_time_ = true;
+  if (changed && is_cycle(next)) one_at_a_time_ = true;
   state_.statuses = std::move(next);
   return changed;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <set>
+#include <map>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -120,6 +120,7 @@ class CondensedNewton {
   /// Whether a status that the law asks for differs from the present one by more than rounding.
   bool is_meant(std::size_t p, ContactStatus now, ContactStatus wanted) const;
   ContactStatus wanted_status(std::size_t p) const;
+  bool is_cycle(const std::vector<ContactStatus>& next);
   bool update_statuses();
 
   SchurComplement& schur_;
@@ -150,7 +151,7 @@ class CondensedNewton {
   double friction_share_ = 1.0, penalty_share_ = 1.0;
   bool pressures_by_bodies_ = false, shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
   std::vector<PointStiffness> bodies_;
-  std::set<std::vector<ContactStatus>> visited_;
+  std::map<std::vector<ContactStatus>, double> visited_;  ///< what was left with them
 };
 
 }  // namespace comma::solver

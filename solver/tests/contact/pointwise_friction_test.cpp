@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include <catch2/catch.hpp>
 
 #include "solver/tests/contact/coupled_points.hpp"
@@ -53,5 +55,22 @@ TEST_CASE("Penalties a hundred million times as stiff as the bodies settle as fa
     CHECK(solution.iterations <= 15);
     CHECK(patch.counts() == TurningPatch::statuses);
     CHECK((patch.state.multipliers - rigid.state.multipliers).norm() < 1e-7 * rigid.state.multipliers.norm());
+  }
+}
+
+TEST_CASE("Statuses that come back while less is left are no cycle") {
+  constexpr int count = 9, size = 3 * count;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    std::srand(seed);
+    const Eigen::MatrixXd factor = Eigen::MatrixXd::Random(size, size);
+    const Eigen::MatrixXd compliance = factor * factor.transpose() / count + 0.3 * Eigen::MatrixXd::Identity(size, size);
+    SchurComplement schur(identity_rows(size), [&compliance](Eigen::Ref<Eigen::MatrixXd> columns) { columns = compliance * columns; });
+    Coupled bodies(count, 1.0);
+    bodies.problem.free = 3.0 * Eigen::VectorXd::Random(size);
+    for (int p = 0; p < count; ++p) bodies.problem.free[3 * p] = -1.0;
+    const CondensedSolution solution = solve_condensed(schur, bodies.problem, bodies.state);
+    CAPTURE(seed);
+    REQUIRE(solution.verdict == CondensedVerdict::solved);
+    CHECK(solution.iterations <= 12);
   }
 }
