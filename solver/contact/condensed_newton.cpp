@@ -177,8 +177,9 @@ bool CondensedNewton::settle(Rubbing rubbing, int& iterations, Patience patience
     const bool settled = !update_statuses();
     if (settled && is_solved()) return true;
     if (!settled) same_statuses_ = 0;
-    if (problem_.components == 1 || rubbing_ != Rubbing::by_law) continue;
+    if (problem_.components == 1) continue;
     if (one_at_a_time_) return false;  // with friction a cycle stays one
+    if (rubbing_ != Rubbing::by_law) continue;
     led_away_ = patience == Patience::short_of_growth && iteration >= (is_nodal_ ? free_iterations_on_nodes : free_iterations) && residual_ > before_last;
     if (led_away_) return false;
     before_last = last;
