@@ -84,7 +84,7 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
   const bool is_allowed = mixed.largest_slip && creep <= *mixed.largest_slip;
   if (is_allowed || creep <= least || creep <= doubtful_share * reach) return;
   ContactDoubt doubt{.kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
-  doubt.penalty = mixed.friction_penalty * friction_stiffening_[static_cast<std::size_t>(zone)];
+  doubt.penalty = penalties_.friction_penalty(mixed, zone);
   // With it, friction is at its limit after a small share of the present creep.
   doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
   doubts.note(doubt);

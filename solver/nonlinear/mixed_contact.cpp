@@ -11,9 +11,7 @@
 
 #include "solver/contact/dead_directions.hpp"
 #include "solver/contact/extent.hpp"
-#include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
-#include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/mesh/slave_cut.hpp"
@@ -34,10 +32,6 @@ constexpr double touching = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
-/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and at least this much,
-/// so that a few rounds do.
-constexpr double raise_margin = 1.1;
-constexpr double least_raise = 2.0;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -53,8 +47,6 @@ bool has_friction(const ContactDefinition& definition) {
   return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
 }
 
-bool contains(const std::vector<int>& nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
-
 }  // namespace
 
 MixedContact::MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
@@ -67,8 +59,7 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
       tangent_(tangent),
       counters_(counters),
       support_(std::move(support)),
-      stiffening_(definition.zones.size(), 1.0),
-      friction_stiffening_(definition.zones.size(), 1.0),
+      penalties_(definition.zones.size()),
       reference_(Eigen::VectorXd::Zero(dofs.size())) {
   number_multipliers();
 }
@@ -83,10 +74,11 @@ void MixedContact::number_multipliers() {
       continue;
     }
     const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
+    const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(), each.mixed.frictionless_nodes.end());
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
       if (!excluded.contains(node) &&
           multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size())).second)
-        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || (contains(each.mixed.frictionless_nodes, node) && !each.mixed.frictionless_direction));
+        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || (frictionless.contains(node) && !each.mixed.frictionless_direction));
   }
   dimension_ = is_solid ? 3 : 2;
   problem_.node_count = static_cast<int>(problem_.smooth.size());
@@ -130,7 +122,7 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   CondensedPoint result;
   result.weight = point.weight;
   result.law = law_of(zone);
-  stiffen(point, result);
+  apply_penalties(point.zone, result);
   result.bilateral = zone.mixed.bilateral;
   const auto excluded = excluded_direction(zone.mixed, point, mesh_);
   if (excluded && (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm()))) result.law.friction = 0.0;
@@ -511,46 +503,25 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
 
 bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
   const Eigen::VectorXd now = jumps(u);
-  std::vector<double> depth(definition_.zones.size(), 0.0), slip = depth;  // as multiples of what is allowed
+  const std::size_t zones = definition_.zones.size();
+  Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0)};
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
-    const std::optional<double> deepest = depth_limit_ ? depth_limit_ : mixed.largest_depth;
-    if (mixed.penalised && deepest) depth[zone] = std::max(depth[zone], -now[point.first_row] / *deepest);
+    const std::optional<double> deepest = penalties_.allowed_depth(mixed);
+    if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
-      slip[zone] = std::max(slip[zone], slip_of(point, now) / *mixed.largest_slip);
+      excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
   }
-  const bool pressed = raise(stiffening_, depth, "contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'");
-  const bool rubbed = raise(friction_stiffening_, slip, "penalty of friction", "points that stick from slipping more", "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'");
-  if (!pressed && !rubbed) return false;
-  for (std::size_t p = 0; p < points_.size(); ++p) stiffen(points_[p], problem_.points[p]);
+  if (!penalties_.raise(excess)) return false;
+  for (std::size_t p = 0; p < points_.size(); ++p) apply_penalties(points_[p].zone, problem_.points[p]);
   return true;
 }
 
-/// Factors of zones grow by as much as there is too much of what they keep down; whether any did.
-bool MixedContact::raise(std::vector<double>& factors, const std::vector<double>& excess, const char* penalty, const char* what, const char* hint) const {
-  bool raised = false;
-  for (std::size_t zone = 0; zone < excess.size(); ++zone) {
-    if (excess[zone] <= 1.0) continue;
-    factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
-    if (factors[zone] > most_raise_)
-      throw Error("no-convergence", fmt::format("a {} {:g} times the one given does not keep {} than allowed", penalty, most_raise_, what), hint);
-    raised = true;
-  }
-  return raised;
-}
-
-/// Penalties as they are raised.
-void MixedContact::stiffen(const ContactPoint& point, CondensedPoint& condensed) const {
-  const auto zone = static_cast<std::size_t>(point.zone);
-  const MixedZone& mixed = definition_.zones[zone].mixed;
-  if (mixed.penalised) condensed.law.augmentation = mixed.augmentation * stiffening_[zone];
-  if (!mixed.friction_penalised) return;
-  const double penalty = mixed.friction_penalty * friction_stiffening_[zone];
-  condensed.law.friction_augmentation = penalty;
-  if (condensed.share_augmentation > 0.0) condensed.share_augmentation = penalty;
+void MixedContact::apply_penalties(int zone, CondensedPoint& point) const {
+  penalties_.apply(definition_.zones[static_cast<std::size_t>(zone)].mixed, zone, point);
 }
 
 bool MixedContact::has_penalties() const {
@@ -573,117 +544,6 @@ double MixedContact::penetration(const Eigen::VectorXd& u) const {
   for (const CondensedPoint& point : problem_.points)
     if (point.rows > 0) deepest = std::max(deepest, -now[point.first_row]);
   return deepest;
-}
-
-void MixedContact::add_multipliers(NodalField& displacements) const {
-  if (definition_.formulation == ContactFormulation::discrete) return;
-  constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
-  const int added_components = definition_.has_friction ? dimension_ : problem_.components;
-  const auto added = static_cast<std::size_t>(added_components);
-  const std::size_t before = displacements.components.size();
-  const std::size_t all = before + added;
-  const std::size_t nodes = displacements.values.size() / before;
-  std::vector<double> values(nodes * all, absent);
-  for (std::size_t node = 0; node < nodes; ++node)
-    std::copy_n(displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before), before,
-                values.begin() + static_cast<std::ptrdiff_t>(node * all));
-  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + added_components);
-  const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
-  for (const ContactZone& zone : definition_.zones) {
-    if (zone.mixed.local_average) continue;
-    for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
-  }
-  for (const auto& [key, number] : multiplier_numbers_) std::fill_n(place(key.second), added, 0.0);
-  for (const auto& [key, number] : multiplier_numbers_) {
-    const Vector3d value = multiplier(number);
-    const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
-    place(key.second)[0] -= value[0];
-    for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
-  }
-  displacements.values = std::move(values);
-}
-
-namespace {
-
-/// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them do.
-void add_contact(const NodeContact& contact, NodeContact& sum) {
-  const Vector3d whole = sum.normal_force * sum.pair.normal + contact.normal_force * contact.pair.normal;
-  sum.sticking = sum.closed && contact.closed ? sum.sticking && contact.sticking : sum.sticking || contact.sticking;
-  sum.closed |= contact.closed;
-  sum.gap = std::min(sum.gap, contact.gap);
-  sum.shear_force += contact.shear_force;
-  sum.normal_force = whole.norm();
-  if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
-}
-
-}  // namespace
-
-NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
-  const Eigen::VectorXd now = jumps(u);
-  std::vector<NodeContact> contacts;
-  std::map<Key, std::size_t> by_node;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
-    const CondensedPoint& condensed = problem_.points[p];
-    if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
-    NodeContact contact;
-    contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
-    if (condensed.first_row >= 0) {
-      contact.gap = now[condensed.first_row];
-      contact.normal_force = forces_[condensed.first_row];
-      contact.closed = point.status == PairingStatus::paired && state_.statuses[p] != ContactStatus::open;
-      contact.sticking = state_.statuses[p] == ContactStatus::sticking;
-    }
-    if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
-    const Directions along = condensed.rows > 1 ? directions(point) : Directions();
-    for (int c = 1; c < condensed.rows; ++c) {
-      contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
-      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
-    }
-    const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
-    if (is_first) {
-      contacts.push_back(contact);
-    } else if (contact.pair.status == PairingStatus::paired && contacts[known->second].pair.status == PairingStatus::paired) {
-      add_contact(contact, contacts[known->second]);
-    } else if (contact.pair.status == PairingStatus::paired) {
-      contacts[known->second] = contact;
-    }
-  }
-  add_nodes_without_contact(positions, contacts);
-  return contact_field(contacts, mesh_.node_count(), positions);
-}
-
-/// Nodes of zones where contact is not enforced, and those that the user leaves out.
-void MixedContact::add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const {
-  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions)) contacts.push_back({.pair = pair, .gap = surface_gap(pair, mesh_, positions)});
-  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
-    const ContactZone& each = definition_.zones[zone];
-    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
-      if (contains(each.excluded_slave_nodes, node)) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
-  }
-}
-
-std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) const {
-  if (std::ranges::none_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) return std::nullopt;
-  const Eigen::VectorXd now = jumps(u);
-  std::map<int, PatchContact> by_node;  // a node inside tells the patch
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
-    if (!(point.area > 0.0)) continue;
-    PatchContact& contact = by_node[point.node];
-    contact.covered = point.weight / point.area;
-    const CondensedPoint& condensed = problem_.points[p];
-    if (condensed.first_row >= 0) contact.gap = now[condensed.first_row];
-    if (condensed.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
-    contact.is_closed = true;
-    contact.pressure = multiplier(condensed.nodes[0])[0];
-  }
-  std::vector<std::pair<std::vector<int>, PatchContact>> patches;
-  for (const auto& faces : mesh_.slave_patches) {
-    const auto known = by_node.find(inner_nodes(mesh_, faces).front());
-    if (known != by_node.end()) patches.emplace_back(faces, known->second);
-  }
-  return patch_field(patches, mesh_.cell_count());
 }
 
 }  // namespace comma::solver

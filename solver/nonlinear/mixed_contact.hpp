@@ -16,6 +16,7 @@
 #include "solver/contact/contact_field.hpp"
 #include "solver/contact/contact_points.hpp"
 #include "solver/contact/doubts.hpp"
+#include "solver/contact/raised_penalties.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
@@ -39,8 +40,8 @@ class MixedContact {
   void start_step(const Eigen::VectorXd& u, double duration);
   void accept_step(double duration) { rates_ = (state_.multipliers - start_) / duration; }
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced anew then.
-  void remember() { remembered_ = {state_, stiffening_, friction_stiffening_, started_}; }
-  void restore() { std::tie(state_, stiffening_, friction_stiffening_, started_) = remembered_; }
+  void remember() { remembered_ = {state_, penalties_, started_}; }
+  void restore() { std::tie(state_, penalties_, started_) = remembered_; }
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
@@ -72,10 +73,7 @@ class MixedContact {
   /// Whether a zone gives way (ALGO_CONT='PENALISATION').
   bool has_penalties() const;
   /// From now on penalties are raised, at most by a factor, until no point is deeper than this (a length).
-  void limit_depth(double depth, double most_stiffening) {
-    depth_limit_ = depth;
-    most_raise_ = most_stiffening;
-  }
+  void limit_depth(double depth, double most_stiffening) { penalties_.limit_depth(depth, most_stiffening); }
   /// The largest depth of a point at u (a length).
   double penetration(const Eigen::VectorXd& u) const;
   const std::vector<ContactPoint>& points() const { return points_; }
@@ -111,8 +109,7 @@ class MixedContact {
   void start_statuses(const Eigen::VectorXd& jumps);
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
-  bool raise(std::vector<double>& factors, const std::vector<double>& excess, const char* penalty, const char* what, const char* hint) const;
-  void stiffen(const ContactPoint& point, CondensedPoint& condensed) const;
+  void apply_penalties(int zone, CondensedPoint& point) const;
   void choose_directions();
   Directions directions(const ContactPoint& point) const;
   std::vector<char> shared_multipliers() const;
@@ -148,10 +145,7 @@ class MixedContact {
 
   std::map<Key, int> multiplier_numbers_;
   int dimension_ = 3;
-  std::vector<double> stiffening_;  ///< by which the penalty of each zone is raised, >= 1
-  std::vector<double> friction_stiffening_;  ///< the same of its penalty of friction
-  std::optional<double> depth_limit_;  ///< of all zones, in place of their own
-  double most_raise_ = 1e12;           ///< beyond, rounding of the gaps makes pressures
+  RaisedPenalties penalties_;
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;
@@ -162,7 +156,7 @@ class MixedContact {
   CondensedState state_;
   bool started_ = false;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
-  std::tuple<CondensedState, std::vector<double>, std::vector<double>, bool> remembered_;
+  std::tuple<CondensedState, RaisedPenalties, bool> remembered_;
   std::size_t spring_count_ = 0;
   RowMatrix rows_;                 ///< R, over all degrees of freedom
   RowMatrix reduced_rows_;         ///< A

@@ -1,0 +1,58 @@
+#include "solver/contact/raised_penalties.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and at least this much,
+/// so that a few rounds do.
+constexpr double raise_margin = 1.1;
+constexpr double least_raise = 2.0;
+
+struct Wording {
+  const char* penalty;
+  const char* what;
+  const char* hint;
+};
+
+bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, double most, const Wording& wording) {
+  bool raised = false;
+  for (std::size_t zone = 0; zone < excess.size(); ++zone) {
+    if (excess[zone] <= 1.0) continue;
+    factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
+    if (factors[zone] > most)
+      throw Error("no-convergence", fmt::format("a {} {:g} times the one given does not keep {} than allowed", wording.penalty, most, wording.what), wording.hint);
+    raised = true;
+  }
+  return raised;
+}
+
+}  // namespace
+
+void RaisedPenalties::limit_depth(double depth, double most) {
+  depth_limit_ = depth;
+  most_ = most;
+}
+
+bool RaisedPenalties::raise(const Excess& excess) {
+  const bool pressed = raise_factors(contact_, excess.depth, most_,
+                                     {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
+  const bool rubbed = raise_factors(friction_, excess.slip, most_,
+                                    {"penalty of friction", "points that stick from slipping more", "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
+  return pressed || rubbed;
+}
+
+void RaisedPenalties::apply(const MixedZone& zone, int number, CondensedPoint& point) const {
+  if (zone.penalised) point.law.augmentation = zone.augmentation * contact_[static_cast<std::size_t>(number)];
+  if (!zone.friction_penalised) return;
+  const double penalty = friction_penalty(zone, number);
+  point.law.friction_augmentation = penalty;
+  if (point.share_augmentation > 0.0) point.share_augmentation = penalty;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,43 @@
+// Penalties of contact that grow until points go no deeper, and slip no more, than allowed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/contact/condensed_problem.hpp"
+#include "solver/contact/definition.hpp"
+
+namespace comma::solver {
+
+/// What is too much in each zone: the deepest point and the one that slips furthest while it sticks, as multiples of what is allowed.
+struct Excess {
+  std::vector<double> depth;
+  std::vector<double> slip;
+};
+
+/// The penalties of the zones of a contact are raised by one factor a zone (U4.44.11: ADAPTATION='ADAPT_COEF' with PENE_MAXI and
+/// GLIS_MAXI; U4.34.03: ACTION='ADAPT_COEF_PENA' of the event INTERPENETRATION), and never lowered.
+class RaisedPenalties {
+ public:
+  explicit RaisedPenalties(std::size_t zones = 0) : contact_(zones, 1.0), friction_(zones, 1.0) {}
+
+  /// From now on all zones allow this depth (a length) in place of their own, and no factor goes beyond `most`.
+  void limit_depth(double depth, double most);
+  /// How deep points of a zone may go; nothing where nothing limits them.
+  std::optional<double> allowed_depth(const MixedZone& zone) const { return depth_limit_ ? depth_limit_ : zone.largest_depth; }
+
+  /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence` where factors have
+  /// become too large.
+  bool raise(const Excess& excess);
+  /// Gives the law of a point of the zone its penalties as they are now.
+  void apply(const MixedZone& zone, int number, CondensedPoint& point) const;
+  double friction_penalty(const MixedZone& zone, int number) const { return zone.friction_penalty * friction_[static_cast<std::size_t>(number)]; }
+
+ private:
+  std::vector<double> contact_;   ///< by which the penalty of each zone is raised, >= 1
+  std::vector<double> friction_;  ///< the same of its penalty of friction
+  std::optional<double> depth_limit_;
+  double most_ = 1e12;  ///< beyond, rounding of the gaps makes pressures
+};
+
+}  // namespace comma::solver

@@ -1,0 +1,126 @@
+// What the mixed formulation adds to results: multipliers, CONT_NOEU, CONT_ELEM.
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "solver/contact/patch_field.hpp"
+#include "solver/contact/patch_points.hpp"
+#include "solver/contact/watched_zones.hpp"
+#include "solver/mesh/slave_cut.hpp"
+#include "solver/nonlinear/mixed_contact.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them do.
+void add_contact(const NodeContact& contact, NodeContact& sum) {
+  const Vector3d whole = sum.normal_force * sum.pair.normal + contact.normal_force * contact.pair.normal;
+  sum.sticking = sum.closed && contact.closed ? sum.sticking && contact.sticking : sum.sticking || contact.sticking;
+  sum.closed |= contact.closed;
+  sum.gap = std::min(sum.gap, contact.gap);
+  sum.shear_force += contact.shear_force;
+  sum.normal_force = whole.norm();
+  if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
+}
+
+}  // namespace
+
+void MixedContact::add_multipliers(NodalField& displacements) const {
+  if (definition_.formulation == ContactFormulation::discrete) return;
+  constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
+  const int added_components = definition_.has_friction ? dimension_ : problem_.components;
+  const auto added = static_cast<std::size_t>(added_components);
+  const std::size_t before = displacements.components.size();
+  const std::size_t all = before + added;
+  const std::size_t nodes = displacements.values.size() / before;
+  std::vector<double> values(nodes * all, absent);
+  for (std::size_t node = 0; node < nodes; ++node)
+    std::copy_n(displacements.values.begin() + static_cast<std::ptrdiff_t>(node * before), before,
+                values.begin() + static_cast<std::ptrdiff_t>(node * all));
+  displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + added_components);
+  const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
+  for (const ContactZone& zone : definition_.zones) {
+    if (zone.mixed.local_average) continue;
+    for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
+  }
+  for (const auto& [key, number] : multiplier_numbers_) std::fill_n(place(key.second), added, 0.0);
+  for (const auto& [key, number] : multiplier_numbers_) {
+    const Vector3d value = multiplier(number);
+    const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
+    place(key.second)[0] -= value[0];
+    for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
+  }
+  displacements.values = std::move(values);
+}
+
+NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
+  const Eigen::VectorXd now = jumps(u);
+  std::vector<NodeContact> contacts;
+  std::map<Key, std::size_t> by_node;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    const CondensedPoint& condensed = problem_.points[p];
+    if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
+    NodeContact contact;
+    contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
+    if (condensed.first_row >= 0) {
+      contact.gap = now[condensed.first_row];
+      contact.normal_force = forces_[condensed.first_row];
+      contact.closed = point.status == PairingStatus::paired && state_.statuses[p] != ContactStatus::open;
+      contact.sticking = state_.statuses[p] == ContactStatus::sticking;
+    }
+    if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
+    const Directions along = condensed.rows > 1 ? directions(point) : Directions();
+    for (int c = 1; c < condensed.rows; ++c) {
+      contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
+      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
+    }
+    const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
+    if (is_first) {
+      contacts.push_back(contact);
+    } else if (contact.pair.status == PairingStatus::paired && contacts[known->second].pair.status == PairingStatus::paired) {
+      add_contact(contact, contacts[known->second]);
+    } else if (contact.pair.status == PairingStatus::paired) {
+      contacts[known->second] = contact;
+    }
+  }
+  add_nodes_without_contact(positions, contacts);
+  return contact_field(contacts, mesh_.node_count(), positions);
+}
+
+/// Nodes of zones where contact is not enforced, and those that the user leaves out.
+void MixedContact::add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const {
+  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions)) contacts.push_back({.pair = pair, .gap = surface_gap(pair, mesh_, positions)});
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
+    const ContactZone& each = definition_.zones[zone];
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
+      if (std::ranges::find(each.excluded_slave_nodes, node) != each.excluded_slave_nodes.end()) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
+  }
+}
+
+std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) const {
+  if (std::ranges::none_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) return std::nullopt;
+  const Eigen::VectorXd now = jumps(u);
+  std::map<int, PatchContact> by_node;  // a node inside tells the patch
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    if (!(point.area > 0.0)) continue;
+    PatchContact& contact = by_node[point.node];
+    contact.covered = point.weight / point.area;
+    const CondensedPoint& condensed = problem_.points[p];
+    if (condensed.first_row >= 0) contact.gap = now[condensed.first_row];
+    if (condensed.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    contact.is_closed = true;
+    contact.pressure = multiplier(condensed.nodes[0])[0];
+  }
+  std::vector<std::pair<std::vector<int>, PatchContact>> patches;
+  for (const auto& faces : mesh_.slave_patches) {
+    const auto known = by_node.find(inner_nodes(mesh_, faces).front());
+    if (known != by_node.end()) patches.emplace_back(faces, known->second);
+  }
+  return patch_field(patches, mesh_.cell_count());
+}
+
+}  // namespace comma::solver
