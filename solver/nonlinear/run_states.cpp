@@ -1,0 +1,167 @@
+// The part of StaticRun that reads the state it begins with, and writes the states it reaches.
+#include <cmath>
+
+#include "solver/contact/contact_field.hpp"
+#include "solver/contact/watched_zones.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/known_displacements.hpp"
+#include "solver/nonlinear/static_run.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Vector3d;
+
+}  // namespace
+
+void StaticRun::start(double instant) {
+  last_instant_ = instant;
+  now_.state.u = Eigen::VectorXd::Zero(dofs_.size());
+  if (problem_.initial) {
+    if (problem_.initial->displacement) take_displacements(*problem_.initial->displacement, dofs_, now_.state.u);
+  } else if (!result_.steps.empty()) {
+    take_last_step();
+  }
+  differential_from_ = differential_reference();
+  elimination_.measure_from(differential_from_);
+  now_.state.reduced = now_.state.u(elimination_.kept());
+  assembler_.set_time(instant);
+  assembler_.impose_strains(loads_so_far(), instant);
+  resume();
+  go_on_with_path();
+  if (!result_.steps.empty()) {
+    watch_->take(result_.steps.back());
+    return;
+  }
+  result_.model = problem_.model;
+  ResultStep step;
+  step.instant = instant;
+  step.fields.emplace("DEPL", displacements());
+  step.fields.emplace("SIEF_ELGA", initial_stresses());
+  add_internal_variables(step);
+  step.parameters["ITER_GLOB"] = 0.0;
+  if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
+  if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
+  add_patch_state(step);
+  append(std::move(step));
+}
+
+Eigen::VectorXd StaticRun::differential_reference() const {
+  Eigen::VectorXd u = now_.state.u;
+  if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, dofs_, u);
+  return u;
+}
+
+void StaticRun::take_last_step() {
+  const auto found = result_.steps.back().fields.find("DEPL");
+  if (found == result_.steps.back().fields.end())
+    throw Error("missing-field", "the result to go on with has no displacement (DEPL) at its last step");
+  take_displacements(std::get<NodalField>(found->second), dofs_, now_.state.u);
+}
+
+void StaticRun::go_on_with_path() {
+  if (!path_ || !problem_.initial) return;
+  if (problem_.initial->intensity) path_->set_intensity(*problem_.initial->intensity);
+  if (!problem_.initial->earlier) return;
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
+  take_displacements(*problem_.initial->earlier, dofs_, u);
+  path_->set_direction(now_.state.u - u);
+}
+
+void StaticRun::resume() {
+  const auto address = [](const auto& field) { return field ? &*field : nullptr; };
+  if (problem_.initial)
+    assembler_.resume(now_.state.u, address(problem_.initial->stresses), of_memory(address(problem_.initial->variables)));
+  else if (!result_.steps.empty())
+    assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
+  else
+    assembler_.resume(now_.state.u, nullptr, nullptr);
+}
+
+const ElementField* StaticRun::of_memory(const ElementField* variables) {
+  return variables != nullptr && variables->components.size() > 1 ? variables : nullptr;
+}
+
+ElementField StaticRun::initial_stresses() const {
+  ElementField field = assembler_.stresses(now_.state.u);
+  for (double& value : field.values)
+    if (!problem_.initial && !std::isnan(value)) value = 0.0;
+  return field;
+}
+
+const ElementField* StaticRun::field_of_last_step(std::string_view name) const {
+  const auto& fields = result_.steps.back().fields;
+  const auto found = fields.find(name);
+  return found == fields.end() ? nullptr : &std::get<ElementField>(found->second);
+}
+
+std::span<const AppliedLoad> StaticRun::loads_so_far() const {
+  if (problem_.initial) return problem_.initial->loads;
+  return result_.steps.empty() ? std::span<const AppliedLoad>() : problem_.loads;
+}
+
+NodalField StaticRun::initial_contact_state(double instant) {
+  pair(instant, now_.state.u, nullptr);
+  now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
+  resize_multipliers(now_.conditions);
+  return contact_state();
+}
+
+void StaticRun::add_internal_variables(ResultStep& step) const {
+  step.fields.emplace("VARI_ELGA", assembler_.internal_variables(now_.state.u));
+}
+
+void StaticRun::add_patch_state(ResultStep& step) const {
+  if (!mixed_) return;
+  if (auto state = mixed_->patch_state(now_.state.u)) step.fields.emplace("CONT_ELEM", *std::move(state));
+}
+
+NodalField StaticRun::displacements() const {
+  NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
+  if (mixed_) mixed_->add_multipliers(field);
+  return field;
+}
+
+ResultStep StaticRun::fields_now(double instant) const {
+  ResultStep step;
+  step.order = result_.steps.back().order + 1;
+  step.instant = instant;
+  step.fields.emplace("DEPL", displacements());
+  step.fields.emplace("SIEF_ELGA", assembler_.stresses(now_.state.u, problem_.loads, instant));
+  add_internal_variables(step);
+  return step;
+}
+
+void StaticRun::archive(double instant, int iterations) {
+  ResultStep step = fields_now(instant);
+  if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+  add_patch_state(step);
+  step.parameters["ITER_GLOB"] = iterations;
+  if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
+  append(std::move(step));
+}
+
+void StaticRun::append(ResultStep step) {
+  watch_->take(step);
+  result_.steps.push_back(std::move(step));
+  if (after_step_) after_step_(result_);
+}
+
+NodalField StaticRun::contact_state() const {
+  if (mixed_) return mixed_->contact_state(now_.state.u, positions());
+  const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
+  std::vector<double> gaps(now_.conditions.pairs.size(), absent);
+  for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
+    const int slot = now_.conditions.row_slots[row];
+    if (slot < static_cast<int>(gaps.size())) gaps[slot] = slack[static_cast<Eigen::Index>(row)];
+  }
+  const std::vector<Vector3d> now = positions();
+  std::vector<ContactPair> pairs = now_.conditions.pairs;
+  for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, now)) {
+    pairs[k] = pair;
+    gaps[k] = surface_gap(pair, mesh_, now);
+  }
+  return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,138 @@
+// The part of StaticRun that takes a step, and tries another way where one fails.
+#include <fmt/format.h>
+
+#include "solver/contact/watched_zones.hpp"
+#include "solver/error.hpp"
+#include "solver/nonlinear/failure.hpp"
+#include "solver/nonlinear/geometry_updates.hpp"
+#include "solver/nonlinear/static_run.hpp"
+#include "solver/on_exit.hpp"
+
+namespace comma::solver {
+
+std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
+  const Progress before = now_;
+  const std::vector<char> closed_before = closed_points();
+  watch_->start_step();
+  if (mixed_) mixed_->remember();
+  try {
+    const int iterations = solve_jointly_or_settled(instant, before);
+    watch_->check_increment(instant, [&] { return fields_now(instant); });
+    if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
+    if (!refines_collision(closed_before, sequence)) return iterations;
+    return take_again(instant, before, sequence, "meets a change of contact");
+  } catch (const Error& error) {
+    const StepEvent* event = watch_->event_behind(error.code());
+    if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_);
+    if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
+      if (event) throw;
+      return solve_as_last_resort(instant, before, error);
+    }
+    return take_again(instant, before, sequence, event ? fmt::format("has failed ({})", error.code()) : "has failed");
+  }
+}
+
+std::nullopt_t StaticRun::take_again(double instant, const Progress& before, const StepSequence& sequence, std::string_view why) {
+  take_back(before);
+  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
+  return std::nullopt;
+}
+
+std::vector<char> StaticRun::closed_points() const {
+  if (mixed_) return mixed_->closed_points();
+  std::vector<char> closed;
+  for (const double multiplier : now_.state.multipliers) closed.push_back(multiplier > 0.0);
+  return closed;
+}
+
+bool StaticRun::refines_collision(const std::vector<char>& before, StepSequence& sequence) const {
+  const StepEvent* event = plan_->event(StepEventKind::collision);
+  if (event == nullptr) return false;
+  const std::vector<char> now = closed_points();
+  if (before.size() != now.size() || before == now) return false;
+  if (event->around) return sequence.refine(*event->around);
+  if (event->cutting) return sequence.cut(*event->cutting);
+  throw Error("contact-changes", fmt::format("points of contact close or open in the step to t = {:.6g}, and the computation is to stop there", sequence.target()),
+              "write ACTION='DECOUPE' to go on in shorter steps");
+}
+
+int StaticRun::solve_jointly_or_settled(double instant, const Progress& before) {
+  try {
+    return solve_from_either_side(instant, before);
+  } catch (const Error& error) {
+    if (!mixed_ || !mixed_->is_joint() || assembler_.has_memory() || !is_failure_of_step(error.code())) throw;
+  }
+  return solve_settled(instant, before);
+}
+
+int StaticRun::solve_settled(double instant, const Progress& before) {
+  take_back(before);
+  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} starts again, with contact settled within each iteration", instant)));
+  mixed_->iterate_jointly(false);
+  const OnExit as_before([&] { mixed_->iterate_jointly(true); });
+  return solve_from_either_side(instant, before);
+}
+
+int StaticRun::solve_as_last_resort(double instant, const Progress& before, const Error& error) {
+  if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error, problem_);
+  try {
+    return solve_settled(instant, before);
+  } catch (const Error& again) {
+    throw advised(again, problem_);
+  }
+}
+
+int StaticRun::solve_from_either_side(double instant, const Progress& before) {
+  try {
+    return solve_and_check(instant);
+  } catch (const Error& error) {
+    if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports()) return solve_on_stiffer_supports(instant, before, error);
+    if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
+    const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
+    if (!may_unload || !is_failure_of_step(error.code())) throw;
+  }
+  take_back(before);
+  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
+  newton_.predict_with(TangentKind::elastic);
+  const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
+  return solve_and_check(instant);
+}
+
+int StaticRun::solve_on_stiffer_supports(double instant, const Progress& before, const Error& failure) {
+  take_back(before);
+  try {
+    return solve_from_either_side(instant, before);
+  } catch (const Error& error) {
+    if (error.code() == "singular-matrix") throw failure;
+    throw;
+  }
+}
+
+std::optional<int> StaticRun::solve_the_other_way(double instant, const Progress& before, const Error& failure) {
+  if (!path_ || !plan_->tries_other_solution || !is_failure_of_step(failure.code())) return std::nullopt;
+  take_back(before);
+  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and is tried with the other intensity", instant)));
+  path_->take_other_solution(true);
+  const OnExit as_before([&] { path_->take_other_solution(false); });
+  try {
+    return solve_and_check(instant);
+  } catch (const Error& error) {
+    if (!is_failure_of_step(error.code())) throw;
+    return std::nullopt;
+  }
+}
+
+int StaticRun::solve_and_check(double instant) {
+  const int iterations = solve_step(instant);
+  if (problem_.contact && problem_.contact->stop_on_interpenetration) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
+  return iterations;
+}
+
+void StaticRun::take_back(const Progress& before) {
+  now_ = before;
+  if (!mixed_) return;
+  mixed_->restore();
+  now_.paired = false;
+}
+
+}  // namespace comma::solver
