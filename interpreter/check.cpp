@@ -452,6 +452,11 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
                        Diagnostics& diagnostics, Severity unsupported) {
   const std::size_t errors_before = count_errors(diagnostics);
   CheckContext context{catalogue, diagnostics, unsupported};
+  // No verdict depends on what is printed.
+  if (page.role == Role::output) {
+    context.unsupported = Severity::alarm;
+    context.without = fmt::format("{} is left out here, and writes nothing; all else runs", page.name);
+  }
   if (!page.supported) {
     context.report_unsupported(fmt::format("comma does not support {} yet", page.name), written.name_span);
     context.quiet = true;

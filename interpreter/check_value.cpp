@@ -286,7 +286,7 @@ class ValueCheck {
 
 void CheckContext::report_unsupported(std::string message, const Span& span) {
   met_unsupported = true;
-  if (!quiet) diagnostics.add({unsupported, "unsupported", std::move(message), "", span});
+  if (!quiet) diagnostics.add({unsupported, "unsupported", std::move(message), without, span});
 }
 
 std::optional<Value> check_value(const Value& value, const KeywordPage& page, const std::string& label,

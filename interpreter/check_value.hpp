@@ -15,6 +15,7 @@ struct CheckContext {
   const Catalogue& catalogue;
   Diagnostics& diagnostics;
   Severity unsupported = Severity::error;
+  std::string without = {};  ///< a hint: what happens without what is not supported
   bool met_unsupported = false;
   bool met_open = false;  ///< a level has arguments that are not known
   bool quiet = false;  ///< inside a keyword that was itself reported as unsupported

@@ -70,7 +70,7 @@ void Executor::run_all(Need least) {
     if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
     if (wanted && can_run(node))
-      report_errors([&] { run(node); }, Severity::error);
+      report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
     else
       node.state = NodeState::skipped;
   }

@@ -126,6 +126,8 @@ role: output
 keywords:
   WHAT: {type: any, doc: Anything.}
   UNIT: {type: output_unit, default: 8, doc: File.}
+unsupported:
+  COLOUR: {type: text, doc: How it looks.}
 )";
 
 const char* const verify_page = R"(

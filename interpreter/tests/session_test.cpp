@@ -277,3 +277,29 @@ TEST_CASE("A command of the catalogue that nobody has written yet says so") {
   world.session.finish();
   CHECK(world.codes() == Log{"unsupported"});
 }
+
+TEST_CASE("What only writes is left out with an alarm where comma does not support it, and all else runs") {
+  World world;
+  const Value mesh = world.call("MESH", {}, "MA");
+  world.call("PRINT", {{"WHAT", mesh}, {"COLOUR", Value("RED")}});
+  world.call("PRINT", {{"WHAT", mesh}});
+  world.call("VERIFY", {{"WHAT", mesh}});
+  world.session.finish();
+  CHECK(world.log == Log{"MESH MA", "PRINT", "VERIFY"});
+  CHECK(world.state(1) == NodeState::skipped);
+  REQUIRE(world.codes() == Log{"unsupported"});
+  CHECK(world.diagnostics.items()[0].severity == Severity::alarm);
+  CHECK(world.diagnostics.items()[0].hint == "PRINT is left out here, and writes nothing; all else runs");
+}
+
+TEST_CASE("A command that only writes may find out itself that it cannot") {
+  World world;
+  world.commands["PRINT"] = [](const Call&) -> std::shared_ptr<ConceptData> { throw DiagnosticError("unsupported", "no such format"); };
+  const Value mesh = world.call("MESH", {}, "MA");
+  world.call("PRINT", {{"WHAT", mesh}});
+  world.call("VERIFY", {{"WHAT", mesh}});
+  world.session.finish();
+  CHECK(world.log == Log{"MESH MA", "VERIFY"});
+  REQUIRE(world.codes() == Log{"unsupported"});
+  CHECK(world.diagnostics.items()[0].severity == Severity::alarm);
+}
