@@ -98,10 +98,22 @@ bool Files::is_read(const fs::path& path) const {
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
   const auto exported = std::ranges::find_if(exported_, [&](const ExportFile& file) { return file.unit == unit && file.output; });
   if (exported != exported_.end()) return written_[unit] = exported->path;
+  if (const auto own = named_.find(unit); own != named_.end()) return written_[unit] = output_folder_ / own->second;
   const auto named = [&](const std::string& middle) { return output_folder_ / (command_file_.stem().string() + middle + extension); };
   const std::string numbered = "." + std::to_string(unit) + ".";
   const bool plain = unit == default_unit && !is_read(named("."));
   return written_[unit] = named(plain ? "." : numbered);
+}
+
+void Files::name_output(int unit, const std::string& name) {
+  if (name.empty()) {
+    named_.erase(unit);
+    return;
+  }
+  const fs::path wanted = fs::path(name).lexically_normal();
+  if (wanted.filename() != wanted || wanted == "." || wanted == "..")
+    throw interpreter::DiagnosticError("unsupported", "comma writes into the current folder alone, and not to " + name, {}, "write the bare name of a file");
+  named_[unit] = wanted;
 }
 
 }  // namespace comma::commands

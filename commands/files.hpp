@@ -43,6 +43,10 @@ class Files {
   /// `<stem>.<unit>.<extension>` for another, or where the file has been read.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
+  /// From now on the output file of the unit has this name, unless the .export has one for it; an empty name gives the unit back.
+  /// Throws DiagnosticError `unsupported` for a name that leads out of the current folder.
+  void name_output(int unit, const std::string& name);
+
  private:
   bool is_read(const std::filesystem::path& path) const;
   std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;
@@ -52,6 +56,7 @@ class Files {
   std::filesystem::path output_folder_;
   mutable std::map<std::filesystem::path, int> units_;    ///< of files that were found by their names
   mutable std::map<int, std::filesystem::path> written_;  ///< by unit
+  std::map<int, std::filesystem::path> named_;            ///< outputs that the command file names, by unit
 };
 
 }  // namespace comma::commands

@@ -78,3 +78,13 @@ TEST_CASE("A wrong line of an .export is told with its place") {
     CHECK(error.diagnostic().span.file->position(error.diagnostic().span.begin).line == 2);
   }
 }
+
+TEST_CASE("A unit that the command file names writes under that name until it is set free, and into the current folder alone") {
+  Files files("/study/a.comm", {}, "/here");
+  files.name_output(37, "./curve.txt");
+  CHECK(files.output(37, "resu", 8) == fs::path("/here/curve.txt"));
+  CHECK(files.output(38, "resu", 8) == fs::path("/here/a.38.resu"));
+  files.name_output(37, "");
+  CHECK(files.output(37, "resu", 8) == fs::path("/here/a.37.resu"));
+  for (const char* elsewhere : {"/etc/passwd", "../b.txt", "deep/b.txt", ".."}) CHECK_THROWS_AS(files.name_output(37, elsewhere), DiagnosticError);
+}
