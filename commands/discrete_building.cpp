@@ -131,7 +131,8 @@ Eigen::Vector3d vector_at(const std::vector<double>& values, std::size_t first) 
 void orient(const Keywords& assignment, const solver::Mesh& mesh, int cell, solver::Orientation& orientation) {
   const std::string& kind = assignment.text("CARA");
   const bool of_segments = kind == "ANGL_VRIL" || kind == "VECT_Y";
-  if (of_segments != solver::has_direction(mesh, cell)) {
+  if (assignment.has("PRECISION")) orientation.no_length = assignment.real("PRECISION");
+  if (of_segments != solver::has_direction(mesh, cell, orientation.no_length)) {
     throw DiagnosticError("wrong-support",
                           fmt::format("ORIENTATION: {} turns {}, and cell {} is {}", kind, of_segments ? "segments" : "points",
                                       mesh.cell_name(cell), of_segments ? "none that has a length" : "a segment"),

@@ -119,12 +119,12 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
   return (Eigen::AngleAxisd(roll, axes.row(0).transpose()).toRotationMatrix() * axes.transpose()).transpose();
 }
 
-bool has_direction(const Mesh& mesh, int cell) {
-  return mesh.cell(cell).size() > 1 && !along_segment(mesh, cell).isZero(0.0);
+bool has_direction(const Mesh& mesh, int cell, double no_length) {
+  return mesh.cell(cell).size() > 1 && along_segment(mesh, cell).norm() > no_length;
 }
 
 Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& orientation) {
-  return has_direction(mesh, cell) ? own_axes(mesh, cell, orientation.roll) : orientation.point_axes;
+  return has_direction(mesh, cell, orientation.no_length) ? own_axes(mesh, cell, orientation.roll) : orientation.point_axes;
 }
 
 double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {

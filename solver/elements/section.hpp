@@ -35,10 +35,11 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll = 0.0);
 struct Orientation {
   double roll = 0.0;  ///< of a segment, in radians: see own_axes
   Eigen::Matrix3d point_axes = Eigen::Matrix3d::Identity();  ///< axes (rows) of a point, and of a segment without length
+  double no_length = 0.0;  ///< a segment no longer than this (m) counts as one without length
 };
 
-/// Whether the cell has an own first axis: whether it is a segment with a length.
-bool has_direction(const Mesh& mesh, int cell);
+/// Whether the cell has an own first axis: whether it is a segment longer than `no_length` (m).
+bool has_direction(const Mesh& mesh, int cell, double no_length = 0.0);
 
 /// The axes (rows) of the discrete element on a cell: own_axes() of a segment, the orientation's of a cell without direction.
 Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& orientation);

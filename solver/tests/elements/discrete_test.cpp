@@ -109,6 +109,16 @@ TEST_CASE("points and segments without length take the axes that they are given"
   }
 }
 
+TEST_CASE("a segment no longer than is asked for takes the axes that it is given, a longer one its own", "[elements]") {
+  const auto mesh = segment({1, 1, 1}, {1, 1, 1 + 1e-7});
+  const Orientation given{.roll = 0.0, .point_axes = axes_along({0, 1, 0}, {-1, 0, 0}), .no_length = 1e-6};
+  CHECK_FALSE(has_direction(*mesh, 0, given.no_length));
+  CHECK((discrete_axes(*mesh, 0, given) - given.point_axes).norm() == 0.0);
+  Orientation strict = given;
+  strict.no_length = 1e-8;
+  CHECK((discrete_axes(*mesh, 0, strict).row(0) - Eigen::RowVector3d(0, 0, 1)).norm() < 1e-12);
+}
+
 TEST_CASE("forces come in own axes whatever the frame of the stiffness", "[elements]") {
   const Body body = spring(segment({0, 0, 0}, {3, 4, 0}), Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
   const ElementField force = body.assembler->stresses(Eigen::Vector4d(0, 0, 0.6, 0.8));
