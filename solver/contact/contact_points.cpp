@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 
 /// A shape function this near to one belongs to the node on which the point lies.
 constexpr double at_node_tolerance = 1e-12;
+/// Shape functions as near as this to the largest one weigh as much: the middle of a face is as near to all of its sides.
+constexpr double equal_weight = 1e-9;
 
 class ZonePoints {
  public:
@@ -36,7 +38,7 @@ class ZonePoints {
     const CellType type = mesh_.cell_types[cell];
     for (const FacePoint& at : face_rule(type, zone_.mixed.rule, zone_.mixed.rule_order)) {
       ContactPoint point = place(cell, type, at);
-      if (point.weight == 0.0 || (point.node >= 0 && excluded_.contains(point.node))) continue;
+      if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); })) continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
         points[known->second].weight += point.weight;
@@ -170,6 +172,15 @@ std::vector<ContactPoint> contact_points(const ContactDefinition& definition, co
     for (const int cell : definition.zones[zone].slave_cells) builder.append(cell, points);
   }
   return points;
+}
+
+bool is_nearest_to(const ContactPoint& point, const Mesh& mesh, const std::function<bool(int)>& is_such_node) {
+  if (point.node >= 0) return is_such_node(point.node);
+  const auto nodes = mesh.cell(point.cell);
+  const double most = *std::max_element(point.shape.begin(), point.shape.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (point.shape[i] >= most - equal_weight && !is_such_node(nodes[i])) return false;
+  return true;
 }
 
 }  // namespace comma::solver

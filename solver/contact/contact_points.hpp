@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -39,13 +40,17 @@ struct ContactPoint {
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
-/// is the same discrete problem. Excluded nodes have no point. In the discrete formulation the points are the slave nodes that may make
+/// is the same discrete problem. Neither excluded nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
 /// Zones of local average contact have a point a patch.
 /// `before`: what each faced at the last pairing, if anything is to be kept of it (averages over patches keep nothing).
 /// Throws what face_rule, projections and normals throw.
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
                                          const FacedFacets& before = {});
+
+/// Whether the node on which a point lies is such a node; between nodes, whether all that are nearest to it are: those that its shape
+/// functions weigh most.
+bool is_nearest_to(const ContactPoint& point, const Mesh& mesh, const std::function<bool(int)>& is_such_node);
 
 /// Of a facet as the mesh has it (see facet_stretch).
 double initial_stretch(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, bool times_radius);

@@ -19,16 +19,15 @@ constexpr double least_along = 0.1;
 
 void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPoint>& points) {
   for (CondensedPoint& point : points) {
-    if (point.rows < 3 || !(point.law.friction > 0.0)) continue;
-    const auto rows = reduced_rows.middleRows(point.first_row, 3);
-    Eigen::Matrix3d squares;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) squares(a, b) = rows.row(a).dot(rows.row(b));
+    if (point.rows < 2 || !(point.law.friction > 0.0)) continue;
+    const auto rows = reduced_rows.middleRows(point.first_row, point.rows);
+    const Eigen::MatrixXd squares = Eigen::MatrixXd(rows * rows.transpose());
     const double dead = dead_share * squares.trace();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> motions(squares);
-    const Eigen::Vector2d along = motions.eigenvectors().col(0).tail<2>();
-    if (motions.eigenvalues()[1] <= dead) point.law.friction = 0.0;
-    else if (motions.eigenvalues()[0] <= dead && along.norm() >= least_along) point.law.dead = along.normalized();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(squares);
+    const Eigen::VectorXd along = motions.eigenvectors().col(0).tail(point.rows - 1);
+    const bool shear_is_dead = motions.eigenvalues()[0] <= dead && along.norm() >= least_along;
+    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead)) point.law.friction = 0.0;
+    else if (shear_is_dead) point.law.dead = along.normalized();
   }
 }
 
@@ -37,14 +36,11 @@ std::optional<Eigen::Vector3d> excluded_direction(const MixedZone& zone, const C
   if (nodes.empty()) return {};
   const auto is_left_out = [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); };
   const auto& direction = zone.frictionless_direction;
-  if (point.node >= 0) {
-    if (!is_left_out(point.node)) return {};
-    return direction ? Eigen::Vector3d(direction->data()) : Eigen::Vector3d::Zero();
-  }
-  if (direction && std::ranges::any_of(mesh.cell(point.cell), is_left_out))
+  if (point.node < 0 && direction && std::ranges::any_of(mesh.cell(point.cell), is_left_out))
     throw Error("unsupported", fmt::format("slave face {} has points between its nodes, and DIRE_EXCL_FROT is known of points at nodes", mesh.cell_name(point.cell)),
                 "take linear faces with INTEGRATION='AUTO', or leave DIRE_EXCL_FROT out: then these nodes have no friction at all");
-  return {};
+  if (!is_nearest_to(point, mesh, is_left_out)) return {};
+  return direction ? Eigen::Vector3d(direction->data()) : Eigen::Vector3d::Zero();
 }
 
 }  // namespace comma::solver

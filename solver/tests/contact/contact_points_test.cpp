@@ -1,11 +1,30 @@
 #include "solver/contact/contact_points.hpp"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "solver/tests/nonlinear/scene.hpp"
 
 using namespace comma::solver;
 using comma::solver::testing::Scene;
+
+TEST_CASE("A point between nodes is near those that its shape functions weigh most") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.add_cell(CellType::tria3, std::vector<int>{0, 1, 2});
+  const auto is_near = [&](std::array<double, 3> shape, const std::vector<int>& nodes) {
+    ContactPoint point;
+    point.cell = 0;
+    std::ranges::copy(shape, point.shape.begin());
+    return is_nearest_to(point, mesh, [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); });
+  };
+  CHECK(is_near({0.2, 0.6, 0.2}, {1}));
+  CHECK_FALSE(is_near({0.2, 0.6, 0.2}, {0, 2}));
+  // The middle is as near to all.
+  CHECK_FALSE(is_near({1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0, 1}));
+  CHECK(is_near({1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {0, 1, 2}));
+}
 
 TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either, on linear and on quadratic faces") {
   // Two faces along the radius, one at height zero, the other at a tenth. Where the radius vanishes the weight of a quadratic

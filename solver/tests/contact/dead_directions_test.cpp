@@ -51,6 +51,18 @@ TEST_CASE("Nor is there any where the surface lies askew to the direction in whi
   CHECK(points[0].law.friction == 0.0);
 }
 
+TEST_CASE("In the plane a point on a plane of symmetry has no friction, and one beside it has") {
+  const auto friction_of = [](const Eigen::Matrix2d& rows) {
+    std::vector<CondensedPoint> points{point_on_node(0, 2, 0.3)};
+    find_dead_directions(RowMatrix(rows.sparseView()), points);
+    return points[0].law.friction;
+  };
+  // The unknown along x is gone, but for rounding; the surface lies along it, then inclined to it.
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 1.0, 1e-17, 0.0).finished()) == 0.0);
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 0.8, 0.0, -0.6).finished()) == 0.0);
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 1.0, 1e-3, 0.0).finished()) == 0.3);
+}
+
 TEST_CASE("Nodes that are left out of friction are so along the given direction alone, and no others are") {
   Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
