@@ -83,6 +83,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     state->loads = problem.loads;
     choice.behaviours = problem.behaviours;
     take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
+    state->contact = step.contact;
     choice.instant = step.instant;
     choice.order = step.order;
   }

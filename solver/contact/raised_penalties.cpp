@@ -47,8 +47,18 @@ bool RaisedPenalties::raise(const Excess& excess) {
   return pressed || rubbed;
 }
 
+bool RaisedPenalties::are_raised() const {
+  const auto is_raised = [](double factor) { return factor > 1.0; };
+  return std::ranges::any_of(contact_, is_raised) || std::ranges::any_of(friction_, is_raised);
+}
+
+void RaisedPenalties::go_on_from(const RaisedPenalties& others) {
+  contact_ = others.contact_;
+  friction_ = others.friction_;
+}
+
 void RaisedPenalties::apply(const MixedZone& zone, int number, CondensedPoint& point) const {
-  if (zone.penalised) point.law.augmentation = zone.augmentation * contact_[static_cast<std::size_t>(number)];
+  if (zone.penalised) point.law.augmentation = contact_penalty(zone, number);
   if (!zone.friction_penalised) return;
   const double penalty = friction_penalty(zone, number);
   point.law.friction_augmentation = penalty;

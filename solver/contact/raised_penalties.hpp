@@ -26,11 +26,17 @@ class RaisedPenalties {
   /// How deep points of a zone may go; nothing where nothing limits them.
   std::optional<double> allowed_depth(const MixedZone& zone) const { return depth_limit_ ? depth_limit_ : zone.largest_depth; }
 
+  /// Whether any is not as it was given.
+  bool are_raised() const;
+  /// Raised as much as others, of the same zones, are; what limits them stays.
+  void go_on_from(const RaisedPenalties& others);
+
   /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence` where factors have
   /// become too large.
   bool raise(const Excess& excess);
   /// Gives the law of a point of the zone its penalties as they are now.
   void apply(const MixedZone& zone, int number, CondensedPoint& point) const;
+  double contact_penalty(const MixedZone& zone, int number) const { return zone.augmentation * contact_[static_cast<std::size_t>(number)]; }
   double friction_penalty(const MixedZone& zone, int number) const { return zone.friction_penalty * friction_[static_cast<std::size_t>(number)]; }
 
  private:

@@ -53,12 +53,15 @@ inline std::vector<double>& values_of(Field& field) {
   return std::visit([](auto& any) -> std::vector<double>& { return any.values; }, field);
 }
 
+struct ContactMemory;
+
 /// One archived step.
 struct ResultStep {
   int order = 0;
   double instant = 0.0;
   std::map<std::string, Field, std::less<>> fields;       ///< "DEPL", "SIEF_ELGA", "FORC_NODA" ...
   std::map<std::string, double, std::less<>> parameters;  ///< "ITER_GLOB" ...
+  std::shared_ptr<const ContactMemory> contact = {};      ///< null: none, or one that remembers nothing
 };
 
 /// Steps in rising order and instant, on a model or on a mesh alone (temperatures in time).

@@ -56,7 +56,7 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
     depth = std::max(depth, -now[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
   }
-  ContactDoubt doubt{.kind = DoubtKind::soft_penalty, .zone = zone, .length = depth, .penalty = definition.mixed.augmentation};
+  ContactDoubt doubt{.kind = DoubtKind::soft_penalty, .zone = zone, .length = depth, .penalty = penalties_.contact_penalty(definition.mixed, zone)};
   // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
   if (problem_.springs.empty()) note_soft_penalty(doubt, reach, doubts);
   const double size = extent(mesh_, definition.slave_cells);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <unordered_set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -338,14 +339,36 @@ void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
   }
 }
 
+std::vector<std::array<double, 3>> MixedContact::zone_definitions() const {
+  std::vector<std::array<double, 3>> zones;
+  for (const ContactZone& zone : definition_.zones)
+    zones.push_back({zone.mixed.bilateral ? 1.0 : 0.0, zone.mixed.augmentation, zone.mixed.friction_penalty});
+  return zones;
+}
+
+std::shared_ptr<const ContactMemory> MixedContact::memory() const {
+  const bool is_bilateral = std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
+  if (!is_bilateral && !penalties_.are_raised()) return nullptr;
+  return std::make_shared<const ContactMemory>(ContactMemory{zone_definitions(), closed_points(), penalties_});
+}
+
+void MixedContact::resume(std::shared_ptr<const ContactMemory> memory) {
+  if (!memory || memory->zones != zone_definitions()) return;
+  penalties_.go_on_from(memory->penalties);
+  resumed_ = std::move(memory);
+}
+
 void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
   state_.statuses.assign(points_.size(), ContactStatus::open);
+  const auto resumed = std::exchange(resumed_, nullptr);
+  const bool is_same = resumed && resumed->closed.size() == points_.size();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
-    const InitialContact initial = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.initial;
+    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points_[p].cell);
-    if (initial == InitialContact::all || (initial == InitialContact::interpenetrating && touches))
+    const bool was_closed = is_same && zone.bilateral && resumed->closed[p] != 0;
+    if (was_closed || zone.initial == InitialContact::all || (zone.initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }

@@ -14,9 +14,9 @@
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/condensed_contact.hpp"
 #include "solver/contact/contact_field.hpp"
+#include "solver/contact/contact_memory.hpp"
 #include "solver/contact/contact_points.hpp"
 #include "solver/contact/doubts.hpp"
-#include "solver/contact/raised_penalties.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
@@ -42,6 +42,10 @@ class MixedContact {
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced anew then.
   void remember() { remembered_ = {state_, penalties_, started_}; }
   void restore() { std::tie(state_, penalties_, started_) = remembered_; }
+  /// What a later computation must know of a step that has been accepted; null where its fields say all.
+  std::shared_ptr<const ContactMemory> memory() const;
+  /// Goes on from there; before any point is faced.
+  void resume(std::shared_ptr<const ContactMemory> memory);
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
@@ -107,6 +111,7 @@ class MixedContact {
   double initial_gap(const ContactPoint& point) const;
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
+  std::vector<std::array<double, 3>> zone_definitions() const;
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
   void apply_penalties(int zone, CondensedPoint& point) const;
@@ -146,6 +151,7 @@ class MixedContact {
   std::map<Key, int> multiplier_numbers_;
   int dimension_ = 3;
   RaisedPenalties penalties_;
+  std::shared_ptr<const ContactMemory> resumed_;  ///< null once statuses have started from it
   std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;

@@ -28,6 +28,7 @@ void StaticRun::start(double instant) {
   assembler_.set_time(instant);
   assembler_.impose_strains(loads_so_far(), instant);
   resume();
+  if (mixed_) mixed_->resume(contact_so_far());
   go_on_with_path();
   if (!result_.steps.empty()) {
     watch_->take(result_.steps.back());
@@ -66,6 +67,11 @@ void StaticRun::go_on_with_path() {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs_.size());
   take_displacements(*problem_.initial->earlier, dofs_, u);
   path_->set_direction(now_.state.u - u);
+}
+
+std::shared_ptr<const ContactMemory> StaticRun::contact_so_far() const {
+  if (problem_.initial) return problem_.initial->contact;
+  return result_.steps.empty() ? nullptr : result_.steps.back().contact;
 }
 
 void StaticRun::resume() {
@@ -136,6 +142,7 @@ void StaticRun::archive(double instant, int iterations) {
   ResultStep step = fields_now(instant);
   if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
   add_patch_state(step);
+  if (mixed_) step.contact = mixed_->memory();
   step.parameters["ITER_GLOB"] = iterations;
   if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
   append(std::move(step));

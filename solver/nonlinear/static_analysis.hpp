@@ -44,6 +44,7 @@ struct InitialState {
   std::vector<AppliedLoad> loads;  ///< that led there: initial strains count from theirs
   std::optional<NodalField> earlier;  ///< the displacement a step before, which gives a path its direction
   std::optional<double> intensity;    ///< of driven loads; absent: 0
+  std::shared_ptr<const ContactMemory> contact = {};  ///< of the step that it is; null: contact begins anew
 };
 
 struct StaticProblem {

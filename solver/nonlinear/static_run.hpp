@@ -107,6 +107,7 @@ class StaticRun {
   /// A path that goes on has an intensity and a direction.
   void go_on_with_path();
   void resume();
+  std::shared_ptr<const ContactMemory> contact_so_far() const;
   /// The one variable of elasticity is zero, and says nothing to a law with a memory.
   static const ElementField* of_memory(const ElementField* variables);
   /// Without an initial state the body starts without stress, even where its first temperature is not that of reference.

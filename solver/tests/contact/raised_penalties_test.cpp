@@ -44,6 +44,17 @@ TEST_CASE("Where nothing is too much penalties stay as they are, raised ones too
   CHECK(before.second > 5.0 * 4.0);
 }
 
+TEST_CASE("A computation that goes on takes penalties as they were raised, and its own limits") {
+  RaisedPenalties before(1), after(1);
+  before.raise({{4.0}, {0.0}});
+  CHECK(before.are_raised());
+  after.limit_depth(0.5, 10.0);
+  CHECK_FALSE(after.are_raised());
+  after.go_on_from(before);
+  CHECK(penalties_of(after, 0) == penalties_of(before, 0));
+  CHECK(after.allowed_depth(soft_zone()) == 0.5);
+}
+
 TEST_CASE("A depth for all zones replaces their own, and a factor that would be too large is an error") {
   RaisedPenalties raised(1);
   CHECK(raised.allowed_depth(soft_zone()) == 1e-3);
