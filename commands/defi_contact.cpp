@@ -1,16 +1,15 @@
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/contact_alarms.hpp"
 #include "commands/points.hpp"
 #include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/contact/face_rule.hpp"
 #include "solver/contact/half_thickness.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/mesh/orientation.hpp"
@@ -329,70 +328,6 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   return definition;
 }
 
-// A node of two zones has the multipliers, or penalties, of both.
-void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
-  const bool is_mixed = definition.formulation == solver::ContactFormulation::mixed;
-  std::map<int, std::size_t> zones;
-  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
-    const solver::ContactZone& zone = definition.zones[k];
-    if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised || zone.mixed.friction > 0.0)) continue;
-    for (const int node : mesh.nodes_of_cells(zone.slave_cells)) {
-      if (std::ranges::find(zone.excluded_slave_nodes, node) != zone.excluded_slave_nodes.end()) continue;
-      const auto [earlier, is_first] = zones.emplace(node, k);
-      if (is_first) continue;
-      context.diagnostics.alarm("shared-slave-nodes",
-                                fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
-                                            !is_mixed               ? "it has the penalties of both"
-                                            : zone.mixed.penalised ? "it has the penalties of both, and LAGS_C there is the sum of two pressures"
-                                                                   : "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"),
-                                call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
-      return;
-    }
-  }
-}
-
-// Nodes that are left out of contact, or of friction, are slaves: others change nothing.
-void warn_of_idle_exclusions(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
-  struct Exclusion {
-    const char* keyword;
-    PlaceKeywords names;
-  };
-  static const Exclusion exclusions[] = {{"SANS_GROUP_NO", {"", "SANS_GROUP_NO", "", "", ""}},     {"SANS_NOEUD", {"", "", "SANS_NOEUD", "", ""}},
-                                         {"SANS_GROUP_MA", {"", "", "", "SANS_GROUP_MA", ""}},     {"SANS_MAILLE", {"", "", "", "", "SANS_MAILLE"}},
-                                         {"SANS_GROUP_NO_FR", {"", "SANS_GROUP_NO_FR", "", "", ""}}, {"SANS_NOEUD_FR", {"", "", "SANS_NOEUD_FR", "", ""}}};
-  const std::vector<Keywords> zones = call.factors("ZONE");
-  for (std::size_t k = 0; k < zones.size(); ++k) {
-    const std::vector<int> slaves = mesh.nodes_of_cells(definition.zones[k].slave_cells);
-    const std::set<int> known(slaves.begin(), slaves.end());
-    for (const auto& [keyword, names] : exclusions) {
-      if (!zones[k].given(keyword)) continue;
-      const std::vector<int> nodes = selected_nodes(zones[k], mesh, names);
-      if (std::ranges::any_of(nodes, [&](int node) { return known.contains(node); })) continue;
-      context.diagnostics.alarm("idle-exclusion", fmt::format("DEFI_CONTACT: {} names no node of the slave surface, and leaves out nothing", keyword), zones[k].span_of(keyword),
-                                "name nodes of GROUP_MA_ESCL, or leave it out");
-    }
-  }
-}
-
-// With fewer points than nodes a face leaves its multipliers undetermined.
-void warn_of_few_points(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, Context& context) {
-  if (definition.formulation != solver::ContactFormulation::mixed) return;
-  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
-    const solver::ContactZone& zone = definition.zones[k];
-    if (zone.mixed.local_average) continue;
-    for (const int cell : zone.slave_cells) {
-      const auto points = solver::face_rule(mesh.cell_types[cell], zone.mixed.rule, zone.mixed.rule_order).size();
-      if (points >= mesh.cell(cell).size()) continue;
-      context.diagnostics.alarm("few-points",
-                                fmt::format("DEFI_CONTACT: {} points on slave face {} do not determine the multipliers of its {} nodes: pressures at nodes (LAGS_C) may be arbitrary, forces "
-                                            "and stresses are not",
-                                            points, mesh.cell_name(cell), mesh.cell(cell).size()),
-                                call.factors("ZONE")[k].span, "take a higher ORDRE_INT, or INTEGRATION='AUTO'");
-      return;
-    }
-  }
-}
-
 }  // namespace
 
 Product defi_contact(const Call& call, Context& context) {
@@ -408,9 +343,7 @@ Product defi_contact(const Call& call, Context& context) {
     product->conditions = std::move(conditions);
   } else {
     solver::ContactDefinition definition = contact(call, model);
-    warn_of_few_points(call, definition, *model.mesh, context);
-    warn_of_shared_nodes(call, definition, *model.mesh, context);
-    warn_of_idle_exclusions(call, definition, *model.mesh, context);
+    warn_of_contact(call, definition, *model.mesh, context.diagnostics);
     product->conditions = std::move(definition);
   }
   return product;

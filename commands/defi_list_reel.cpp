@@ -14,13 +14,13 @@ using interpreter::DiagnosticError;
 // A last step shorter or longer than PAS by less than this share of it is rounding of JUSQU_A, not a step (U4.34.01).
 constexpr double step_rounding = 1e-3;
 // Far more than anything could be computed at; a slip of the pen would fill the memory before that is noticed.
-constexpr double most_steps = 1e7;
+constexpr double most_reals = 1e7;
 
 int steps_of(const Keywords& interval, double length) {
   const bool counted = interval.has("NOMBRE");
   const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
-  if (!(exact <= most_steps)) {
-    throw DiagnosticError("out-of-bounds", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_steps),
+  if (!(exact <= most_reals)) {
+    throw DiagnosticError("out-of-bounds", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_reals),
                           interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
   }
   const double steps = std::round(exact);

@@ -262,9 +262,14 @@ void sum(Table& table, const Keywords& action, const Reading& reading) {
   for (const std::string& name : action.texts("RESULTANTE")) {
     const int component = component_of(action, field.components, name, "RESULTANTE");
     double total = 0.0;
+    bool any = false;
     for (const int node : reading.nodes) {
-      if (const double value = field.at(node, component); !std::isnan(value)) total += value;
+      const double value = field.at(node, component);
+      if (std::isnan(value)) continue;
+      total += value;
+      any = true;
     }
+    if (!any) throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no node there carries {}, so it has no resultant", name), action.span_of("RESULTANTE"));
     row.emplace_back(name, total);
   }
   table.add_row(row);

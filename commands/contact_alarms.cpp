@@ -1,0 +1,140 @@
+#include "commands/contact_alarms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "commands/selection.hpp"
+#include "solver/contact/face_rule.hpp"
+#include "solver/contact/normals.hpp"
+#include "solver/mesh/orientation.hpp"
+
+namespace comma::commands {
+
+namespace {
+
+using interpreter::Call;
+using interpreter::Keywords;
+
+// A node of two zones has the multipliers, or penalties, of both.
+void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  const bool is_mixed = definition.formulation == solver::ContactFormulation::mixed;
+  std::map<int, std::size_t> zones;
+  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised || zone.mixed.friction > 0.0)) continue;
+    for (const int node : mesh.nodes_of_cells(zone.slave_cells)) {
+      if (std::ranges::find(zone.excluded_slave_nodes, node) != zone.excluded_slave_nodes.end()) continue;
+      const auto [earlier, is_first] = zones.emplace(node, k);
+      if (is_first) continue;
+      diagnostics.alarm("shared-slave-nodes",
+                                fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
+                                            !is_mixed               ? "it has the penalties of both"
+                                            : zone.mixed.penalised ? "it has the penalties of both, and LAGS_C there is the sum of two pressures"
+                                                                   : "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"),
+                                call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
+      return;
+    }
+  }
+}
+
+// Nodes that are left out of contact, or of friction, are slaves: others change nothing.
+void warn_of_idle_exclusions(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  struct Exclusion {
+    const char* keyword;
+    PlaceKeywords names;
+  };
+  static const Exclusion exclusions[] = {{"SANS_GROUP_NO", {"", "SANS_GROUP_NO", "", "", ""}},     {"SANS_NOEUD", {"", "", "SANS_NOEUD", "", ""}},
+                                         {"SANS_GROUP_MA", {"", "", "", "SANS_GROUP_MA", ""}},     {"SANS_MAILLE", {"", "", "", "", "SANS_MAILLE"}},
+                                         {"SANS_GROUP_NO_FR", {"", "SANS_GROUP_NO_FR", "", "", ""}}, {"SANS_NOEUD_FR", {"", "", "SANS_NOEUD_FR", "", ""}}};
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const std::vector<int> slaves = mesh.nodes_of_cells(definition.zones[k].slave_cells);
+    const std::set<int> known(slaves.begin(), slaves.end());
+    for (const auto& [keyword, names] : exclusions) {
+      if (!zones[k].given(keyword)) continue;
+      const std::vector<int> nodes = selected_nodes(zones[k], mesh, names);
+      if (std::ranges::any_of(nodes, [&](int node) { return known.contains(node); })) continue;
+      diagnostics.alarm("idle-exclusion", fmt::format("DEFI_CONTACT: {} names no node of the slave surface, and leaves out nothing", keyword), zones[k].span_of(keyword),
+                                "name nodes of GROUP_MA_ESCL, or leave it out");
+    }
+  }
+}
+
+// With fewer points than nodes a face leaves its multipliers undetermined.
+void warn_of_few_points(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  if (definition.formulation != solver::ContactFormulation::mixed) return;
+  for (std::size_t k = 0; k < definition.zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    if (zone.mixed.local_average) continue;
+    for (const int cell : zone.slave_cells) {
+      const auto points = solver::face_rule(mesh.cell_types[cell], zone.mixed.rule, zone.mixed.rule_order).size();
+      if (points >= mesh.cell(cell).size()) continue;
+      diagnostics.alarm("few-points",
+                                fmt::format("DEFI_CONTACT: {} points on slave face {} do not determine the multipliers of its {} nodes: pressures at nodes (LAGS_C) may be arbitrary, forces "
+                                            "and stresses are not",
+                                            points, mesh.cell_name(cell), mesh.cell(cell).size()),
+                                call.factors("ZONE")[k].span, "take a higher ORDRE_INT, or INTEGRATION='AUTO'");
+      return;
+    }
+  }
+}
+
+bool lies_in_plane(const solver::Mesh& mesh) {
+  return std::ranges::all_of(mesh.nodes, [](const auto& place) { return place[2] == 0.0; });
+}
+
+/// Whether a direction that stands for the outward normal of all these cells points into the body everywhere.
+bool points_inward(const std::array<double, 3>& direction, std::span<const int> cells, const solver::Mesh& mesh) {
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& place : mesh.nodes) places.emplace_back(place[0], place[1], place[2]);
+  const Eigen::Vector2d inside(0.25, 0.25);
+  const auto is_against = [&](int cell) { return solver::outward_normal(mesh, cell, inside, places).dot(Eigen::Vector3d(direction.data())) < 0.0; };
+  return std::ranges::all_of(cells, is_against);
+}
+
+// A fixed direction stands for the outward normal: along one that points into the body bodies go through each other.
+void warn_of_inward_directions(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    const auto look = [&](const char* keyword, solver::NormalRule rule, solver::NormalSide other, const std::array<double, 3>& direction, const std::vector<int>& cells) {
+      const bool has_normals = lies_in_plane(mesh) || std::ranges::all_of(cells, [&](int cell) { return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == 2; });
+      if (rule != solver::NormalRule::fixed || zone.normal_side == other || !has_normals || !points_inward(direction, cells, mesh)) return;
+      diagnostics.alarm("inward-normals", fmt::format("DEFI_CONTACT: {} points into the body, where it stands for the normal that points out of it: the bodies may go through each other", keyword),
+                        zones[k].span_of(keyword), "turn the vector round");
+    };
+    look("MAIT_FIXE", zone.master_normal, solver::NormalSide::slave, zone.master_vector, zone.master_cells);
+    look("ESCL_FIXE", zone.slave_normal, solver::NormalSide::master, zone.slave_vector, zone.slave_cells);
+  }
+}
+
+// What VERI_NORM='NON' lets pass.
+void warn_of_inward_normals(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  if (call.text("VERI_NORM") == "OUI") return;
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    for (const auto& [keyword, cells] : {std::pair("GROUP_MA_MAIT", &definition.zones[k].master_cells), std::pair("GROUP_MA_ESCL", &definition.zones[k].slave_cells)}) {
+      const std::size_t inward = solver::inward_skin(mesh, *cells).size();
+      if (inward == 0) continue;
+      diagnostics.alarm("inward-normals", fmt::format("DEFI_CONTACT: the normals of {} of these {} cells point into the body, and VERI_NORM='NON' lets that pass: the bodies may go through each other", inward, cells->size()),
+                        zones[k].span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
+    }
+  }
+}
+
+}  // namespace
+
+void warn_of_contact(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  warn_of_few_points(call, definition, mesh, diagnostics);
+  warn_of_shared_nodes(call, definition, mesh, diagnostics);
+  warn_of_idle_exclusions(call, definition, mesh, diagnostics);
+  warn_of_inward_directions(call, definition, mesh, diagnostics);
+  warn_of_inward_normals(call, definition, mesh, diagnostics);
+}
+
+}  // namespace comma::commands

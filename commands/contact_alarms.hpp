@@ -1,0 +1,14 @@
+// What DEFI_CONTACT tells about a definition that is allowed and likely not what is meant.
+#pragma once
+
+#include "interpreter/call.hpp"
+#include "interpreter/diagnostic.hpp"
+#include "solver/contact/definition.hpp"
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::commands {
+
+/// Alarms `few-points`, `shared-slave-nodes`, `idle-exclusion`, `inward-normals`.
+void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics);
+
+}  // namespace comma::commands
