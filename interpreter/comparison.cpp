@@ -116,8 +116,8 @@ bool truth(const Value& value) {
   if (value.is_integer()) return value.as_integer() != 0;
   if (value.is_real()) return value.as_real() != 0.0;
   if (value.is_complex()) return value.as_complex() != 0.0;
-  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->data.size() == 1)
-    return array->data[0] != 0.0;
+  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->size() == 1)
+    return array->at(0) != 0.0;
   if (value.as_object<ArrayObject>() != nullptr) {
     raise(ErrorKind::value, "the truth of an array with several elements is ambiguous", "use any(...) or all(...)");
   }

@@ -41,7 +41,7 @@ std::optional<Value> number_attribute(const Value& value, std::string_view name)
 }
 
 std::optional<Value> array_attribute(const ArrayObject& array, std::string_view name) {
-  if (name == "size") return Value(static_cast<std::int64_t>(array.data.size()));
+  if (name == "size") return Value(static_cast<std::int64_t>(array.size()));
   if (name == "ndim") return Value(static_cast<std::int64_t>(array.shape.size()));
   if (name == "T") return transposed(array);
   if (name != "shape") return std::nullopt;

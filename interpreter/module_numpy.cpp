@@ -15,26 +15,41 @@ namespace comma::interpreter {
 
 namespace {
 
-const ArrayObject& array_of(Evaluator& evaluator, const Value& value, Value& holder) {
-  holder = value.as_object<ArrayObject>() != nullptr ? value : make_array(value, evaluator.meter());
-  return *holder.as_object<ArrayObject>();
+Numbers argument(Evaluator& evaluator, const Value& value) { return numbers_of(value, evaluator.meter()); }
+
+Numbers array_argument(Evaluator& evaluator, const Value& value) {
+  Numbers numbers = argument(evaluator, value);
+  if (numbers.shape.empty()) raise(ErrorKind::not_implemented, "arrays of no dimension are not there", "use the number itself");
+  return numbers;
+}
+
+std::optional<NumberType> type_named(const Value& word) {
+  if (word.is_none()) return std::nullopt;
+  const auto* type = word.as_object<TypeObject>();
+  if (type != nullptr && type->name == "float") return NumberType::real;
+  if (type != nullptr && type->name == "int") return NumberType::integer;
+  if (type != nullptr && type->name == "bool") return NumberType::boolean;
+  raise(ErrorKind::not_implemented, "arrays are of int, float or bool");
+}
+
+std::optional<NumberType> type_argument(const CallArguments& arguments, std::size_t position) {
+  const Value* word = arguments.size() > position ? &arguments[position] : arguments.find("dtype");
+  return word == nullptr ? std::nullopt : type_named(*word);
 }
 
 Value array(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("array", arguments, 1, 2, {"dtype"});
-  const Value made = make_array(arguments[0], evaluator.meter());
-  const Value* type = arguments.size() > 1 ? &arguments[1] : arguments.find("dtype");
-  if (type != nullptr && !type->is_none()) {
-    const auto* wanted = type->as_object<TypeObject>();
-    if (wanted == nullptr || (wanted->name != "float" && wanted->name != "int"))
-      raise(ErrorKind::not_implemented, "arrays are of int or float");
-    auto* result = made.as_object<ArrayObject>();
-    result->integers = wanted->name == "int";
-    if (result->integers)
-      std::transform(result->data.begin(), result->data.end(), result->data.begin(),
-                     [](double x) { return std::trunc(x); });
-  }
-  return made;
+  Numbers numbers = array_argument(evaluator, arguments[0]);
+  const auto type = type_argument(arguments, 1);
+  return make_value(type ? converted(std::move(numbers), *type) : std::move(numbers));
+}
+
+/// The array itself where it is one of that type.
+Value asarray(Evaluator& evaluator, const CallArguments& arguments) {
+  expect_arguments("asarray", arguments, 1, 2, {"dtype"});
+  const auto* given = arguments[0].as_object<ArrayObject>();
+  if (given != nullptr && type_argument(arguments, 1).value_or(given->type) == given->type) return arguments[0];
+  return array(evaluator, arguments);
 }
 
 Value filled(Evaluator& evaluator, const CallArguments& arguments, std::string_view name, double value) {
@@ -53,7 +68,7 @@ Value filled(Evaluator& evaluator, const CallArguments& arguments, std::string_v
     evaluator.meter().allocate(size > (1ULL << 40) ? 1ULL << 40 : size * 8);
   }
   if (shape.empty() || shape.size() > 2) raise(ErrorKind::not_implemented, "arrays have one or two dimensions");
-  return make_array(std::vector<double>(size, value), std::move(shape), false);
+  return make_value({std::vector<double>(size, value), std::move(shape), type_argument(arguments, 1).value_or(NumberType::real)});
 }
 
 Value zeros(Evaluator& evaluator, const CallArguments& arguments) {
@@ -74,7 +89,7 @@ Value linspace(Evaluator& evaluator, const CallArguments& arguments) {
   const double step = n > 1 ? (stop - start) / static_cast<double>(n - 1) : 0.0;
   for (std::size_t i = 0; i < data.size(); ++i) data[i] = start + static_cast<double>(i) * step;
   if (n > 1) data.back() = stop;
-  return make_array(std::move(data), {static_cast<std::size_t>(n)}, false);
+  return make_value({std::move(data), {static_cast<std::size_t>(n)}, NumberType::real});
 }
 
 Value arange(Evaluator& evaluator, const CallArguments& arguments) {
@@ -90,43 +105,38 @@ Value arange(Evaluator& evaluator, const CallArguments& arguments) {
   const bool integers = std::none_of(arguments.positional.begin(), arguments.positional.end(),
                                      [](const Value& v) { return v.is_real(); });
   const std::size_t size = data.size();
-  return make_array(std::move(data), {size}, integers);
+  return make_value({std::move(data), {size}, integers ? NumberType::integer : NumberType::real});
 }
 
 template <double (*Function)(double)>
 Value elementwise(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("numpy function", arguments, 1, 1);
-  if (is_numeric(arguments[0])) return Function(real_of(arguments[0]));
-  Value holder;
-  const ArrayObject& source = array_of(evaluator, arguments[0], holder);
-  std::vector<double> data(source.data.size());
-  std::transform(source.data.begin(), source.data.end(), data.begin(), Function);
-  return make_array(std::move(data), source.shape, false);
+  Numbers numbers = argument(evaluator, arguments[0]);
+  for (double& number : numbers.data) number = Function(number);
+  numbers.type = NumberType::real;
+  return make_value(std::move(numbers));
 }
 
 Value array_sum(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("sum", arguments, 1, 1);
-  Value holder;
-  const ArrayObject& source = array_of(evaluator, arguments[0], holder);
-  return array_number(std::accumulate(source.data.begin(), source.data.end(), 0.0), source.integers);
+  const Numbers source = argument(evaluator, arguments[0]);
+  return array_number(std::accumulate(source.data.begin(), source.data.end(), 0.0), std::max(source.type, NumberType::integer));
 }
 
 Value mean(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("mean", arguments, 1, 1);
-  Value holder;
-  const ArrayObject& source = array_of(evaluator, arguments[0], holder);
+  const Numbers source = argument(evaluator, arguments[0]);
   return std::accumulate(source.data.begin(), source.data.end(), 0.0) / static_cast<double>(source.data.size());
 }
 
 Value array_extreme(Evaluator& evaluator, const CallArguments& arguments, bool largest, bool place) {
   expect_arguments("max", arguments, 1, 1);
-  Value holder;
-  const ArrayObject& source = array_of(evaluator, arguments[0], holder);
+  const Numbers source = argument(evaluator, arguments[0]);
   if (source.data.empty()) raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
   const auto found = largest ? std::max_element(source.data.begin(), source.data.end())
                              : std::min_element(source.data.begin(), source.data.end());
   if (place) return static_cast<std::int64_t>(found - source.data.begin());
-  return array_number(*found, source.integers);
+  return array_number(*found, source.type);
 }
 
 Value array_max(Evaluator& evaluator, const CallArguments& arguments) {
@@ -144,45 +154,25 @@ Value argmin(Evaluator& evaluator, const CallArguments& arguments) {
 
 Value dot(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("dot", arguments, 2, 2);
-  Value hold_a, hold_b;
-  const ArrayObject& a = array_of(evaluator, arguments[0], hold_a);
-  const ArrayObject& b = array_of(evaluator, arguments[1], hold_b);
-  const std::size_t inner = a.shape.back();
-  if (inner != b.shape.front()) raise(ErrorKind::value, "shapes not aligned");
-  const std::size_t rows = a.shape.size() == 2 ? a.shape[0] : 1, columns = b.shape.size() == 2 ? b.shape[1] : 1;
-  evaluator.meter().allocate(rows * columns * 8);
-  std::vector<double> data(rows * columns, 0.0);
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t k = 0; k < inner; ++k) {
-      for (std::size_t j = 0; j < columns; ++j)
-        data[i * columns + j] += a.data[i * inner + k] * b.data[k * columns + j];
-    }
-  }
-  const bool integers = a.integers && b.integers;
-  std::vector<std::size_t> shape;
-  if (a.shape.size() == 2) shape.push_back(rows);
-  if (b.shape.size() == 2) shape.push_back(columns);
-  if (shape.empty()) return array_number(data[0], integers);
-  return make_array(std::move(data), std::move(shape), integers);
+  const Numbers a = argument(evaluator, arguments[0]), b = argument(evaluator, arguments[1]);
+  const bool scales = a.shape.empty() || b.shape.empty();
+  return make_value(scales ? combine(Operator::multiply, a, b, evaluator.meter()) : matrix_product(a, b, evaluator.meter()));
 }
 
 Value cross(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("cross", arguments, 2, 2);
-  Value hold_a, hold_b;
-  const ArrayObject& a = array_of(evaluator, arguments[0], hold_a);
-  const ArrayObject& b = array_of(evaluator, arguments[1], hold_b);
+  const Numbers a = argument(evaluator, arguments[0]), b = argument(evaluator, arguments[1]);
   if (a.data.size() != 3 || b.data.size() != 3)
     raise(ErrorKind::value, "a cross product needs two vectors of three components");
   const auto& x = a.data;
   const auto& y = b.data;
-  return make_array({x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]}, {3},
-                    a.integers && b.integers);
+  return make_value({{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]}, {3},
+                     std::max(a.type, b.type)});
 }
 
 Value norm(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("norm", arguments, 1, 1);
-  Value holder;
-  const ArrayObject& source = array_of(evaluator, arguments[0], holder);
+  const Numbers source = argument(evaluator, arguments[0]);
   return std::sqrt(std::inner_product(source.data.begin(), source.data.end(), source.data.begin(), 0.0));
 }
 
@@ -204,20 +194,27 @@ Value tolist(Evaluator&, const Value& self, const CallArguments&) {
 }
 
 Value copy(Evaluator& evaluator, const Value& self, const CallArguments&) {
-  return make_array(self, evaluator.meter());
+  return make_value(argument(evaluator, self));
 }
 
-Value flatten(Evaluator&, const Value& self, const CallArguments&) {
-  const auto* source = self.as_object<ArrayObject>();
-  return make_array(source->data, {source->data.size()}, source->integers);
+Value flatten(Evaluator& evaluator, const Value& self, const CallArguments&) {
+  Numbers numbers = argument(evaluator, self);
+  numbers.shape = {numbers.data.size()};
+  return make_value(std::move(numbers));
+}
+
+Value ravel(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
+  const auto& array = *self.as_object<ArrayObject>();
+  if (!array.is_contiguous()) return flatten(evaluator, self, arguments);
+  return make_window(array, array.offset, {array.size()}, {1});
 }
 
 Value transpose(Evaluator&, const Value& self, const CallArguments&) { return transposed(*self.as_object<ArrayObject>()); }
 
 Value transpose_of(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("transpose", arguments, 1, 1);
-  Value holder;
-  return transposed(array_of(evaluator, arguments[0], holder));
+  const Value array = asarray(evaluator, arguments);
+  return transposed(*array.as_object<ArrayObject>());
 }
 
 /// Arrays one after the other, or their rows.
@@ -226,10 +223,9 @@ Value concatenate(Evaluator& evaluator, const CallArguments& arguments) {
   if (!arguments[0].is_sequence() || arguments[0].items().empty()) raise(ErrorKind::value, "need at least one array to concatenate");
   std::vector<double> data;
   std::vector<std::size_t> shape;
-  bool integers = true;
+  NumberType type = NumberType::boolean;
   for (const Value& part : arguments[0].items()) {
-    Value holder;
-    const ArrayObject& source = array_of(evaluator, part, holder);
+    const Numbers source = array_argument(evaluator, part);
     if (shape.empty()) {
       shape = source.shape;
       shape.front() = 0;
@@ -239,14 +235,14 @@ Value concatenate(Evaluator& evaluator, const CallArguments& arguments) {
     shape.front() += source.shape.front();
     evaluator.meter().allocate(source.data.size() * sizeof(double));
     data.insert(data.end(), source.data.begin(), source.data.end());
-    integers = integers && source.integers;
+    type = std::max(type, source.type);
   }
-  return make_array(std::move(data), std::move(shape), integers);
+  return make_value({std::move(data), std::move(shape), type});
 }
 
 constexpr std::array array_function_table = {
     FunctionRow{"array", array},
-    FunctionRow{"asarray", array},
+    FunctionRow{"asarray", asarray},
     FunctionRow{"zeros", zeros},
     FunctionRow{"ones", ones},
     FunctionRow{"linspace", linspace},
@@ -288,7 +284,7 @@ constexpr std::array array_method_table = {
     MethodRow{"tolist", tolist},
     MethodRow{"copy", copy},
     MethodRow{"flatten", flatten},
-    MethodRow{"ravel", flatten},
+    MethodRow{"ravel", ravel},
     MethodRow{"transpose", transpose},
     MethodRow{"sum", as_method<array_sum>},
     MethodRow{"mean", as_method<mean>},
