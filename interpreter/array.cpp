@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "interpreter/operations.hpp"
-#include "interpreter/repr.hpp"
 
 namespace comma::interpreter {
 
@@ -73,7 +72,7 @@ double converted(double value, NumberType type) {
   if (type == NumberType::real) return value;
   if (type == NumberType::boolean) return value != 0.0 ? 1.0 : 0.0;
   if (std::isnan(value)) raise(ErrorKind::value, "cannot convert float NaN to integer");
-  return std::trunc(value);
+  return std::trunc(value) + 0.0;  // there is no negative zero among integers
 }
 
 Numbers converted(Numbers numbers, NumberType type) {
@@ -119,10 +118,6 @@ Value ArrayObject::to_list() const {
     items.push_back(shape.size() == 1 ? item : item.as_object<ArrayObject>()->to_list());
   }
   return Value::list(std::move(items));
-}
-
-std::string ArrayObject::repr() const {
-  return "array(" + to_list().repr() + ")";
 }
 
 Numbers numbers_of(const Value& source, Meter& meter) {

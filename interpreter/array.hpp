@@ -49,7 +49,8 @@ struct ArrayObject : Object {
   Value row(std::size_t index) const;
   Value to_list() const;  ///< lists of numbers
   std::string type_name() const override { return "numpy.ndarray"; }
-  std::string repr() const override;
+  std::string repr() const override;  ///< "array([1., 2.])"
+  std::string text() const;           ///< "[1. 2.]"
 };
 
 /// A number of an array as Python has it. Raises OverflowError for an integer of which a double may have lost digits.
@@ -75,13 +76,15 @@ Numbers combine(Operator op, const Numbers& a, const Numbers& b, Meter& meter);
 Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter);
 /// a += b and its like: written into the numbers that `a` shows, whose type stays. Raises TypeError where it cannot.
 void array_update(Operator op, ArrayObject& a, const Value& b, Meter& meter);
+/// -a, +a, ~a.
+Numbers negated(Operator op, Numbers a);
 /// The product of matrices and vectors; np.dot of arrays.
 Numbers matrix_product(const Numbers& a, const Numbers& b, Meter& meter);
 
 /// Rows as columns, on the same numbers; a vector is its own.
 Value transposed(const ArrayObject& array);
 
-/// a[i], a[i, j], a[i:j], a[:, j]: a number, or a window.
+/// a[i], a[i, j], a[i:j], a[:, j]: a number, or a window. An index of booleans or a list of integers gives a copy.
 Value array_subscript(const ArrayObject& array, const Value& index, Meter& meter);
 /// a[...] = value, stretched to what is selected.
 void array_store(ArrayObject& array, const Value& index, const Value& value, Meter& meter);

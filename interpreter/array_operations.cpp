@@ -28,6 +28,12 @@ double floor_quotient(double a, double b) {
   return quotient - floor > 0.5 ? floor + 1.0 : floor;
 }
 
+double apply_bits(Operator op, double a, double b) {
+  const std::int64_t x = array_number(a, NumberType::integer).as_integer();
+  const std::int64_t y = array_number(b, NumberType::integer).as_integer();
+  return static_cast<double>(op == Operator::bit_and ? x & y : op == Operator::bit_or ? x | y : x ^ y);
+}
+
 double apply(Operator op, double a, double b) {
   switch (op) {
     case Operator::add:
@@ -56,6 +62,10 @@ double apply(Operator op, double a, double b) {
       return a == b ? 1.0 : 0.0;
     case Operator::not_equal:
       return a != b ? 1.0 : 0.0;
+    case Operator::bit_and:
+    case Operator::bit_or:
+    case Operator::bit_xor:
+      return apply_bits(op, a, b);
     default:
       raise(ErrorKind::type, fmt::format("arrays have no operator {} here", symbol_of(op)));
   }
@@ -71,6 +81,12 @@ void require_whole(Operator op, const std::vector<double>& right) {
 
 NumberType type_of_result(Operator op, NumberType a, NumberType b) {
   const NumberType joint = std::max(a, b);
+  if (op == Operator::bit_and || op == Operator::bit_or || op == Operator::bit_xor) {
+    if (joint == NumberType::real)
+      raise(ErrorKind::type, fmt::format("{} works on arrays of bool or int, not of float", symbol_of(op)),
+            "put comparisons in brackets: (a > 1) & (a < 2)");
+    return joint;
+  }
   if (compares(op)) return NumberType::boolean;
   if (op == Operator::divide) return NumberType::real;
   if (joint != NumberType::boolean) return joint;
@@ -122,7 +138,24 @@ Numbers combine(Operator op, const Numbers& a, const Numbers& b, Meter& meter) {
 }
 
 Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
+  if ((op == Operator::equal || op == Operator::not_equal) && (a.is_none() || b.is_none())) {
+    const Shape shape = numbers_of(a.is_none() ? b : a, meter).shape;
+    return make_value({std::vector<double>(size_of(shape), op == Operator::equal ? 0.0 : 1.0), shape, NumberType::boolean});
+  }
   return make_value(combine(op, numbers_of(a, meter), numbers_of(b, meter), meter));
+}
+
+Numbers negated(Operator op, Numbers a) {
+  if (op == Operator::invert && a.type == NumberType::real)
+    raise(ErrorKind::type, "~ works on arrays of bool or int, not of float");
+  if (op != Operator::invert && a.type == NumberType::boolean)
+    raise(ErrorKind::type, fmt::format("the {} of booleans is not supported", symbol_of(op)), "~ turns True into False");
+  for (double& number : a.data) {
+    if (a.type == NumberType::boolean) number = 1.0 - number;
+    else if (op == Operator::invert) number = -number - 1.0;
+    else if (op == Operator::minus) number = converted(-number, a.type);
+  }
+  return a;
 }
 
 void array_update(Operator op, ArrayObject& a, const Value& b, Meter& meter) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/array.hpp"
+#include "interpreter/dtype.hpp"
 #include "interpreter/utf8.hpp"
 
 namespace comma::interpreter {
@@ -43,6 +44,7 @@ bool CommandObject::equals(const Object& other) const {
 }
 
 bool TypeObject::equals(const Object& other) const {
+  if (const auto* type = dynamic_cast<const DtypeObject*>(&other)) return type->equals(*this);
   const auto* type = dynamic_cast<const TypeObject*>(&other);
   return type != nullptr && type->name == name;
 }
