@@ -17,7 +17,7 @@ void append_number(const Value& value, Numbers& numbers) {
   if (!is_numeric(value) || value.is_complex()) {
     raise(ErrorKind::type, fmt::format("an array is made of numbers, not of '{}'", value.type_name()), "use a list");
   }
-  const NumberType own = value.is_bool()       ? NumberType::boolean
+  const NumberType own = value.is_bool()      ? NumberType::boolean
                          : is_integral(value) ? NumberType::integer
                                               : NumberType::real;
   numbers.type = std::max(numbers.type, own);
@@ -64,7 +64,8 @@ Value array_number(double value, NumberType type) {
   if (type == NumberType::real) return Value(value);
   if (type == NumberType::boolean) return Value(value != 0.0);
   if (!(std::abs(value) <= largest_exact_integer))
-    raise(ErrorKind::overflow, "an integer of an array lies beyond 2**53, where digits are lost", "compute with float, or without arrays");
+    raise(ErrorKind::overflow, "an integer of an array lies beyond 2**53, where digits are lost",
+          "compute with float, or without arrays");
   return Value(static_cast<std::int64_t>(value));
 }
 
@@ -151,7 +152,8 @@ Numbers numbers_of(const Value& source, Meter& meter) {
 Value make_value(Numbers numbers) {
   if (numbers.shape.empty()) return array_number(numbers.data[0], numbers.type);
   if (numbers.shape.size() > 2)
-    raise(ErrorKind::not_implemented, fmt::format("arrays have one or two dimensions here, not {}", numbers.shape.size()));
+    raise(ErrorKind::not_implemented,
+          fmt::format("arrays have one or two dimensions here, not {}", numbers.shape.size()));
   auto array = std::make_shared<ArrayObject>();
   array->buffer = std::make_shared<std::vector<double>>(std::move(numbers.data));
   array->strides = row_major_strides(numbers.shape);

@@ -55,13 +55,16 @@ struct ArrayObject : Object {
 
 /// A number of an array as Python has it. Raises OverflowError for an integer of which a double may have lost digits.
 Value array_number(double value, NumberType type);
-/// Numbers brought into a type: cut off to integers, or whether they are not zero. Raises ValueError for nan as integer.
+/// Numbers brought into a type: cut off to integers, or whether they are not zero. Raises ValueError for nan as
+/// integer.
 double converted(double value, NumberType type);
 Numbers converted(Numbers numbers, NumberType type);
 
-/// Of an array, a number, a sequence of numbers or of equally long ones. Raises ValueError, TypeError for anything else.
+/// Of an array, a number, a sequence of numbers or of equally long ones. Raises ValueError, TypeError for anything
+/// else.
 Numbers numbers_of(const Value& source, Meter& meter);
-/// An array of one or two dimensions, or a plain number where there are no lengths. Raises NotImplementedError for more.
+/// An array of one or two dimensions, or a plain number where there are no lengths. Raises NotImplementedError for
+/// more.
 Value make_value(Numbers numbers);
 /// Another window on the numbers of an array.
 Value make_window(const ArrayObject& array, std::ptrdiff_t offset, Shape shape, std::vector<std::ptrdiff_t> strides);

@@ -11,8 +11,8 @@ namespace comma::interpreter {
 
 namespace {
 
-constexpr int most_digits_shown = 8;          // numpy's precision
-constexpr std::size_t line_width = 75;        // its linewidth
+constexpr int most_digits_shown = 8;              // numpy's precision
+constexpr std::size_t line_width = 75;            // its linewidth
 constexpr std::size_t most_numbers_shown = 1000;  // its threshold: of larger arrays only the edges are shown
 constexpr std::size_t edge_items = 3;
 
@@ -90,7 +90,8 @@ Words written(const std::vector<double>& values, NumberType type) {
   Words words;
   std::size_t width = 0;
   for (const double value : values) {
-    words.push_back(type == NumberType::boolean ? (value != 0.0 ? " True" : "False") : array_number(value, type).repr());
+    words.push_back(type == NumberType::boolean ? (value != 0.0 ? " True" : "False")
+                                                : array_number(value, type).repr());
     width = std::max(width, words.back().size());
   }
   if (type == NumberType::integer)
@@ -114,7 +115,8 @@ Shown shown_of(std::size_t length, bool edges_only) {
 }
 
 /// One row in brackets, in lines no longer than the width.
-std::string written_row(std::span<const std::string> words, std::size_t gap, const std::string& separator, std::size_t indent, std::size_t width) {
+std::string written_row(std::span<const std::string> words, std::size_t gap, const std::string& separator,
+                        std::size_t indent, std::size_t width) {
   std::string done, line(indent, ' ');
   const auto extend = [&](const std::string& word, std::size_t limit) {
     if (line.size() > indent && line.size() + word.size() > limit) {
@@ -151,7 +153,8 @@ std::string written(const ArrayObject& array, const std::string& separator, std:
     return written_row(std::span(words).subspan(i * count, count), shown.gap, separator, inner_indent, inner_width);
   };
   if (flat) return row(0, indent + 1, width);
-  const std::string between = separator.substr(0, separator.find_last_not_of(' ') + 1) + "\n" + std::string(indent + 1, ' ');
+  const std::string between =
+      separator.substr(0, separator.find_last_not_of(' ') + 1) + "\n" + std::string(indent + 1, ' ');
   std::string text = "[";
   for (std::size_t i = 0; i < rows.places.size(); ++i) {
     if (i > 0) text += between;

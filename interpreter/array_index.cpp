@@ -1,5 +1,5 @@
-// a[i], a[i, j], a[i:j], a[:, j], a[mask], a[[0, 2]], and what is written there. Whole numbers and slices give a window on
-// the same numbers; masks and lists of indices pick numbers one by one.
+// a[i], a[i, j], a[i:j], a[:, j], a[mask], a[[0, 2]], and what is written there. Whole numbers and slices give a window
+// on the same numbers; masks and lists of indices pick numbers one by one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 std::int64_t checked_index(const Value& index, std::size_t axis, std::size_t length) {
   if (!integer_of(index) || index.is_bool())
-    raise(ErrorKind::index, fmt::format("arrays are indexed with integers and slices, not with '{}'", index.type_name()),
+    raise(ErrorKind::index,
+          fmt::format("arrays are indexed with integers and slices, not with '{}'", index.type_name()),
           index.is_real() ? "divide with // or convert with int(...)" : "");
   const std::int64_t wanted = index_of(index);
   const std::int64_t place = wanted < 0 ? wanted + static_cast<std::int64_t>(length) : wanted;
@@ -81,7 +82,8 @@ struct AxisPicks {
 AxisPicks span_of_axis(std::size_t length, const SliceObject& slice) {
   const SliceRange range = resolve_slice(slice, static_cast<std::int64_t>(length));
   AxisPicks picked{{{}, {static_cast<std::size_t>(range.count)}, NumberType::integer}, true};
-  for (std::int64_t i = 0; i < range.count; ++i) picked.places.data.push_back(static_cast<double>(range.start + i * range.step));
+  for (std::int64_t i = 0; i < range.count; ++i)
+    picked.places.data.push_back(static_cast<double>(range.start + i * range.step));
   return picked;
 }
 
@@ -91,9 +93,10 @@ void append_mask(const ArrayObject& array, const Numbers& mask, std::vector<Axis
   for (std::size_t k = 0; k < mask.shape.size(); ++k) {
     require_axis(array, first + k);
     if (array.shape[first + k] != mask.shape[k])
-      raise(ErrorKind::index, fmt::format("boolean index did not match indexed array along dimension {}; dimension is {} but "
-                                          "corresponding boolean dimension is {}",
-                                          first + k, array.shape[first + k], mask.shape[k]));
+      raise(ErrorKind::index,
+            fmt::format("boolean index did not match indexed array along dimension {}; dimension is {} but "
+                        "corresponding boolean dimension is {}",
+                        first + k, array.shape[first + k], mask.shape[k]));
   }
   const auto count = static_cast<std::size_t>(std::ranges::count_if(mask.data, [](double set) { return set != 0.0; }));
   std::size_t stride = mask.data.size();
@@ -146,7 +149,9 @@ Picked picked_at(const ArrayObject& array, const std::vector<Value>& parts, Mete
   const std::vector<AxisPicks> axes = picks_at(array, parts, meter);
   Picked picked;
   const auto place = [&](double row, double column) {
-    const auto along = [&](std::size_t axis, double index) { return static_cast<std::ptrdiff_t>(index) * array.strides[axis]; };
+    const auto along = [&](std::size_t axis, double index) {
+      return static_cast<std::ptrdiff_t>(index) * array.strides[axis];
+    };
     const std::ptrdiff_t behind = axes.size() == 2 ? along(1, column) : 0;
     picked.places.push_back(static_cast<std::size_t>(array.offset + along(0, row) + behind));
   };
@@ -181,7 +186,8 @@ std::vector<double> fitted(const Numbers& numbers, const Shape& shape, NumberTyp
     fits = length == 1 || length == shape[shape.size() - k];
   }
   if (!fits)
-    raise(ErrorKind::value, fmt::format("could not broadcast input array from shape {} into shape {}", text_of(numbers.shape), text_of(shape)));
+    raise(ErrorKind::value, fmt::format("could not broadcast input array from shape {} into shape {}",
+                                        text_of(numbers.shape), text_of(shape)));
   std::vector<double> data = spread({numbers.data, own, numbers.type}, shape);
   for (double& number : data) number = converted(number, type);
   return data;

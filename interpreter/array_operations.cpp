@@ -11,7 +11,9 @@ namespace comma::interpreter {
 
 namespace {
 
-bool compares(Operator op) { return op >= Operator::less; }
+bool compares(Operator op) {
+  return op >= Operator::less;
+}
 
 /// Python's // and % for floats, but with numpy's inf and nan where the divisor is zero.
 double remainder(double a, double b) {
@@ -104,7 +106,8 @@ Shape broadcast_shape(const Shape& a, const Shape& b) {
     std::size_t& length = result[result.size() - k];
     const std::size_t other = shorter[shorter.size() - k];
     if (length != other && length != 1 && other != 1)
-      raise(ErrorKind::value, fmt::format("operands could not be broadcast together with shapes {} {}", text_of(a), text_of(b)));
+      raise(ErrorKind::value,
+            fmt::format("operands could not be broadcast together with shapes {} {}", text_of(a), text_of(b)));
     if (length == 1) length = other;
   }
   return result;
@@ -133,14 +136,16 @@ Numbers combine(Operator op, const Numbers& a, const Numbers& b, Meter& meter) {
   result.data = spread(a, result.shape);
   const std::vector<double> right = spread(b, result.shape);
   if (result.type == NumberType::integer) require_whole(op, right);
-  for (std::size_t i = 0; i < right.size(); ++i) result.data[i] = converted(apply(op, result.data[i], right[i]), result.type);
+  for (std::size_t i = 0; i < right.size(); ++i)
+    result.data[i] = converted(apply(op, result.data[i], right[i]), result.type);
   return result;
 }
 
 Value array_operation(Operator op, const Value& a, const Value& b, Meter& meter) {
   if ((op == Operator::equal || op == Operator::not_equal) && (a.is_none() || b.is_none())) {
     const Shape shape = numbers_of(a.is_none() ? b : a, meter).shape;
-    return make_value({std::vector<double>(size_of(shape), op == Operator::equal ? 0.0 : 1.0), shape, NumberType::boolean});
+    return make_value(
+        {std::vector<double>(size_of(shape), op == Operator::equal ? 0.0 : 1.0), shape, NumberType::boolean});
   }
   return make_value(combine(op, numbers_of(a, meter), numbers_of(b, meter), meter));
 }
@@ -149,18 +154,23 @@ Numbers negated(Operator op, Numbers a) {
   if (op == Operator::invert && a.type == NumberType::real)
     raise(ErrorKind::type, "~ works on arrays of bool or int, not of float");
   if (op != Operator::invert && a.type == NumberType::boolean)
-    raise(ErrorKind::type, fmt::format("the {} of booleans is not supported", symbol_of(op)), "~ turns True into False");
+    raise(ErrorKind::type, fmt::format("the {} of booleans is not supported", symbol_of(op)),
+          "~ turns True into False");
   for (double& number : a.data) {
-    if (a.type == NumberType::boolean) number = 1.0 - number;
-    else if (op == Operator::invert) number = -number - 1.0;
-    else if (op == Operator::minus) number = converted(-number, a.type);
+    if (a.type == NumberType::boolean)
+      number = 1.0 - number;
+    else if (op == Operator::invert)
+      number = -number - 1.0;
+    else if (op == Operator::minus)
+      number = converted(-number, a.type);
   }
   return a;
 }
 
 void array_update(Operator op, ArrayObject& a, const Value& b, Meter& meter) {
   if (op == Operator::matrix_multiply)
-    raise(ErrorKind::type, "In-place matrix multiplication is not (yet) supported.", "use 'a = a @ b' instead of 'a @= b'");
+    raise(ErrorKind::type, "In-place matrix multiplication is not (yet) supported.",
+          "use 'a = a @ b' instead of 'a @= b'");
   const Numbers result = combine(op, a.numbers(), numbers_of(b, meter), meter);
   if (result.type > a.type) {
     raise(ErrorKind::type,
@@ -169,18 +179,21 @@ void array_update(Operator op, ArrayObject& a, const Value& b, Meter& meter) {
           fmt::format("write a = a {} b, or make the array of float", symbol_of(op)));
   }
   if (result.shape != a.shape) {
-    raise(ErrorKind::value, fmt::format("non-broadcastable output operand with shape {} doesn't match the broadcast shape {}",
-                                        text_of(a.shape), text_of(result.shape)));
+    raise(ErrorKind::value,
+          fmt::format("non-broadcastable output operand with shape {} doesn't match the broadcast shape {}",
+                      text_of(a.shape), text_of(result.shape)));
   }
   a.write(result.data);
 }
 
 Numbers matrix_product(const Numbers& a, const Numbers& b, Meter& meter) {
   if (a.shape.empty() || b.shape.empty())
-    raise(ErrorKind::value, "matmul: an operand is a number, but arrays of one or two dimensions are wanted", "multiply with *");
+    raise(ErrorKind::value, "matmul: an operand is a number, but arrays of one or two dimensions are wanted",
+          "multiply with *");
   const std::size_t inner = a.shape.back();
   if (inner != b.shape.front())
-    raise(ErrorKind::value, fmt::format("shapes {} and {} not aligned: {} != {}", text_of(a.shape), text_of(b.shape), inner, b.shape.front()));
+    raise(ErrorKind::value, fmt::format("shapes {} and {} not aligned: {} != {}", text_of(a.shape), text_of(b.shape),
+                                        inner, b.shape.front()));
   const std::size_t rows = a.shape.size() == 2 ? a.shape[0] : 1, columns = b.shape.size() == 2 ? b.shape[1] : 1;
   meter.allocate(rows * columns * sizeof(double));
   meter.work(rows * columns * inner);

@@ -18,10 +18,10 @@ struct TypeRow {
 };
 
 constexpr std::array type_words = {
-    TypeRow{"float", NumberType::real},     TypeRow{"float64", NumberType::real},     TypeRow{"d", NumberType::real},
-    TypeRow{"f8", NumberType::real},        TypeRow{"int", NumberType::integer},      TypeRow{"int64", NumberType::integer},
-    TypeRow{"i8", NumberType::integer},       TypeRow{"bool", NumberType::boolean},
-    TypeRow{"bool_", NumberType::boolean}, TypeRow{"?", NumberType::boolean},
+    TypeRow{"float", NumberType::real}, TypeRow{"float64", NumberType::real}, TypeRow{"d", NumberType::real},
+    TypeRow{"f8", NumberType::real},    TypeRow{"int", NumberType::integer},  TypeRow{"int64", NumberType::integer},
+    TypeRow{"i8", NumberType::integer}, TypeRow{"bool", NumberType::boolean}, TypeRow{"bool_", NumberType::boolean},
+    TypeRow{"?", NumberType::boolean},
 };
 
 std::optional<NumberType> type_of_word(std::string_view word) {
@@ -56,7 +56,9 @@ std::optional<Value> DtypeObject::compared(Operator op, const Value& other) cons
   return Value((known_type(other) == type) == (op == Operator::equal));
 }
 
-Value dtype_value(NumberType type) { return Value(std::shared_ptr<Object>(std::make_shared<DtypeObject>(type))); }
+Value dtype_value(NumberType type) {
+  return Value(std::shared_ptr<Object>(std::make_shared<DtypeObject>(type)));
+}
 
 std::optional<NumberType> number_type_of(const Value& word) {
   if (word.is_none()) return std::nullopt;

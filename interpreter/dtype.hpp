@@ -21,7 +21,8 @@ struct DtypeObject : HostObject {
 
 Value dtype_value(NumberType type);
 
-/// float, 'float64', a.dtype ... as a type; nothing for None. Raises NotImplementedError for types that arrays have not.
+/// float, 'float64', a.dtype ... as a type; nothing for None. Raises NotImplementedError for types that arrays have
+/// not.
 std::optional<NumberType> number_type_of(const Value& word);
 
 }  // namespace comma::interpreter

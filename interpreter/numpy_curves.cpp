@@ -14,7 +14,8 @@ namespace {
 
 Numbers vector_argument(Evaluator& evaluator, const Value& value, std::string_view what) {
   Numbers numbers = array_argument(evaluator, value);
-  if (numbers.shape.size() != 1) raise(ErrorKind::value, fmt::format("{} is wanted as an array of one dimension", what));
+  if (numbers.shape.size() != 1)
+    raise(ErrorKind::value, fmt::format("{} is wanted as an array of one dimension", what));
   return numbers;
 }
 
@@ -32,7 +33,8 @@ double interpolated(double x, const std::vector<double>& xp, const std::vector<d
 Value interp(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("interp", arguments, 3, 5, {"left", "right"});
   Numbers places = argument(evaluator, arguments[0]);
-  const Numbers xp = vector_argument(evaluator, arguments[1], "xp"), fp = vector_argument(evaluator, arguments[2], "fp");
+  const Numbers xp = vector_argument(evaluator, arguments[1], "xp"),
+                fp = vector_argument(evaluator, arguments[2], "fp");
   if (xp.data.size() != fp.data.size()) raise(ErrorKind::value, "fp and xp are not of the same length.");
   if (xp.data.empty()) raise(ErrorKind::value, "array of sample points is empty");
   const auto outside = [&](std::size_t position, std::string_view name, double fallback) {
@@ -72,7 +74,8 @@ Value polyval(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("polyval", arguments, 2, 2);
   const Numbers coefficients = vector_argument(evaluator, arguments[0], "the polynomial");
   const Numbers x = argument(evaluator, arguments[1]);
-  Numbers value{std::vector<double>(x.data.size(), 0.0), x.shape, std::max({coefficients.type, x.type, NumberType::integer})};
+  Numbers value{std::vector<double>(x.data.size(), 0.0), x.shape,
+                std::max({coefficients.type, x.type, NumberType::integer})};
   evaluator.meter().work(x.data.size() * coefficients.data.size());
   for (const double coefficient : coefficients.data)
     for (std::size_t i = 0; i < x.data.size(); ++i) value.data[i] = value.data[i] * x.data[i] + coefficient;
@@ -146,6 +149,8 @@ constexpr std::array curve_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> curve_functions() { return curve_table; }
+std::span<const FunctionRow> curve_functions() {
+  return curve_table;
+}
 
 }  // namespace comma::interpreter::numpy

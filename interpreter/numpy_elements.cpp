@@ -38,17 +38,36 @@ Value to_boolean(Evaluator& evaluator, const CallArguments& arguments) {
   return make_value(std::move(numbers));
 }
 
-double magnitude(double x) { return std::fabs(x); }
-double sign_of(double x) { return std::isnan(x) ? x : x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
-double squared(double x) { return x * x; }
-double to_radians(double x) { return x * (std::numbers::pi / 180.0); }
-double to_degrees(double x) { return x * (180.0 / std::numbers::pi); }
-bool is_nan(double x) { return std::isnan(x); }
-bool is_finite(double x) { return std::isfinite(x); }
-bool is_infinite(double x) { return std::isinf(x); }
-bool is_zero(double x) { return x == 0.0; }
+double magnitude(double x) {
+  return std::fabs(x);
+}
+double sign_of(double x) {
+  return std::isnan(x) ? x : x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
+}
+double squared(double x) {
+  return x * x;
+}
+double to_radians(double x) {
+  return x * (std::numbers::pi / 180.0);
+}
+double to_degrees(double x) {
+  return x * (180.0 / std::numbers::pi);
+}
+bool is_nan(double x) {
+  return std::isnan(x);
+}
+bool is_finite(double x) {
+  return std::isfinite(x);
+}
+bool is_infinite(double x) {
+  return std::isinf(x);
+}
+bool is_zero(double x) {
+  return x == 0.0;
+}
 
-Numbers pairwise(Evaluator& evaluator, const Numbers& a, const Numbers& b, NumberType type, double (*function)(double, double)) {
+Numbers pairwise(Evaluator& evaluator, const Numbers& a, const Numbers& b, NumberType type,
+                 double (*function)(double, double)) {
   Numbers result{{}, broadcast_shape(a.shape, b.shape), type};
   evaluator.meter().allocate(size_of(result.shape) * sizeof(double));
   result.data = spread(a, result.shape);
@@ -60,15 +79,28 @@ Numbers pairwise(Evaluator& evaluator, const Numbers& a, const Numbers& b, Numbe
 template <double (*Function)(double, double)>
 Value real_of_two(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("numpy function", arguments, 2, 2);
-  return make_value(pairwise(evaluator, argument(evaluator, arguments[0]), argument(evaluator, arguments[1]), NumberType::real, Function));
+  return make_value(pairwise(evaluator, argument(evaluator, arguments[0]), argument(evaluator, arguments[1]),
+                             NumberType::real, Function));
 }
 
-double larger(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
-double smaller(double a, double b) { return std::isnan(a) || a <= b ? a : b; }
-double angle(double y, double x) { return std::atan2(y, x); }
-double hypotenuse(double a, double b) { return std::hypot(a, b); }
-double both(double a, double b) { return a != 0.0 && b != 0.0 ? 1.0 : 0.0; }
-double either(double a, double b) { return a != 0.0 || b != 0.0 ? 1.0 : 0.0; }
+double larger(double a, double b) {
+  return std::isnan(a) || a >= b ? a : b;
+}
+double smaller(double a, double b) {
+  return std::isnan(a) || a <= b ? a : b;
+}
+double angle(double y, double x) {
+  return std::atan2(y, x);
+}
+double hypotenuse(double a, double b) {
+  return std::hypot(a, b);
+}
+double both(double a, double b) {
+  return a != 0.0 && b != 0.0 ? 1.0 : 0.0;
+}
+double either(double a, double b) {
+  return a != 0.0 || b != 0.0 ? 1.0 : 0.0;
+}
 
 /// Both kinds of number in one: what is chosen among is brought to the common type.
 template <double (*Function)(double, double)>
@@ -81,7 +113,8 @@ Value choice_of_two(Evaluator& evaluator, const CallArguments& arguments) {
 template <double (*Function)(double, double)>
 Value truth_of_two(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("numpy function", arguments, 2, 2);
-  return make_value(pairwise(evaluator, argument(evaluator, arguments[0]), argument(evaluator, arguments[1]), NumberType::boolean, Function));
+  return make_value(pairwise(evaluator, argument(evaluator, arguments[0]), argument(evaluator, arguments[1]),
+                             NumberType::boolean, Function));
 }
 
 template <Operator Op>
@@ -109,8 +142,12 @@ Value clipped(Evaluator& evaluator, const CallArguments& arguments, std::string_
   return make_value(std::move(numbers));
 }
 
-Value clip(Evaluator& evaluator, const CallArguments& arguments) { return clipped(evaluator, arguments, "a_min", "a_max"); }
-Value clip_own(Evaluator& evaluator, const CallArguments& arguments) { return clipped(evaluator, arguments, "min", "max"); }
+Value clip(Evaluator& evaluator, const CallArguments& arguments) {
+  return clipped(evaluator, arguments, "a_min", "a_max");
+}
+Value clip_own(Evaluator& evaluator, const CallArguments& arguments) {
+  return clipped(evaluator, arguments, "min", "max");
+}
 
 /// To an even neighbour from the middle, as numpy does: scaled, rounded, scaled back.
 Value round_numbers(Evaluator& evaluator, const CallArguments& arguments) {
@@ -131,7 +168,8 @@ Numbers closeness(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("isclose", arguments, 2, 4, {"rtol", "atol"});
   const Value* relative = option(arguments, 2, "rtol");
   const Value* absolute = option(arguments, 3, "atol");
-  const double rtol = relative != nullptr ? real_of(*relative) : 1e-5, atol = absolute != nullptr ? real_of(*absolute) : 1e-8;
+  const double rtol = relative != nullptr ? real_of(*relative) : 1e-5,
+               atol = absolute != nullptr ? real_of(*absolute) : 1e-8;
   const Numbers a = argument(evaluator, arguments[0]), b = argument(evaluator, arguments[1]);
   Numbers close{{}, broadcast_shape(a.shape, b.shape), NumberType::boolean};
   const std::vector<double> x = spread(a, close.shape), y = spread(b, close.shape);
@@ -142,7 +180,9 @@ Numbers closeness(Evaluator& evaluator, const CallArguments& arguments) {
   return close;
 }
 
-Value isclose(Evaluator& evaluator, const CallArguments& arguments) { return make_value(closeness(evaluator, arguments)); }
+Value isclose(Evaluator& evaluator, const CallArguments& arguments) {
+  return make_value(closeness(evaluator, arguments));
+}
 
 Value allclose(Evaluator& evaluator, const CallArguments& arguments) {
   const Numbers close = closeness(evaluator, arguments);
@@ -249,7 +289,11 @@ constexpr std::array element_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> element_functions() { return element_table; }
-std::span<const MethodRow> element_methods() { return element_method_table; }
+std::span<const FunctionRow> element_functions() {
+  return element_table;
+}
+std::span<const MethodRow> element_methods() {
+  return element_method_table;
+}
 
 }  // namespace comma::interpreter::numpy

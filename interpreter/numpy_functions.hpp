@@ -35,13 +35,13 @@ Value as_method(Evaluator& evaluator, const Value& self, const CallArguments& ar
   return Function(evaluator, all);
 }
 
-std::span<const FunctionRow> making_functions();     ///< numpy_making.cpp
-std::span<const FunctionRow> element_functions();    ///< numpy_elements.cpp
-std::span<const FunctionRow> reducing_functions();   ///< numpy_reductions.cpp
-std::span<const FunctionRow> shape_functions();      ///< numpy_shapes.cpp
-std::span<const FunctionRow> curve_functions();      ///< numpy_curves.cpp
-std::span<const FunctionRow> matrix_functions();     ///< numpy_matrices.cpp
-std::span<const FunctionRow> linalg_table();         ///< numpy_linalg.cpp
+std::span<const FunctionRow> making_functions();    ///< numpy_making.cpp
+std::span<const FunctionRow> element_functions();   ///< numpy_elements.cpp
+std::span<const FunctionRow> reducing_functions();  ///< numpy_reductions.cpp
+std::span<const FunctionRow> shape_functions();     ///< numpy_shapes.cpp
+std::span<const FunctionRow> curve_functions();     ///< numpy_curves.cpp
+std::span<const FunctionRow> matrix_functions();    ///< numpy_matrices.cpp
+std::span<const FunctionRow> linalg_table();        ///< numpy_linalg.cpp
 std::span<const MethodRow> making_methods();
 std::span<const MethodRow> element_methods();
 std::span<const MethodRow> reducing_methods();

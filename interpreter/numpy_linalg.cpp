@@ -30,9 +30,11 @@ double vector_norm(Line line, const Value& order) {
   const double p = real_of(order);
   if (p == 2.0) return euclidean_norm(line);
   const auto smaller_magnitude = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  if (std::isinf(p) && line.empty()) raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
+  if (std::isinf(p) && line.empty())
+    raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
   if (std::isinf(p))
-    return std::abs(p > 0.0 ? *std::ranges::max_element(line, smaller_magnitude) : *std::ranges::min_element(line, smaller_magnitude));
+    return std::abs(p > 0.0 ? *std::ranges::max_element(line, smaller_magnitude)
+                            : *std::ranges::min_element(line, smaller_magnitude));
   if (p == 0.0) return static_cast<double>(std::ranges::count_if(line, [](double x) { return x != 0.0; }));
   return std::pow(sum_of_powers(line, p), 1.0 / p);
 }
@@ -43,7 +45,8 @@ double matrix_norm(const Numbers& matrix, const Value& order) {
   const double p = is_numeric(order) ? real_of(order) : 0.0;
   if (std::abs(p) != 1.0 && !std::isinf(p))
     raise(ErrorKind::not_implemented, fmt::format("the norm of order {} of a matrix is not supported", order.repr()));
-  const Numbers sums = map_lines(matrix, std::isinf(p) ? 1 : 0, [](Line line) { return std::vector<double>{sum_of_powers(line, 1.0)}; });
+  const Numbers sums =
+      map_lines(matrix, std::isinf(p) ? 1 : 0, [](Line line) { return std::vector<double>{sum_of_powers(line, 1.0)}; });
   if (sums.data.empty()) raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
   return p > 0.0 ? *std::ranges::max_element(sums.data) : *std::ranges::min_element(sums.data);
 }
@@ -71,8 +74,8 @@ Numbers square_argument(Evaluator& evaluator, const Value& value) {
   return matrix;
 }
 
-/// Brings a square matrix to triangular form, the rows of `right` (of this width) going with it. Returns the determinant;
-/// a zero says that the elimination stopped at a column without pivot.
+/// Brings a square matrix to triangular form, the rows of `right` (of this width) going with it. Returns the
+/// determinant; a zero says that the elimination stopped at a column without pivot.
 double eliminate(Numbers& matrix, std::vector<double>& right, std::size_t width) {
   const std::size_t n = matrix.shape[0];
   const auto entry = [&](std::size_t i, std::size_t j) -> double& { return matrix.data[i * n + j]; };
@@ -117,7 +120,8 @@ Value solve(Evaluator& evaluator, const CallArguments& arguments) {
   const Numbers matrix = square_argument(evaluator, arguments[0]);
   Numbers right = array_argument(evaluator, arguments[1]);
   if (right.shape[0] != matrix.shape[0])
-    raise(ErrorKind::value, fmt::format("solve: the matrix has {} rows, the right-hand side {}", matrix.shape[0], right.shape[0]));
+    raise(ErrorKind::value,
+          fmt::format("solve: the matrix has {} rows, the right-hand side {}", matrix.shape[0], right.shape[0]));
   const std::size_t width = right.shape.size() == 2 ? right.shape[1] : 1;
   evaluator.meter().work(matrix.data.size() * width);
   solve_system(matrix, right.data, width);
@@ -196,6 +200,8 @@ constexpr std::array linalg_rows = {
 
 }  // namespace
 
-std::span<const FunctionRow> linalg_table() { return linalg_rows; }
+std::span<const FunctionRow> linalg_table() {
+  return linalg_rows;
+}
 
 }  // namespace comma::interpreter::numpy

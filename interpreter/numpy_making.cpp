@@ -46,7 +46,8 @@ Shape shape_argument(Evaluator& evaluator, const Value& value) {
     const std::int64_t n = index_of(length);
     if (n < 0) raise(ErrorKind::value, "negative dimensions are not allowed");
     shape.push_back(static_cast<std::size_t>(n));
-    size = static_cast<std::uint64_t>(n) > too_many ? too_many : std::min(size * static_cast<std::uint64_t>(n), too_many);
+    size =
+        static_cast<std::uint64_t>(n) > too_many ? too_many : std::min(size * static_cast<std::uint64_t>(n), too_many);
     evaluator.meter().allocate(std::max<std::uint64_t>(size, std::min(static_cast<std::uint64_t>(n), too_many)) * 8);
   }
   if (shape.empty() || shape.size() > 2)
@@ -62,7 +63,8 @@ Value filled(Shape shape, double value, NumberType type) {
 template <int Value_>
 Value constant(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("numpy function", arguments, 1, 2, {"dtype"});
-  return filled(shape_argument(evaluator, arguments[0]), Value_, type_argument(arguments, 1).value_or(NumberType::real));
+  return filled(shape_argument(evaluator, arguments[0]), Value_,
+                type_argument(arguments, 1).value_or(NumberType::real));
 }
 
 template <int Value_>
@@ -84,7 +86,8 @@ Numbers filling(Evaluator& evaluator, const CallArguments& arguments) {
 Value full(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("full", arguments, 1, 3, {"fill_value", "dtype"});
   const Numbers number = filling(evaluator, arguments);
-  return filled(shape_argument(evaluator, arguments[0]), number.data[0], type_argument(arguments, 2).value_or(number.type));
+  return filled(shape_argument(evaluator, arguments[0]), number.data[0],
+                type_argument(arguments, 2).value_or(number.type));
 }
 
 Value full_like(Evaluator& evaluator, const CallArguments& arguments) {
@@ -100,10 +103,12 @@ Value eye(Evaluator& evaluator, const CallArguments& arguments) {
   const Shape shape = shape_argument(evaluator, Value::tuple({arguments[0], square ? arguments[0] : *width}));
   const Value* diagonal = option(arguments, 2, "k");
   const std::int64_t k = diagonal != nullptr ? index_of(*diagonal) : 0;
-  Numbers numbers{std::vector<double>(size_of(shape), 0.0), shape, type_argument(arguments, 3).value_or(NumberType::real)};
+  Numbers numbers{std::vector<double>(size_of(shape), 0.0), shape,
+                  type_argument(arguments, 3).value_or(NumberType::real)};
   for (std::size_t i = 0; i < shape[0]; ++i) {
     const std::int64_t j = static_cast<std::int64_t>(i) + k;
-    if (j >= 0 && j < static_cast<std::int64_t>(shape[1])) numbers.data[i * shape[1] + static_cast<std::size_t>(j)] = 1.0;
+    if (j >= 0 && j < static_cast<std::int64_t>(shape[1]))
+      numbers.data[i * shape[1] + static_cast<std::size_t>(j)] = 1.0;
   }
   return make_value(std::move(numbers));
 }
@@ -158,9 +163,11 @@ Value arange(Evaluator& evaluator, const CallArguments& arguments) {
   // numpy adds the difference of the first two numbers, which rounding may set apart from the step.
   const double difference = (start + step) - start;
   std::vector<double> data(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < data.size(); ++i) data[i] = i == 1 ? start + step : start + static_cast<double>(i) * difference;
-  const bool real = std::any_of(arguments.positional.begin(), arguments.positional.begin() + static_cast<std::ptrdiff_t>(given),
-                                [](const Value& v) { return v.is_real(); });
+  for (std::size_t i = 0; i < data.size(); ++i)
+    data[i] = i == 1 ? start + step : start + static_cast<double>(i) * difference;
+  const bool real =
+      std::any_of(arguments.positional.begin(), arguments.positional.begin() + static_cast<std::ptrdiff_t>(given),
+                  [](const Value& v) { return v.is_real(); });
   const std::size_t size = data.size();
   Numbers numbers{std::move(data), {size}, real ? NumberType::real : NumberType::integer};
   const auto type = type_argument(arguments, 3);
@@ -204,7 +211,8 @@ Value item(Evaluator&, const Value& self, const CallArguments& arguments) {
     raise(ErrorKind::value, "can only convert an array of size 1 to a Python scalar");
   const std::int64_t wanted = arguments.size() == 0 ? 0 : index_of(arguments[0]);
   const std::int64_t size = static_cast<std::int64_t>(array.size()), place = wanted < 0 ? wanted + size : wanted;
-  if (place < 0 || place >= size) raise(ErrorKind::index, fmt::format("index {} is out of bounds for size {}", wanted, size));
+  if (place < 0 || place >= size)
+    raise(ErrorKind::index, fmt::format("index {} is out of bounds for size {}", wanted, size));
   return array_number(array.at(static_cast<std::size_t>(place)), array.type);
 }
 
@@ -228,13 +236,18 @@ constexpr std::array making_table = {
 };
 
 constexpr std::array making_method_table = {
-    MethodRow{"tolist", tolist}, MethodRow{"copy", as_method<copy>}, MethodRow{"astype", astype},
-    MethodRow{"fill", fill},     MethodRow{"item", item},
+    MethodRow{"tolist", tolist}, MethodRow{"copy", as_method<copy>},
+    MethodRow{"astype", astype}, MethodRow{"fill", fill},
+    MethodRow{"item", item},
 };
 
 }  // namespace
 
-std::span<const FunctionRow> making_functions() { return making_table; }
-std::span<const MethodRow> making_methods() { return making_method_table; }
+std::span<const FunctionRow> making_functions() {
+  return making_table;
+}
+std::span<const MethodRow> making_methods() {
+  return making_method_table;
+}
 
 }  // namespace comma::interpreter::numpy

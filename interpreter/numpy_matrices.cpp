@@ -12,7 +12,8 @@ Value dot(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("dot", arguments, 2, 2);
   const Numbers a = argument(evaluator, arguments[0]), b = argument(evaluator, arguments[1]);
   const bool scales = a.shape.empty() || b.shape.empty();
-  return make_value(scales ? combine(Operator::multiply, a, b, evaluator.meter()) : matrix_product(a, b, evaluator.meter()));
+  return make_value(scales ? combine(Operator::multiply, a, b, evaluator.meter())
+                           : matrix_product(a, b, evaluator.meter()));
 }
 
 Value matmul(Evaluator& evaluator, const CallArguments& arguments) {
@@ -66,7 +67,11 @@ constexpr std::array matrix_method_table = {MethodRow{"dot", as_method<dot>}};
 
 }  // namespace
 
-std::span<const FunctionRow> matrix_functions() { return matrix_table; }
-std::span<const MethodRow> matrix_methods() { return matrix_method_table; }
+std::span<const FunctionRow> matrix_functions() {
+  return matrix_table;
+}
+std::span<const MethodRow> matrix_methods() {
+  return matrix_method_table;
+}
 
 }  // namespace comma::interpreter::numpy

@@ -15,7 +15,9 @@ namespace {
 
 using Fold = double (*)(Line);
 
-double sum_in_order(Line line) { return std::accumulate(line.begin(), line.end(), 0.0); }
+double sum_in_order(Line line) {
+  return std::accumulate(line.begin(), line.end(), 0.0);
+}
 
 /// In the order in which numpy adds (its pairwise_sum), so that sums agree to the last digit.
 double sum_in_pairs(Line line) {
@@ -35,7 +37,9 @@ double sum_in_pairs(Line line) {
   return total;
 }
 
-double product(Line line) { return std::accumulate(line.begin(), line.end(), 1.0, std::multiplies<>()); }
+double product(Line line) {
+  return std::accumulate(line.begin(), line.end(), 1.0, std::multiplies<>());
+}
 
 std::size_t place_of_extreme(Line line, bool largest) {
   if (line.empty()) raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
@@ -47,12 +51,24 @@ std::size_t place_of_extreme(Line line, bool largest) {
   return best;
 }
 
-double place_of_largest(Line line) { return static_cast<double>(place_of_extreme(line, true)); }
-double place_of_smallest(Line line) { return static_cast<double>(place_of_extreme(line, false)); }
-double largest(Line line) { return line[place_of_extreme(line, true)]; }
-double smallest(Line line) { return line[place_of_extreme(line, false)]; }
-double any_set(Line line) { return std::ranges::any_of(line, [](double x) { return x != 0.0; }) ? 1.0 : 0.0; }
-double all_set(Line line) { return std::ranges::all_of(line, [](double x) { return x != 0.0; }) ? 1.0 : 0.0; }
+double place_of_largest(Line line) {
+  return static_cast<double>(place_of_extreme(line, true));
+}
+double place_of_smallest(Line line) {
+  return static_cast<double>(place_of_extreme(line, false));
+}
+double largest(Line line) {
+  return line[place_of_extreme(line, true)];
+}
+double smallest(Line line) {
+  return line[place_of_extreme(line, false)];
+}
+double any_set(Line line) {
+  return std::ranges::any_of(line, [](double x) { return x != 0.0; }) ? 1.0 : 0.0;
+}
+double all_set(Line line) {
+  return std::ranges::all_of(line, [](double x) { return x != 0.0; }) ? 1.0 : 0.0;
+}
 
 double middle(Line line) {
   std::vector<double> sorted(line.begin(), line.end());
@@ -63,7 +79,8 @@ double middle(Line line) {
 }
 
 /// One number for each line along the axis, or for the whole array. numpy adds up columns in order, lines in pairs.
-Value reduce(const CallArguments& arguments, const Numbers& source, const std::function<double(Line, bool down)>& fold, NumberType type) {
+Value reduce(const CallArguments& arguments, const Numbers& source, const std::function<double(Line, bool down)>& fold,
+             NumberType type) {
   const Value* kept = arguments.find("keepdims");
   const bool keeps = kept != nullptr && truth(*kept);
   const auto axis = axis_argument(arguments, 1, source.shape.size());
@@ -81,7 +98,9 @@ Value reduce(const CallArguments& arguments, const Numbers& source, const std::f
   return make_value(std::move(result));
 }
 
-double sum_of(Line line, bool down) { return down ? sum_in_order(line) : sum_in_pairs(line); }
+double sum_of(Line line, bool down) {
+  return down ? sum_in_order(line) : sum_in_pairs(line);
+}
 
 enum class Result { same, at_least_integer, integer, boolean, real };
 
@@ -105,7 +124,8 @@ template <Fold Function, Result Kind>
 Value reduction(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("numpy function", arguments, 1, 2, {"axis", "keepdims"});
   const Numbers source = argument(evaluator, arguments[0]);
-  return reduce(arguments, source, [](Line line, bool) { return Function(line); }, result_type(Kind, source.type));
+  return reduce(
+      arguments, source, [](Line line, bool) { return Function(line); }, result_type(Kind, source.type));
 }
 
 Value array_sum(Evaluator& evaluator, const CallArguments& arguments) {
@@ -147,9 +167,10 @@ Value count_nonzero(Evaluator& evaluator, const CallArguments& arguments) {
 
 // Lines that stay lines
 
-/// Along the axis in this position; `fallback` without one, and the flat array where even that is missing or the axis is None.
-Value along(Evaluator& evaluator, const CallArguments& arguments, std::size_t position, bool flat_by_default, const LineFunction& function,
-            std::optional<NumberType> type = {}) {
+/// Along the axis in this position; `fallback` without one, and the flat array where even that is missing or the axis
+/// is None.
+Value along(Evaluator& evaluator, const CallArguments& arguments, std::size_t position, bool flat_by_default,
+            const LineFunction& function, std::optional<NumberType> type = {}) {
   Numbers source = array_argument(evaluator, arguments[0]);
   const bool given = option(arguments, position, "axis") != nullptr;
   const auto wanted = axis_argument(arguments, position, source.shape.size());
@@ -160,7 +181,9 @@ Value along(Evaluator& evaluator, const CallArguments& arguments, std::size_t po
   return make_value(std::move(result));
 }
 
-bool before(double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; }
+bool before(double a, double b) {
+  return std::isnan(b) ? !std::isnan(a) : a < b;
+}
 
 std::vector<double> sorted_line(Line line) {
   std::vector<double> result(line.begin(), line.end());
@@ -171,7 +194,9 @@ std::vector<double> sorted_line(Line line) {
 std::vector<double> order_of_line(Line line) {
   std::vector<double> order(line.size());
   std::iota(order.begin(), order.end(), 0.0);
-  std::ranges::stable_sort(order, [&](double a, double b) { return before(line[static_cast<std::size_t>(a)], line[static_cast<std::size_t>(b)]); });
+  std::ranges::stable_sort(order, [&](double a, double b) {
+    return before(line[static_cast<std::size_t>(a)], line[static_cast<std::size_t>(b)]);
+  });
   return order;
 }
 
@@ -199,7 +224,8 @@ Value cumulated(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("cumsum", arguments, 1, 2, {"axis"});
   const auto function = [](Line line) {
     std::vector<double> result(line.begin(), line.end());
-    for (std::size_t i = 1; i < result.size(); ++i) result[i] = Products ? result[i - 1] * result[i] : result[i - 1] + result[i];
+    for (std::size_t i = 1; i < result.size(); ++i)
+      result[i] = Products ? result[i - 1] * result[i] : result[i - 1] + result[i];
     return result;
   };
   const NumberType type = std::max(argument(evaluator, arguments[0]).type, NumberType::integer);
@@ -279,7 +305,11 @@ constexpr std::array reducing_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> reducing_functions() { return reducing_table; }
-std::span<const MethodRow> reducing_methods() { return reducing_method_table; }
+std::span<const FunctionRow> reducing_functions() {
+  return reducing_table;
+}
+std::span<const MethodRow> reducing_methods() {
+  return reducing_method_table;
+}
 
 }  // namespace comma::interpreter::numpy

@@ -31,7 +31,9 @@ Shape new_shape(Evaluator& evaluator, std::span<const Value> given, std::size_t 
   for (const std::int64_t n : wanted) known *= n < 0 ? 1 : std::min(n, too_long);
   const auto count = static_cast<std::int64_t>(size);
   const bool fits = open == 0 ? known == count : known > 0 && count % known == 0;
-  if (!fits) raise(ErrorKind::value, fmt::format("cannot reshape array of size {} into shape ({})", size, fmt::join(wanted, ",")));
+  if (!fits)
+    raise(ErrorKind::value,
+          fmt::format("cannot reshape array of size {} into shape ({})", size, fmt::join(wanted, ",")));
   Shape shape;
   for (const std::int64_t n : wanted) shape.push_back(static_cast<std::size_t>(n < 0 ? count / known : n));
   return shape;
@@ -229,16 +231,18 @@ constexpr std::array shape_table = {
 };
 
 constexpr std::array shape_method_table = {
-    MethodRow{"reshape", reshape_method},
-    MethodRow{"flatten", as_method<flatten>},
-    MethodRow{"ravel", as_method<ravel>},
-    MethodRow{"transpose", as_method<transpose>},
+    MethodRow{"reshape", reshape_method}, MethodRow{"flatten", as_method<flatten>},
+    MethodRow{"ravel", as_method<ravel>}, MethodRow{"transpose", as_method<transpose>},
     MethodRow{"trace", as_method<trace>},
 };
 
 }  // namespace
 
-std::span<const FunctionRow> shape_functions() { return shape_table; }
-std::span<const MethodRow> shape_methods() { return shape_method_table; }
+std::span<const FunctionRow> shape_functions() {
+  return shape_table;
+}
+std::span<const MethodRow> shape_methods() {
+  return shape_method_table;
+}
 
 }  // namespace comma::interpreter::numpy

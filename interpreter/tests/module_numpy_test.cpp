@@ -191,6 +191,12 @@ TEST_CASE("Vectors and matrices", "[numpy]") {
  [-0.2  0.4]] [1. 3.] [1.26794919 3.         4.73205081])");
 }
 
+TEST_CASE("Arrays pass for numbers and sequences where numpy lets them", "[numpy]") {
+  CHECK(printed("float(np.array([2.5])), int(np.array([3])), list(reversed(np.array([1, 2])))") == "2.5 3 [2, 1]");
+  CHECK(printed("isinstance(np.eye(2), np.ndarray), max(np.array([1, 3])), sum(np.array([[1, 2], [3, 4]]))") ==
+        "True 3 [4 6]");
+}
+
 TEST_CASE("Methods that change an array change it in place", "[numpy]") {
   const auto output_of = [](const std::string& statements) {
     const Run run("import numpy as np\n" + statements + "\n");
