@@ -109,7 +109,7 @@ struct ExtractObject : HostObject {
 
   std::string type_name() const override { return nodal ? "post_comp_cham_no" : "post_comp_cham_el"; }
   std::optional<Value> attribute(std::string_view name) const override {
-    if (name == "valeurs") return interpreter::make_array(extract.values, {extract.values.size()}, false);
+    if (name == "valeurs") return interpreter::make_value({extract.values, {extract.values.size()}, interpreter::NumberType::real});
     const auto known = attribute_names();
     if (std::ranges::find(known, name) == known.end()) return std::nullopt;
     if (!places) return Value();

@@ -59,7 +59,7 @@ struct CoordinatesObject : HostObject {
   std::string type_name() const override { return "MeshCoordinatesField"; }
   std::optional<Value> attribute(std::string_view name) const override {
     if (name == "getValues") return method("getValues", [values = flat] { return list_of(values); });
-    if (name == "toNumpy") return method("toNumpy", [values = flat] { return interpreter::make_array(values, {values.size() / 3, 3}, false); });
+    if (name == "toNumpy") return method("toNumpy", [values = flat] { return interpreter::make_value({values, {values.size() / 3, 3}, interpreter::NumberType::real}); });
     return std::nullopt;
   }
   std::vector<std::string> attribute_names() const override { return {"getValues", "toNumpy"}; }

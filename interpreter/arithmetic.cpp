@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interpreter/array.hpp"
 #include "interpreter/operations.hpp"
 
 namespace comma::interpreter {
@@ -312,6 +313,7 @@ Value number_operation(Operator op, const Value& a, const Value& b, Meter& meter
 Value unary_operation(Operator op, const Value& a) {
   if (a.is_unknown()) return a;
   if (op == Operator::logical_not) return !truth(a);
+  if (const auto* array = a.as_object<ArrayObject>()) return make_value(negated(op, array->numbers()));
   if (is_integral(a)) {
     const BigInteger x = *integer_of(a);
     if (op == Operator::plus) return Value::integer(x);

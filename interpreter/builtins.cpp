@@ -60,16 +60,16 @@ Value len(Evaluator&, const CallArguments& arguments) {
   raise(ErrorKind::type, fmt::format("object of type '{}' has no len()", arguments[0].type_name()));
 }
 
-Value abs(Evaluator&, const CallArguments& arguments) {
+Value abs(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("abs", arguments, 1, 1);
   const Value& x = arguments[0];
   if (const auto integer = integer_of(x)) return Value::integer(integer->magnitude());
   if (x.is_real()) return std::abs(x.as_real());
   if (x.is_complex()) return std::abs(x.as_complex());
-  if (const auto* array = x.as_object<ArrayObject>()) {
-    std::vector<double> data = array->data;
-    for (double& item : data) item = std::abs(item);
-    return make_array(std::move(data), array->shape, array->integers);
+  if (x.as_object<ArrayObject>() != nullptr) {
+    Numbers numbers = numbers_of(x, evaluator.meter());
+    for (double& item : numbers.data) item = std::abs(item);
+    return make_value(std::move(numbers));
   }
   raise(ErrorKind::type, fmt::format("bad operand type for abs(): '{}'", x.type_name()));
 }

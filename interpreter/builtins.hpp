@@ -45,7 +45,8 @@ struct MethodRow {
 std::span<const FunctionRow> basic_functions();     ///< builtins.cpp
 std::span<const FunctionRow> sequence_functions();  ///< builtins_sequences.cpp
 std::span<const FunctionRow> math_functions();      ///< module_math.cpp
-std::span<const FunctionRow> numpy_functions();     ///< module_numpy.cpp
+std::vector<FunctionRow> numpy_functions();          ///< module_numpy.cpp
+std::span<const FunctionRow> linalg_functions();    ///< of numpy.linalg
 std::span<const MethodRow> text_methods();          ///< methods_text.cpp
 std::span<const MethodRow> letter_methods();        ///< methods_letters.cpp
 std::span<const MethodRow> list_methods();          ///< methods_containers.cpp

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interpreter/array.hpp"
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
 
@@ -84,7 +85,8 @@ Value filter(Evaluator& evaluator, const CallArguments& arguments) {
 Value reversed(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("reversed", arguments, 1, 1);
   const Value& source = arguments[0];
-  if (!source.is_sequence() && !source.is_text() && !source.is_dict() && source.as_object<RangeObject>() == nullptr) {
+  if (!source.is_sequence() && !source.is_text() && !source.is_dict() && source.as_object<RangeObject>() == nullptr &&
+      source.as_object<ArrayObject>() == nullptr) {
     raise(ErrorKind::type, fmt::format("'{}' object is not reversible", source.type_name()));
   }
   std::vector<Value> items = list_of(source, evaluator.meter());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "interpreter/array.hpp"
 #include "interpreter/item_span.hpp"
 
 namespace comma::interpreter {
@@ -131,13 +132,22 @@ constexpr std::int64_t most_counted = std::numeric_limits<std::int32_t>::max();
 
 bool fits(const Value& integer) { return integer.as_integer() <= most_counted && integer.as_integer() >= -most_counted; }
 
+/// A vector of numpy counts as the tuple of its numbers, everything else as itself.
+Value without_array(const Value& value) {
+  const auto* array = value.as_object<ArrayObject>();
+  if (array == nullptr || array->shape.size() != 1) return value;
+  const Value numbers = array->to_list();
+  return Value::tuple({numbers.items().begin(), numbers.items().end()});
+}
+
 /// The checks of one keyword's value, element by element.
 class ValueCheck {
  public:
   ValueCheck(const KeywordPage& page, const std::string& label, const Span& span, CheckContext& context)
       : page_(page), label_(label), span_(span), context_(context) {}
 
-  std::optional<Value> run(const Value& value) {
+  std::optional<Value> run(const Value& given) {
+    const Value value = without_array(given);
     if (value.is_unknown() || admits(page_, Kind::anything)) return value;
     const bool several = value.is_sequence() && !(admits(page_, Kind::complex) && is_complex_triple(value));
     std::vector<Value> items;
@@ -202,6 +212,7 @@ class ValueCheck {
 
   std::string type_hint(const Value& item) const {
     if (item.is_real() && admits(page_, Kind::integer)) return "write it without a decimal point";
+    if (item.as_object<ArrayObject>() != nullptr) return "a keyword takes an array of one dimension: flatten() makes it one";
     if (item.is_factor()) return label_ + " is a simple keyword: give it a value, without _F(...)";
     if (item.is_number() && holds_text(page_.types.front().kind)) return "put it between quotes";
     return producers_hint();

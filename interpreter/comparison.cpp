@@ -100,6 +100,13 @@ bool holds_unknown(const Value& value, int depth = 0) {
   return std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth + 1); });
 }
 
+/// Whether any number of the array equals the item, which is stretched to it.
+bool holds_equal(const Value& array, const Value& item) {
+  Meter meter{Limits{}};
+  const Value equal_places = array_operation(Operator::equal, array, item, meter);
+  return std::ranges::any_of(equal_places.as_object<ArrayObject>()->numbers().data, [](double set) { return set != 0.0; });
+}
+
 bool contains_text(const Value& container, const Value& item) {
   if (!item.is_text()) {
     raise(ErrorKind::type, "'in <string>' requires string as left operand, not " + item.type_name(),
@@ -116,8 +123,8 @@ bool truth(const Value& value) {
   if (value.is_integer()) return value.as_integer() != 0;
   if (value.is_real()) return value.as_real() != 0.0;
   if (value.is_complex()) return value.as_complex() != 0.0;
-  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->data.size() == 1)
-    return array->data[0] != 0.0;
+  if (const auto* array = value.as_object<ArrayObject>(); array != nullptr && array->size() == 1)
+    return array->at(0) != 0.0;
   if (value.as_object<ArrayObject>() != nullptr) {
     raise(ErrorKind::value, "the truth of an array with several elements is ambiguous", "use any(...) or all(...)");
   }
@@ -164,6 +171,7 @@ bool contains(const Value& container, const Value& item) {
   if (container.is_concept() || container.is_none() || is_numeric(container)) {
     raise(ErrorKind::type, "argument of type '" + container.type_name() + "' is not iterable");
   }
+  if (container.as_object<ArrayObject>() != nullptr) return holds_equal(container, item);
   const auto iterator = iterate(container);
   while (auto candidate = iterator->next()) {
     if (equal(*candidate, item)) return true;
@@ -183,7 +191,8 @@ Value compare(Operator op, const Value& a, const Value& b) {
   if (holds_unknown(a) || holds_unknown(b)) return Value::unknown();
   if (const auto* foreign = a.as_object<HostObject>())
     if (auto result = foreign->compared(op, b)) return *result;
-  if (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr) {
+  const bool either_text = a.is_text() || b.is_text();
+  if (!either_text && (a.as_object<ArrayObject>() != nullptr || b.as_object<ArrayObject>() != nullptr)) {
     Meter meter{Limits{}};
     return array_operation(op, a, b, meter);
   }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "interpreter/array.hpp"
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
 #include "interpreter/repr.hpp"
@@ -73,10 +74,16 @@ std::optional<double> real_from_text(std::string_view text) {
   return negative ? -value : value;
 }
 
+/// An array of one number counts as that number.
+Value single_number(const Value& source) {
+  const auto* array = source.as_object<ArrayObject>();
+  return array != nullptr && array->size() == 1 ? array_number(array->at(0), array->type) : source;
+}
+
 Value make_integer(const CallArguments& arguments) {
   expect_arguments("int", arguments, 0, 2, {"base"});
   if (arguments.size() == 0) return 0;
-  const Value& source = arguments[0];
+  const Value source = single_number(arguments[0]);
   const Value* base = arguments.size() > 1 ? &arguments[1] : arguments.find("base");
   if (source.is_text()) {
     const std::int64_t radix = base != nullptr ? index_of(*base) : 10;
@@ -100,7 +107,7 @@ Value make_integer(const CallArguments& arguments) {
 Value make_real(const CallArguments& arguments) {
   expect_arguments("float", arguments, 0, 1);
   if (arguments.size() == 0) return 0.0;
-  const Value& source = arguments[0];
+  const Value source = single_number(arguments[0]);
   if (source.is_text()) {
     if (const auto value = real_from_text(source.as_text())) return *value;
     raise(ErrorKind::value, fmt::format("could not convert string to float: {}", source.repr()),

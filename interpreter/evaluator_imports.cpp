@@ -3,6 +3,7 @@
 
 #include "interpreter/array.hpp"
 #include "interpreter/builtins.hpp"
+#include "interpreter/dtype.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/failure_messages.hpp"
 #include "interpreter/host_object.hpp"
@@ -41,9 +42,10 @@ std::optional<Value> number_attribute(const Value& value, std::string_view name)
 }
 
 std::optional<Value> array_attribute(const ArrayObject& array, std::string_view name) {
-  if (name == "size") return Value(static_cast<std::int64_t>(array.data.size()));
+  if (name == "size") return Value(static_cast<std::int64_t>(array.size()));
   if (name == "ndim") return Value(static_cast<std::int64_t>(array.shape.size()));
   if (name == "T") return transposed(array);
+  if (name == "dtype") return dtype_value(array.type);
   if (name != "shape") return std::nullopt;
   std::vector<Value> lengths;
   for (std::size_t length : array.shape) lengths.emplace_back(static_cast<std::int64_t>(length));

@@ -134,21 +134,19 @@ Members members_of_math() {
 
 Members members_of_numpy() {
   Members members;
-  for (const FunctionRow& row : numpy_functions()) {
-    if (row.name != "norm") members.emplace(row.name, function_value(row.name, row.function));
-  }
+  for (const FunctionRow& row : numpy_functions()) members.emplace(row.name, function_value(row.name, row.function));
   for (const char* name : {"pi", "e", "inf", "nan"}) members.emplace(name, *math_value(name));
   for (const char* name : {"float64", "float32", "float_"}) members.emplace(name, *builtin_value("float"));
   for (const char* name : {"int64", "int32", "int_"}) members.emplace(name, *builtin_value("int"));
+  members.emplace("bool_", *builtin_value("bool"));
+  members.emplace("newaxis", Value());
   members.emplace("ndarray", Value(std::shared_ptr<Object>(std::make_shared<TypeObject>("numpy.ndarray"))));
   return members;
 }
 
 Members members_of_linalg() {
   Members members;
-  for (const FunctionRow& row : numpy_functions()) {
-    if (row.name == "norm") members.emplace(row.name, function_value(row.name, row.function));
-  }
+  for (const FunctionRow& row : linalg_functions()) members.emplace(row.name, function_value(row.name, row.function));
   return members;
 }
 

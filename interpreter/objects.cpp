@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/array.hpp"
+#include "interpreter/dtype.hpp"
 #include "interpreter/utf8.hpp"
 
 namespace comma::interpreter {
@@ -43,6 +44,7 @@ bool CommandObject::equals(const Object& other) const {
 }
 
 bool TypeObject::equals(const Object& other) const {
+  if (const auto* type = dynamic_cast<const DtypeObject*>(&other)) return type->equals(*this);
   const auto* type = dynamic_cast<const TypeObject*>(&other);
   return type != nullptr && type->name == name;
 }
@@ -152,6 +154,14 @@ Next over_range(Value owner, const RangeObject& range) {
   };
 }
 
+/// Row by row, as windows: what a loop writes into a row, it writes into the array.
+Next over_array(Value owner, const ArrayObject& array) {
+  return [owner, &array, i = std::size_t{0}]() mutable -> std::optional<Value> {
+    if (i >= array.shape[0]) return std::nullopt;
+    return array.row(i++);
+  };
+}
+
 std::shared_ptr<Iterator> wrap(std::string name, Next next) {
   return std::make_shared<FunctionIterator>(std::move(name), std::move(next));
 }
@@ -167,7 +177,7 @@ std::shared_ptr<Iterator> iterate(const Value& value) {
   if (const auto* range = value.as_object<RangeObject>()) return wrap("range_iterator", over_range(value, *range));
   if (const auto* view = value.as_object<DictView>())
     return wrap("dict_itemiterator", over_dict(value, *view->dict, view->kind));
-  if (const auto* array = value.as_object<ArrayObject>()) return wrap("array_iterator", over_sequence(array->rows()));
+  if (const auto* array = value.as_object<ArrayObject>()) return wrap("array_iterator", over_array(value, *array));
   if (value.as_object<Iterator>() != nullptr) {
     return std::dynamic_pointer_cast<Iterator>(std::get<std::shared_ptr<Object>>(value.storage()));
   }

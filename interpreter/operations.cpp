@@ -148,6 +148,10 @@ Value augmented_operation(Operator op, const Value& a, const Value& b, Meter& me
     for (const Value& key : b.as_set().keys()) a.as_set().set(key, Value());
     return a;
   }
+  if (auto* array = a.as_object<ArrayObject>(); array != nullptr && !b.is_unknown()) {
+    array_update(op, *array, b, meter);
+    return a;
+  }
   return binary_operation(op, a, b, meter);
 }
 

@@ -14,8 +14,8 @@
 namespace comma::interpreter {
 
 Value binary_operation(Operator op, const Value& a, const Value& b, Meter& meter);
-Value unary_operation(Operator op, const Value& a);
-/// a += b and its like: a list grows in place, everything else is as the plain operator.
+Value unary_operation(Operator op, const Value& a);  ///< of an array, an array of its own
+/// a += b and its like: a list grows in place, an array changes in place, everything else is as the plain operator.
 Value augmented_operation(Operator op, const Value& a, const Value& b, Meter& meter);
 Value compare(Operator op, const Value& a, const Value& b);
 

@@ -9,6 +9,7 @@
 
 #include "interpreter/big_integer.hpp"
 #include "interpreter/dict.hpp"
+#include "interpreter/dtype.hpp"
 #include "interpreter/exception.hpp"
 
 namespace comma::interpreter {
@@ -218,6 +219,8 @@ std::string repr_of(const Value& value) {
 std::string text_of(const Value& value) {
   if (value.is_text()) return value.as_text();
   if (const auto* error = value.as_object<ExceptionObject>()) return error->text();
+  if (const auto* array = value.as_object<ArrayObject>()) return array->text();
+  if (const auto* type = value.as_object<DtypeObject>()) return type->text();
   return repr_of(value);
 }
 

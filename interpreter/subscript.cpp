@@ -162,7 +162,7 @@ Value subscript(const Value& object, const Value& index, Meter& meter) {
     return items[static_cast<std::size_t>(checked_index(object, index, static_cast<std::int64_t>(items.size())))];
   }
   if (object.is_text()) return slice != nullptr ? text_slice(object.as_text(), *slice) : text_item(object, index);
-  if (const auto* array = object.as_object<ArrayObject>()) return array_subscript(*array, index);
+  if (const auto* array = object.as_object<ArrayObject>()) return array_subscript(*array, index, meter);
   if (const auto* foreign = object.as_object<HostObject>())
     if (auto result = foreign->item(index)) return *result;
   if (const auto* range = object.as_object<RangeObject>()) {
@@ -189,7 +189,7 @@ void store_subscript(const Value& object, const Value& index, const Value& value
         checked_index(object, index, static_cast<std::int64_t>(items.size()), " assignment"))] = value;
     return;
   }
-  if (auto* array = object.as_object<ArrayObject>()) return array_store(*array, index, value);
+  if (auto* array = object.as_object<ArrayObject>()) return array_store(*array, index, value, meter);
   raise(ErrorKind::type, fmt::format("'{}' object does not support item assignment", object.type_name()),
         object.is_tuple() ? "use a list where items change" : "");
 }

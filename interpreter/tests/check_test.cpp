@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
+#include "interpreter/array.hpp"
 #include "interpreter/tests/little_catalogue.hpp"
 
 using namespace comma::interpreter;
@@ -62,6 +65,26 @@ TEST_CASE("A call without a mistake is converted and completed with defaults") {
   CHECK_FALSE(call.given("LEVEL"));
   CHECK(call.factor("TUNE").integer("STEPS") == 10);
   CHECK_FALSE(call.has("POINTS"));
+}
+
+TEST_CASE("A vector of numpy is taken as the tuple of its numbers") {
+  Checker checker;
+  const CheckedCall checked = checker.check(
+      "LOAD", {{"MODEL", Value(checker.model)},
+               {"AXIS", make_value({{1.0, 0.0}, {2}, NumberType::integer})},
+               {"POINTS", make_value({{0.5, 1.0, 1.5}, {3}, NumberType::real})}});
+  REQUIRE(checker.diagnostics.items().empty());
+  CHECK(checked.call.reals("AXIS") == std::vector<double>{1.0, 0.0});
+  CHECK(checked.call.at("POINTS").value.is_tuple());
+  CHECK(checked.call.reals("POINTS") == std::vector<double>{0.5, 1.0, 1.5});
+}
+
+TEST_CASE("Vectors of numpy are checked as tuples are") {
+  CHECK(Checker().only({{"AXIS", make_value({{1.0}, {1}, NumberType::real})}}).code == "wrong-count");
+  CHECK(Checker().only({{"AXIS", make_value({{1.0, HUGE_VAL}, {2}, NumberType::real})}}).code == "out-of-bounds");
+  const Diagnostic matrix = Checker().only({{"AXIS", make_value({{1.0, 2.0}, {1, 2}, NumberType::real})}});
+  CHECK(matrix.code == "wrong-type");
+  CHECK(matrix.hint == "a keyword takes an array of one dimension: flatten() makes it one");
 }
 
 TEST_CASE("A condition brings its block, with defaults that further conditions see") {
