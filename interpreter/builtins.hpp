@@ -46,6 +46,13 @@ std::span<const FunctionRow> basic_functions();     ///< builtins.cpp
 std::span<const FunctionRow> sequence_functions();  ///< builtins_sequences.cpp
 std::span<const FunctionRow> math_functions();      ///< module_math.cpp
 std::span<const FunctionRow> numpy_functions();     ///< module_numpy.cpp
+std::span<const FunctionRow> itertools_functions();    ///< module_itertools.cpp
+std::span<const FunctionRow> copy_functions();         ///< module_copy.cpp
+std::span<const FunctionRow> functools_functions();    ///< module_collections.cpp
+std::span<const FunctionRow> operator_functions();
+std::span<const FunctionRow> collections_functions();
+/// chain.from_iterable(...): the items of the items.
+Value chain_of(Evaluator& evaluator, const CallArguments& arguments);
 std::span<const MethodRow> text_methods();          ///< methods_text.cpp
 std::span<const MethodRow> letter_methods();        ///< methods_letters.cpp
 std::span<const MethodRow> list_methods();          ///< methods_containers.cpp

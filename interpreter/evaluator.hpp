@@ -86,6 +86,9 @@ class Evaluator {
   void execute_import(const ImportStatement& statement);
   void execute_import_from(const ImportStatement& statement);
   Value import_module(const std::string& path, Span span);
+  Value import_member(const Value& module, const ImportStatement& statement, const ImportStatement::Item& item);
+  Value absent(std::string path, bool whole, std::shared_ptr<ExceptionObject> error) const;
+  Value use_absent(AbsentObject& thing, const std::string& path);
 
   // Variables (evaluator.cpp).
   Value load(const NameNode& name);
@@ -111,6 +114,8 @@ class Evaluator {
   Value evaluate_lambda(const LambdaNode& node);
   Value evaluate_comprehension(const ComprehensionNode& node);
   Value evaluate_subscript(const SubscriptNode& node);
+  Value evaluate_name(const NameNode& node);
+  Value item(const Value& object, const Value& index);
   Value evaluate_slice(const SliceNode& node);
   Value evaluate_or_none(const NodePtr& node);
 

@@ -30,7 +30,7 @@ Value Evaluator::evaluate_node(const Node& node) {
     case NodeKind::constant:
       return static_cast<const ConstantNode&>(node).value;
     case NodeKind::name:
-      return load(static_cast<const NameNode&>(node));
+      return evaluate_name(static_cast<const NameNode&>(node));
     case NodeKind::formatted:
       return evaluate_formatted(static_cast<const FormattedNode&>(node));
     case NodeKind::tuple:
@@ -164,10 +164,28 @@ Value Evaluator::evaluate_lambda(const LambdaNode& node) {
   return make_function(node.code, node.defaults);
 }
 
+Value Evaluator::evaluate_name(const NameNode& node) {
+  Value value = load(node);
+  // What lies in an absent module is used by its name alone; of the module itself, the part behind the dot is.
+  if (auto* thing = value.as_object<AbsentObject>(); thing != nullptr && !thing->is_module) return use_absent(*thing, thing->path);
+  return value;
+}
+
+/// What a defaultdict lacks is made when it is asked for.
+Value Evaluator::item(const Value& object, const Value& index) {
+  if (object.is_dict() && object.as_dict().factory && !index.is_unknown() && object.as_dict().find(index) == nullptr) {
+    const std::shared_ptr<const Value> factory = object.as_dict().factory;
+    const Value made = call(*factory, CallArguments());
+    store_subscript(object, index, made, meter_);
+    return made;
+  }
+  return subscript(object, index, meter_);
+}
+
 Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   const Value object = evaluate(*node.object);
   const Value index = evaluate(*node.index);
-  if (!object.is_concept()) return subscript(object, index, meter_);
+  if (!object.is_concept()) return item(object, index);
   if (index.is_unknown()) return index;
   const ConceptPtr& handle = object.as_concept();
   return with_host([&]() -> Value {

@@ -157,7 +157,7 @@ void Evaluator::execute_augmented(const AugmentedStatement& statement) {
     const auto& place = static_cast<const SubscriptNode&>(*statement.target);
     const Value object = evaluate(*place.object);
     const Value index = evaluate(*place.index);
-    const Value before = subscript(object, index, meter_);
+    const Value before = item(object, index);
     return store_subscript(object, index, augmented_operation(statement.op, before, evaluate(*statement.value), meter_),
                            meter_);
   }

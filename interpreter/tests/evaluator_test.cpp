@@ -21,8 +21,11 @@ TEST_CASE("A mistake is told once, with its code and its place", "[evaluator]") 
       {"d = {'DX': 1}\nprint(d['DY'])\n", "key-error 2:7"},
       {"x = int('a')\n", "value-error 1:5"},
       {"x = 'a'.uper()\n", "unknown-attribute 1:5"},
-      {"import maths\ny = maths.sin(1)\n", "unknown-module 1:8"},
-      {"from math import sinus\nprint(sinus(1))\n", "unknown-module 1:18"},
+      {"import maths\ny = maths.sin(1)\nz = maths.cos(1)\n", "unknown-module 2:5"},
+      {"from math import sinus\nprint(sinus(1))\nprint(sinus(2))\n", "unknown-module 2:7"},
+      {"from scipy.linalg import inv\nx = 2 * inv\nprint(x)\n", "unknown-module 2:9"},
+      {"from scipy import *\n", "unknown-module 1:6"},
+      {"import time, copy\ndef f():\n    return time.time()\nx = [f(), f()]\n", "unknown-module 3:12"},
       {"import os\nos.system('x')\n", "unknown-attribute 2:1"},
       {"f = open('x')\nf.read()\n", "not-supported 1:5"},
       {"def f(a): return a\nx = f()\nprint(x + 1)\n", "type-error 2:5"},
@@ -78,7 +81,7 @@ TEST_CASE("Hints name what was meant", "[evaluator]") {
       {"d = {'DX': 1}\nd['DXX']\n", "did you mean 'DX'?"},
       {"x = gamma(2)\n", "write 'from math import gamma' before"},
       {"def f(rayon=1): pass\nf(rayo=2)\n", "did you mean rayon?"},
-      {"import numpi\n", "did you mean numpy?"},
+      {"import numpi\nx = numpi.zeros(3)\n", "did you mean numpy?"},
   };
   for (const auto& [text, hint] : cases) {
     INFO(text);
