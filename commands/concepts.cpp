@@ -46,6 +46,8 @@ Value IntegerListConcept::method(std::string_view name, const std::vector<Value>
   return ConceptData::method(name, arguments, keywords);
 }
 
+std::vector<std::string> TableConcept::method_names() const { return {"EXTR_TABLE"}; }
+
 Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return extracted_table(table);
   return ConceptData::method(name, arguments, keywords);

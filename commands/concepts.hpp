@@ -35,6 +35,7 @@ struct MeshConcept : ConceptData {
   /// hasGroupOfNodes(), hasGroupOfCells(); getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
   /// getCoordinates(), which has getValues() and toNumpy().
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 struct ModelConcept : ConceptData {
@@ -66,12 +67,14 @@ struct ListConcept : ConceptData {
   std::vector<double> values;
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
 struct IntegerListConcept : ConceptData {
   std::vector<std::int64_t> values;
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
 /// Instants with rules on how steps are cut and adapted.
@@ -105,6 +108,7 @@ struct ResultConcept : ConceptData {
   /// and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the parameters); LIST_CHAMPS(): the orders that have each field.
   /// getIndexes(), getNumberOfIndexes(), getFirstIndex(), getLastIndex(); getTime(index), getLastTime(); getFieldsNames(); getField(name, index), or getField(name, value=..., para="INST").
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 /// A field of its own (CREA_CHAMP) and what it lies on; `model` is null for a field that knows its mesh alone.
@@ -121,6 +125,7 @@ struct FieldConcept : ConceptData {
   /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
   /// sous_point, numbers from 1 (U1.03.02); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 struct TableConcept : ConceptData {
@@ -129,6 +134,7 @@ struct TableConcept : ConceptData {
   Value subscript(const Value& key) const override;
   /// EXTR_TABLE(): what extracted_table() gives.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 /// What a command function returns; null for a command that produces nothing.

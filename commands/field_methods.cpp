@@ -153,15 +153,21 @@ struct FieldMethod {
   Value (*code)(const FieldConcept&, const MethodArguments&);
 };
 
+const std::map<std::string, FieldMethod, std::less<>>& field_methods() {
+  static const std::map<std::string, FieldMethod, std::less<>> table = {{"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
+                                                                        {"getValues", {{}, all_values}},
+                                                                        {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
+                                                                        {"getComponents", {{}, own_components}}};
+  return table;
+}
+
 }  // namespace
 
+std::vector<std::string> FieldConcept::method_names() const { return names_of_methods(field_methods()); }
+
 Value FieldConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  static const std::map<std::string, FieldMethod, std::less<>> methods = {{"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
-                                                                          {"getValues", {{}, all_values}},
-                                                                          {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
-                                                                          {"getComponents", {{}, own_components}}};
-  const auto found = methods.find(name);
-  if (found == methods.end()) return ConceptData::method(name, arguments, keywords);
+  const auto found = field_methods().find(name);
+  if (found == field_methods().end()) return ConceptData::method(name, arguments, keywords);
   return diagnosed([&] { return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 

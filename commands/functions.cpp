@@ -75,6 +75,11 @@ double between(solver::Scale scale, double low, double high, double share) {
 
 Value list_of(std::span<const double> values) { return Value::list(std::vector<Value>(values.begin(), values.end())); }
 
+std::vector<std::string> FunctionConcept::method_names() const {
+  if (table() == nullptr) return {};
+  return {"Absc", "Ordo", "Valeurs", "getValues"};
+}
+
 Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (table() != nullptr && arguments.empty() && keywords.empty()) {
     if (name == "Absc") return list_of(table()->x);

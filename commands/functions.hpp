@@ -22,6 +22,7 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
   /// The table behind it, or null when it has none.
   virtual const solver::TabulatedFunction* table() const { return nullptr; }
 };

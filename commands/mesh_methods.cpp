@@ -114,6 +114,8 @@ const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
 
 }  // namespace
 
+std::vector<std::string> MeshConcept::method_names() const { return names_of_methods(mesh_methods()); }
+
 Value MeshConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   const auto found = mesh_methods().find(name);
   if (found == mesh_methods().end()) return ConceptData::method(name, arguments, keywords);

@@ -10,6 +10,14 @@
 
 namespace comma::commands {
 
+/// The names of a table of methods.
+template <class Methods>
+std::vector<std::string> names_of_methods(const Methods& methods) {
+  std::vector<std::string> names;
+  for (const auto& method : methods) names.emplace_back(method.first);
+  return names;
+}
+
 class MethodArguments {
  public:
   /// Throws DiagnosticError `type-error` for arguments that are too many, or of another name.

@@ -66,6 +66,8 @@ std::span<const MethodRow> test_case_methods();  ///< test_case.cpp
 /// The arguments of a builtin, checked: raises TypeError when there are fewer or more, or keywords not listed.
 void expect_arguments(std::string_view function, const CallArguments& arguments, std::size_t fewest, std::size_t most,
                       std::initializer_list<std::string_view> keywords = {});
+/// isinstance(): of a type, an exception class, or one of a tuple of them.
+bool is_instance(const Value& value, const Value& type);
 Value make_set(const std::vector<Value>& items, bool frozen = false);
 /// Sorts in place, stably, by key(item) when there is a key.
 void sort_values(Evaluator& evaluator, std::vector<Value>& items, const CallArguments& arguments);

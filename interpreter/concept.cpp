@@ -50,7 +50,8 @@ Value ConceptData::call(const std::vector<Value>& arguments) const {
 }
 
 Value ConceptData::method(std::string_view name, const std::vector<Value>&, const std::map<std::string, Value>&) const {
-  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name));
+  const std::string near = nearest(name, method_names());
+  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {}, near.empty() ? "" : fmt::format("did you mean {}?", near));
 }
 
 }  // namespace comma::interpreter

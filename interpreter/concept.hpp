@@ -34,6 +34,8 @@ struct ConceptData {
   virtual Value call(const std::vector<Value>& arguments) const;          ///< F(2.0)
   virtual Value method(std::string_view name, const std::vector<Value>& arguments,
                        const std::map<std::string, Value>& keywords) const;  ///< MA.getNumberOfNodes()
+  /// What method() answers to: for hasattr() and for hints.
+  virtual std::vector<std::string> method_names() const { return {}; }
 };
 
 /// The id of a concept that is taken out of another while the file is evaluated (a table of a result): it has its data, and no node of

@@ -47,7 +47,11 @@ class Evaluator {
 
   /// What builtins use. Calls a function of any kind; raises RaisedError.
   Value call(const Value& callee, const CallArguments& arguments);
+  /// The exception that a call raises, or null where it raises none.
+  std::shared_ptr<ExceptionObject> attempt(const Value& callee, const CallArguments& arguments);
   Value attribute(const Value& object, const std::string& name);
+  /// Whether a concept has a method or an attribute of this name; unknown while its data is not there.
+  Value has_attribute(const ConceptPtr& handle, const std::string& name);
   /// The same from outside of a run, for a function of the file (a formula calls it while the graph is executed). It can
   /// then call no commands.
   static Value call_from_outside(const FunctionObject& function, const CallArguments& arguments);
@@ -68,6 +72,7 @@ class Evaluator {
   Flow execute_while(const WhileStatement& statement);
   Flow execute_for(const ForStatement& statement);
   Flow execute_try(const TryStatement& statement);
+  Flow execute_with(const WithStatement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);

@@ -1,6 +1,7 @@
 // Imports and attributes: which modules there are, and what lies in a value behind a dot.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "interpreter/array.hpp"
@@ -73,6 +74,9 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
   return std::nullopt;
 }
 
+/// What every concept has, whatever its data.
+bool is_common_attribute(std::string_view name) { return name == "name" || name == "nom" || name == "userName" || name == "getName"; }
+
 /// type(e).__name__ works for every value: what type() gives is a TypeObject or an exception class.
 Value type_attribute_owner(const TypeObject& type) {
   if (type.name == "str") return Value("");
@@ -84,6 +88,16 @@ Value type_attribute_owner(const TypeObject& type) {
 }
 
 }  // namespace
+
+Value Evaluator::has_attribute(const ConceptPtr& handle, const std::string& name) {
+  if (is_common_attribute(name)) return Value(true);
+  return with_host([&]() -> Value {
+    host_.force(handle);
+    if (!handle->data) return Value::unknown();
+    const std::vector<std::string> names = handle->data->method_names();
+    return Value(std::find(names.begin(), names.end(), name) != names.end());
+  });
+}
 
 Value Evaluator::attribute(const Value& object, const std::string& name) {
   if (object.is_unknown()) return object;
@@ -100,7 +114,7 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
     raise(ErrorKind::attribute, fmt::format("module '{}' has no attribute '{}'", module->name, name), std::move(hint));
   }
   if (object.is_concept()) {
-    if (name == "name" || name == "nom") return Value(object.as_concept()->name);
+    if (name == "name" || name == "nom" || name == "userName") return Value(object.as_concept()->name);
     return Value(std::shared_ptr<Object>(std::make_shared<ConceptMethod>(object.as_concept(), name)));
   }
   if (const auto* foreign = object.as_object<HostObject>()) {
