@@ -27,6 +27,9 @@ class MethodArguments {
   /// Whether it was given, and not as None.
   bool has(const std::string& name) const;
 
+  /// None where it is absent.
+  interpreter::Value value(const std::string& name) const { return has(name) ? given_.at(name) : interpreter::Value(); }
+
   /// Throws DiagnosticError `type-error` where it is absent.
   std::string needed_text(const std::string& name) const;
 

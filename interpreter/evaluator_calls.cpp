@@ -185,6 +185,17 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (!arguments.named.empty()) raise(ErrorKind::type, fmt::format("{}() takes no keyword arguments", method->name));
     return with_host([&] { return method->code(arguments.positional); });
   }
+  if (const auto* method = callee.as_object<HostMethod>()) {
+    if (arguments.any_unknown()) return Value::unknown();
+    // Not as work of the host: what it calls of the file counts as the file's own.
+    try {
+      return method->code(*this, arguments);
+    } catch (const LimitReached&) {
+      throw;
+    } catch (const DiagnosticError& error) {
+      throw RaisedError(make_exception(error.diagnostic()));
+    }
+  }
   if (callee.is_concept()) {
     if (arguments.any_unknown()) return Value::unknown();
     const ConceptPtr& handle = callee.as_concept();

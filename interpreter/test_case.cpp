@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <regex>
 #include <utility>
 #include <vector>
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
+#include "interpreter/pattern.hpp"
 
 namespace comma::interpreter {
 
@@ -157,17 +157,6 @@ std::string names_of(const Value& classes) {
   return "(" + names + ")";
 }
 
-/// Searches in time that grows with both lengths, whatever the pattern.
-bool holds_pattern(const std::string& text, const std::string& pattern) {
-  constexpr std::size_t longest_pattern = 1000;  // its brackets are read by recursion
-  if (pattern.size() > longest_pattern) raise(ErrorKind::value, "the pattern is too long");
-  try {
-    return std::regex_search(text, std::regex(pattern, std::regex::ECMAScript | std::regex_constants::__polynomial));
-  } catch (const std::regex_error&) {
-    raise(ErrorKind::value, fmt::format("the pattern {} cannot be read", Value(pattern).repr()), "write it without groups that are named or look around");
-  }
-}
-
 /// Without a function to call: what `with` watches over. With one: the call, judged.
 Value expect_error(Evaluator& evaluator, std::string_view method, const CallArguments& arguments, std::size_t operands) {
   if (arguments.size() < operands) raise(ErrorKind::type, fmt::format("{}() takes at least {} arguments, not {}", method, operands, arguments.size()));
@@ -177,7 +166,7 @@ Value expect_error(Evaluator& evaluator, std::string_view method, const CallArgu
   if (operands > 1) {
     if (!arguments[1].is_text()) raise(ErrorKind::type, "the pattern must be a str, not " + arguments[1].type_name());
     claim->pattern = arguments[1].as_text();
-    holds_pattern("", *claim->pattern);
+    finds_pattern("", *claim->pattern);
   }
   claim->assertion.method = method;
   claim->assertion.span = arguments.span;
@@ -246,7 +235,7 @@ bool ExpectedError::judge(Evaluator& evaluator, const std::shared_ptr<ExceptionO
   if (!raised && !evaluator.host().runs_calls()) return true;
   if (raised && !catches(classes, *raised)) return false;
   if (raised) exception = Value(std::shared_ptr<Object>(raised));
-  assertion.holds = raised && (!pattern || holds_pattern(raised->text(), *pattern));
+  assertion.holds = raised && (!pattern || finds_pattern(raised->text(), *pattern));
   if (!assertion.holds && assertion.message.empty())
     assertion.message = raised ? fmt::format("{} does not hold {}", Value(raised->text()).repr(), Value(*pattern).repr()) : names_of(classes) + " not raised";
   evaluator.host().judge(assertion);
