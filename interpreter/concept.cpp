@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "interpreter/diagnostic.hpp"
@@ -38,6 +39,19 @@ Concept::~Concept() {
     std::ranges::move(last->reads_through, std::back_inserter(open));
     last->reads_through.clear();
   }
+}
+
+ConceptPtr source_behind(const Concept& made, std::string_view method) {
+  const std::string_view type = method == "getMesh" ? "maillage_sdaster" : method == "getModel" ? "modele_sdaster" : method == "getMaterialField" ? "cham_mater" : "";
+  if (type.empty() || made.type == type) return nullptr;
+  std::vector<ConceptPtr> open = made.reads_through;
+  std::set<const Concept*> seen;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const ConceptPtr now = open[i];
+    if (now->type == type) return now;
+    if (seen.insert(now.get()).second) open.insert(open.end(), now->reads_through.begin(), now->reads_through.end());
+  }
+  return nullptr;
 }
 
 Value ConceptData::subscript(const Value&) const {

@@ -120,6 +120,7 @@ class Evaluator {
   Value evaluate_comprehension(const ComprehensionNode& node);
   Value evaluate_subscript(const SubscriptNode& node);
   Value evaluate_name(const NameNode& node);
+  Value concept_operation(Operator op, const Value& left, const Value& right);
   Value item(const Value& object, const Value& index);
   Value evaluate_slice(const SliceNode& node);
   Value evaluate_or_none(const NodePtr& node);

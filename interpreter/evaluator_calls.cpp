@@ -174,6 +174,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   if (const auto* method = callee.as_object<ConceptMethod>()) {
     if (arguments.any_unknown()) return Value::unknown();
     if (method->name == "getName" && arguments.size() == 0 && arguments.named.empty()) return Value(method->handle->name);
+    if (arguments.size() == 0 && arguments.named.empty())
+      if (ConceptPtr source = source_behind(*method->handle, method->name)) return Value(std::move(source));
     return with_host([&]() -> Value {
       host_.force(method->handle);
       if (!method->handle->data) return Value::unknown();

@@ -90,7 +90,7 @@ Value type_attribute_owner(const TypeObject& type) {
 }  // namespace
 
 Value Evaluator::has_attribute(const ConceptPtr& handle, const std::string& name) {
-  if (is_common_attribute(name)) return Value(true);
+  if (is_common_attribute(name) || source_behind(*handle, name)) return Value(true);
   return with_host([&]() -> Value {
     host_.force(handle);
     if (!handle->data) return Value::unknown();
