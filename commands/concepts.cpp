@@ -46,8 +46,13 @@ Value IntegerListConcept::method(std::string_view name, const std::vector<Value>
   return ConceptData::method(name, arguments, keywords);
 }
 
+std::vector<std::string> TableConcept::method_names() const { return {"EXTR_TABLE", "get_nom_para", "getParameters", "getNumberOfLines"}; }
+
 Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  if (name == "EXTR_TABLE" && arguments.empty() && keywords.empty()) return extracted_table(table);
+  if (!arguments.empty() || !keywords.empty()) return ConceptData::method(name, arguments, keywords);
+  if (name == "EXTR_TABLE") return extracted_table(table);
+  if (name == "get_nom_para" || name == "getParameters") return Value::list({table.columns.begin(), table.columns.end()});
+  if (name == "getNumberOfLines") return Value(static_cast<std::int64_t>(table.rows.size()));
   return ConceptData::method(name, arguments, keywords);
 }
 

@@ -33,8 +33,9 @@ struct MeshConcept : ConceptData {
 
   /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name, its number of members and, of cells, their largest dimension (U1.03.02); getGroupsOfNodes(), getGroupsOfCells(): names;
   /// hasGroupOfNodes(), hasGroupOfCells(); getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
-  /// getCoordinates(), which has getValues() and toNumpy().
+  /// getConnectivity(): the nodes of each cell, from 0; getCoordinates(), which has getValues() and toNumpy().
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 struct ModelConcept : ConceptData {
@@ -66,12 +67,14 @@ struct ListConcept : ConceptData {
   std::vector<double> values;
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
 struct IntegerListConcept : ConceptData {
   std::vector<std::int64_t> values;
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
 /// Instants with rules on how steps are cut and adapted.
@@ -105,6 +108,7 @@ struct ResultConcept : ConceptData {
   /// and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the parameters); LIST_CHAMPS(): the orders that have each field.
   /// getIndexes(), getNumberOfIndexes(), getFirstIndex(), getLastIndex(); getTime(index), getLastTime(); getFieldsNames(); getField(name, index), or getField(name, value=..., para="INST").
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 /// A field of its own (CREA_CHAMP) and what it lies on; `model` is null for a field that knows its mesh alone.
@@ -119,16 +123,20 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const MultiplierSum> multipliers = {};
 
   /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
-  /// sous_point, numbers from 1 (U1.03.02); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().
+  /// sous_point, numbers from 1 (U1.03.02); norm("NORM_1", components), NORM_2, NORM_INFINITY: of the values of components, multipliers not among them; copy(); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().
+  /// A sum, a difference, and a number times the field.
+  std::shared_ptr<ConceptData> combined(interpreter::Operator op, const Value& other, bool reversed) const override;
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 struct TableConcept : ConceptData {
   Table table;
 
   Value subscript(const Value& key) const override;
-  /// EXTR_TABLE(): what extracted_table() gives.
+  /// EXTR_TABLE(): what extracted_table() gives; get_nom_para() and getParameters(): the names of its columns; getNumberOfLines().
   Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
 };
 
 /// What a command function returns; null for a command that produces nothing.

@@ -9,6 +9,7 @@
 #include "commands/ordered_set.hpp"
 #include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/exception.hpp"
 #include "interpreter/host_object.hpp"
 #include "solver/fields/field_algebra.hpp"
 
@@ -17,6 +18,7 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
+using interpreter::Operator;
 using interpreter::HostObject;
 using interpreter::Object;
 
@@ -148,20 +150,74 @@ Value own_components(const FieldConcept& data, const MethodArguments&) {
   return Value::list({names.begin(), names.end()});
 }
 
+Value norm(const FieldConcept& data, const MethodArguments& given) {
+  const std::vector<double> values = extract_of(data, given.texts("list_cmp"), {}).values;
+  const std::string kind = given.needed_text("normType");
+  double sum = 0.0, squares = 0.0, largest = 0.0;
+  for (const double value : values) {
+    sum += std::abs(value);
+    squares += value * value;
+    largest = std::max(largest, std::abs(value));
+  }
+  if (kind == "NORM_1") return Value(sum);
+  if (kind == "NORM_2") return Value(std::sqrt(squares));
+  if (kind == "NORM_INFINITY") return Value(largest);
+  throw DiagnosticError("value-error", "norm() takes NORM_1, NORM_2 or NORM_INFINITY, not " + kind);
+}
+
+Value copied(const FieldConcept& data, const MethodArguments&) {
+  auto handle = std::make_shared<interpreter::Concept>();
+  handle->name = "_copy";
+  handle->type = std::holds_alternative<solver::NodalField>(data.field) ? "cham_no_sdaster" : "cham_elem";
+  handle->id = interpreter::detached_concept;
+  handle->data = std::make_shared<FieldConcept>(data);
+  return Value(std::move(handle));
+}
+
 struct FieldMethod {
   std::vector<std::string> parameters;
   Value (*code)(const FieldConcept&, const MethodArguments&);
 };
 
+const std::map<std::string, FieldMethod, std::less<>>& field_methods() {
+  static const std::map<std::string, FieldMethod, std::less<>> table = {{"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
+                                                                        {"norm", {{"normType", "list_cmp"}, norm}},
+                                                                        {"copy", {{}, copied}},
+                                                                        {"getValues", {{}, all_values}},
+                                                                        {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
+                                                                        {"getComponents", {{}, own_components}}};
+  return table;
+}
+
 }  // namespace
 
+std::shared_ptr<ConceptData> FieldConcept::combined(Operator op, const Value& other, bool reversed) const {
+  std::vector<solver::FieldTerm> terms;
+  if (other.is_number()) {
+    const double number = other.as_real();
+    if (op != Operator::multiply && (op != Operator::divide || reversed)) return nullptr;
+    if (op == Operator::divide && number == 0.0) interpreter::raise(interpreter::ErrorKind::zero_division, "a field is divided by zero");
+    terms = {{&field, op == Operator::divide ? 1.0 / number : number}};
+  } else {
+    const auto* right = dynamic_cast<const FieldConcept*>(other.as_concept()->data.get());
+    if (right == nullptr || !right->functions.empty() || (op != Operator::add && op != Operator::subtract)) return nullptr;
+    if (right->mesh != mesh) throw DiagnosticError("incompatible-field", "the two fields lie on different meshes");
+    terms = {{&field, 1.0}, {&right->field, op == Operator::add ? 1.0 : -1.0}};
+  }
+  if (!functions.empty()) return nullptr;
+  auto made = std::make_shared<FieldConcept>();
+  made->field = diagnosed([&] { return solver::linear_combination(terms); });
+  made->mesh = mesh;
+  made->model = model;
+  made->behaviours = behaviours;
+  return made;
+}
+
+std::vector<std::string> FieldConcept::method_names() const { return names_of_methods(field_methods()); }
+
 Value FieldConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  static const std::map<std::string, FieldMethod, std::less<>> methods = {{"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
-                                                                          {"getValues", {{}, all_values}},
-                                                                          {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
-                                                                          {"getComponents", {{}, own_components}}};
-  const auto found = methods.find(name);
-  if (found == methods.end()) return ConceptData::method(name, arguments, keywords);
+  const auto found = field_methods().find(name);
+  if (found == field_methods().end()) return ConceptData::method(name, arguments, keywords);
   return diagnosed([&] { return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 

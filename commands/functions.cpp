@@ -75,6 +75,11 @@ double between(solver::Scale scale, double low, double high, double share) {
 
 Value list_of(std::span<const double> values) { return Value::list(std::vector<Value>(values.begin(), values.end())); }
 
+std::vector<std::string> FunctionConcept::method_names() const {
+  if (table() == nullptr) return {};
+  return {"Absc", "Ordo", "Valeurs", "getValues", "size"};
+}
+
 Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   if (table() != nullptr && arguments.empty() && keywords.empty()) {
     if (name == "Absc") return list_of(table()->x);
@@ -84,6 +89,7 @@ Value FunctionConcept::method(std::string_view name, const std::vector<Value>& a
       values.insert(values.end(), table()->y.begin(), table()->y.end());
       return list_of(values);
     }
+    if (name == "size") return Value(static_cast<std::int64_t>(table()->x.size()));
     if (name == "Valeurs") return Value::list({list_of(table()->x), list_of(table()->y)});
   }
   return ConceptData::method(name, arguments, keywords);
@@ -113,6 +119,14 @@ double FormulaConcept::evaluate(std::span<const double> at) const {
     for (std::size_t i = 0; i < at.size(); ++i) shown.push_back(fmt::format("{}={:g}", formula_.parameters()[i], at[i]));
     fail(error, fmt::format("{}", fmt::join(shown, ", ")));
   }
+}
+
+std::vector<std::string> FormulaConcept::method_names() const { return {"getVariables", "getExpression"}; }
+
+Value FormulaConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  if (arguments.empty() && keywords.empty() && name == "getVariables") return Value::list({parameters().begin(), parameters().end()});
+  if (arguments.empty() && keywords.empty() && name == "getExpression") return Value(formula_.text());
+  return FunctionConcept::method(name, arguments, keywords);
 }
 
 Value FormulaConcept::call(const std::vector<Value>& arguments) const {

@@ -19,9 +19,10 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
-  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first.
+  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first; size(): how many.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
   /// The table behind it, or null when it has none.
   virtual const solver::TabulatedFunction* table() const { return nullptr; }
 };
@@ -57,6 +58,10 @@ class FormulaConcept : public FunctionConcept {
   FormulaConcept(interpreter::Formula formula, interpreter::Span span);
   const std::vector<std::string>& parameters() const override { return formula_.parameters(); }
   double evaluate(std::span<const double> at) const override;
+  /// getVariables(): the names of the parameters; getExpression(): the text.
+  interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
+                            const std::map<std::string, interpreter::Value>& keywords) const override;
+  std::vector<std::string> method_names() const override;
   /// Also with lists, texts ... when the expression is made for them.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
 

@@ -107,12 +107,22 @@ const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
       {"getNumberOfNodes", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.node_count()); }}},
       {"getNumberOfCells", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.cell_count()); }}},
       {"getDimension", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.dimension); }}},
+      {"getConnectivity", {{}, [](const Mesh& mesh, const Arguments&) {
+         std::vector<Value> cells;
+         for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+           const auto nodes = mesh.cell(cell);
+           cells.push_back(index_list({nodes.begin(), nodes.end()}));
+         }
+         return Value::list(std::move(cells));
+       }}},
       {"getCoordinates", {{}, [](const Mesh& mesh, const Arguments&) { return coordinates_of(mesh); }}},
   };
   return table;
 }
 
 }  // namespace
+
+std::vector<std::string> MeshConcept::method_names() const { return names_of_methods(mesh_methods()); }
 
 Value MeshConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
   const auto found = mesh_methods().find(name);

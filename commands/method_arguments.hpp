@@ -10,6 +10,14 @@
 
 namespace comma::commands {
 
+/// The names of a table of methods.
+template <class Methods>
+std::vector<std::string> names_of_methods(const Methods& methods) {
+  std::vector<std::string> names;
+  for (const auto& method : methods) names.emplace_back(method.first);
+  return names;
+}
+
 class MethodArguments {
  public:
   /// Throws DiagnosticError `type-error` for arguments that are too many, or of another name.
@@ -18,6 +26,9 @@ class MethodArguments {
 
   /// Whether it was given, and not as None.
   bool has(const std::string& name) const;
+
+  /// None where it is absent.
+  interpreter::Value value(const std::string& name) const { return has(name) ? given_.at(name) : interpreter::Value(); }
 
   /// Throws DiagnosticError `type-error` where it is absent.
   std::string needed_text(const std::string& name) const;

@@ -125,11 +125,26 @@ const std::map<std::string, ResultMethod, std::less<>>& step_methods() {
   return table;
 }
 
+using ResultLists = std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)>;
+
+const ResultLists& list_methods() {
+  static const ResultLists table = {
+      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", access_parameters}, {"LIST_CHAMPS", fields}};
+  return table;
+}
+
 }  // namespace
 
 const solver::StaticProblem& ResultConcept::problem_of(const solver::ResultStep& step) const {
   const auto phase = std::ranges::find_if(earlier, [&](const EarlierPhase& each) { return step.order <= each.last_order; });
   return phase == earlier.end() ? problem : phase->problem;
+}
+
+std::vector<std::string> ResultConcept::method_names() const {
+  std::vector<std::string> names = names_of_methods(step_methods());
+  for (const auto& list : list_methods()) names.emplace_back(list.first);
+  names.emplace_back("getTable");
+  return names;
 }
 
 Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
@@ -138,10 +153,8 @@ Value ResultConcept::method(std::string_view name, const std::vector<Value>& arg
     throw DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
   }
   if (const auto found = step_methods().find(name); found != step_methods().end()) return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
-  static const std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)> lists = {
-      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", access_parameters}, {"LIST_CHAMPS", fields}};
-  const auto list = lists.find(name);
-  if (list == lists.end()) return ConceptData::method(name, arguments, keywords);
+  const auto list = list_methods().find(name);
+  if (list == list_methods().end()) return ConceptData::method(name, arguments, keywords);
   if (arguments.empty() && keywords.empty()) return Value(list->second(result));
   throw DiagnosticError("type-error", std::string(name) + "() takes no arguments", {}, "write RESULT." + std::string(name) + "()");
 }

@@ -222,6 +222,7 @@ enum class StatementKind {
   del,
   assert_,
   try_,
+  with_,
   raise,
   import,
   import_from,
@@ -307,6 +308,14 @@ struct TryStatement : Statement {
   Block body;
   std::vector<Handler> handlers;
   Block otherwise, finally;
+};
+
+/// with manager as target: body
+struct WithStatement : Statement {
+  using Statement::Statement;
+  NodePtr manager;
+  NodePtr target;  ///< or null
+  Block body;
 };
 
 struct ImportStatement : Statement {

@@ -110,21 +110,6 @@ Value round(Evaluator&, const CallArguments& arguments) {
   return Value::integer(BigInteger::from_double(std::nearbyint(x.as_real())));
 }
 
-bool is_instance(const Value& value, const Value& type) {
-  if (type.is_tuple()) {
-    return std::any_of(type.items().begin(), type.items().end(),
-                       [&](const Value& one) { return is_instance(value, one); });
-  }
-  if (const auto* error = type.as_object<ExceptionClassObject>()) {
-    const auto* object = value.as_object<ExceptionObject>();
-    return object != nullptr && is_subclass(object->kind, error->kind);
-  }
-  const auto* wanted = type.as_object<TypeObject>();
-  if (wanted == nullptr) raise(ErrorKind::type, "isinstance() arg 2 must be a type, a tuple of types, or a union");
-  const std::string name = value.type_name();
-  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool");
-}
-
 Value isinstance(Evaluator&, const CallArguments& arguments) {
   expect_arguments("isinstance", arguments, 2, 2);
   return is_instance(arguments[0], arguments[1]);
@@ -247,12 +232,18 @@ std::optional<Value> attribute_or_nothing(Evaluator& evaluator, const Value& obj
 
 Value hasattr(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("hasattr", arguments, 2, 2);
+  if (arguments[0].is_concept()) return evaluator.has_attribute(arguments[0].as_concept(), attribute_name(arguments[1]));
   return attribute_or_nothing(evaluator, arguments[0], attribute_name(arguments[1])).has_value();
 }
 
 Value getattr(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("getattr", arguments, 2, 3);
   if (arguments.size() == 2) return evaluator.attribute(arguments[0], attribute_name(arguments[1]));
+  if (arguments[0].is_concept()) {
+    const Value has = evaluator.has_attribute(arguments[0].as_concept(), attribute_name(arguments[1]));
+    if (has.is_unknown()) return has;
+    return truth(has) ? evaluator.attribute(arguments[0], attribute_name(arguments[1])) : arguments[2];
+  }
   return attribute_or_nothing(evaluator, arguments[0], attribute_name(arguments[1])).value_or(arguments[2]);
 }
 
@@ -354,6 +345,21 @@ const NameTable& builtins() {
 
 std::span<const FunctionRow> basic_functions() {
   return general_table;
+}
+
+bool is_instance(const Value& value, const Value& type) {
+  if (type.is_tuple()) {
+    return std::any_of(type.items().begin(), type.items().end(),
+                       [&](const Value& one) { return is_instance(value, one); });
+  }
+  if (const auto* error = type.as_object<ExceptionClassObject>()) {
+    const auto* object = value.as_object<ExceptionObject>();
+    return object != nullptr && is_subclass(object->kind, error->kind);
+  }
+  const auto* wanted = type.as_object<TypeObject>();
+  if (wanted == nullptr) raise(ErrorKind::type, "isinstance() arg 2 must be a type, a tuple of types, or a union");
+  const std::string name = value.type_name();
+  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool");
 }
 
 std::string_view refusal_of(std::string_view name) {

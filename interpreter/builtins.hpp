@@ -47,6 +47,13 @@ std::span<const FunctionRow> sequence_functions();  ///< builtins_sequences.cpp
 std::span<const FunctionRow> math_functions();      ///< module_math.cpp
 std::vector<FunctionRow> numpy_functions();          ///< module_numpy.cpp
 std::span<const FunctionRow> linalg_functions();    ///< of numpy.linalg
+std::span<const FunctionRow> itertools_functions();    ///< module_itertools.cpp
+std::span<const FunctionRow> copy_functions();         ///< module_copy.cpp
+std::span<const FunctionRow> functools_functions();    ///< module_collections.cpp
+std::span<const FunctionRow> operator_functions();
+std::span<const FunctionRow> collections_functions();
+/// chain.from_iterable(...): the items of the items.
+Value chain_of(Evaluator& evaluator, const CallArguments& arguments);
 std::span<const MethodRow> text_methods();          ///< methods_text.cpp
 std::span<const MethodRow> letter_methods();        ///< methods_letters.cpp
 std::span<const MethodRow> list_methods();          ///< methods_containers.cpp
@@ -60,6 +67,8 @@ std::span<const MethodRow> test_case_methods();  ///< test_case.cpp
 /// The arguments of a builtin, checked: raises TypeError when there are fewer or more, or keywords not listed.
 void expect_arguments(std::string_view function, const CallArguments& arguments, std::size_t fewest, std::size_t most,
                       std::initializer_list<std::string_view> keywords = {});
+/// isinstance(): of a type, an exception class, or one of a tuple of them.
+bool is_instance(const Value& value, const Value& type);
 Value make_set(const std::vector<Value>& items, bool frozen = false);
 /// Sorts in place, stably, by key(item) when there is a key.
 void sort_values(Evaluator& evaluator, std::vector<Value>& items, const CallArguments& arguments);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "interpreter/diagnostic.hpp"
@@ -40,6 +41,19 @@ Concept::~Concept() {
   }
 }
 
+ConceptPtr source_behind(const Concept& made, std::string_view method) {
+  const std::string_view type = method == "getMesh" ? "maillage_sdaster" : method == "getModel" ? "modele_sdaster" : method == "getMaterialField" ? "cham_mater" : "";
+  if (type.empty() || made.type == type) return nullptr;
+  std::vector<ConceptPtr> open = made.reads_through;
+  std::set<const Concept*> seen;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const ConceptPtr now = open[i];
+    if (now->type == type) return now;
+    if (seen.insert(now.get()).second) open.insert(open.end(), now->reads_through.begin(), now->reads_through.end());
+  }
+  return nullptr;
+}
+
 Value ConceptData::subscript(const Value&) const {
   throw DiagnosticError("not-supported", "this concept cannot be read by [...]");
 }
@@ -50,7 +64,8 @@ Value ConceptData::call(const std::vector<Value>& arguments) const {
 }
 
 Value ConceptData::method(std::string_view name, const std::vector<Value>&, const std::map<std::string, Value>&) const {
-  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name));
+  const std::string near = nearest(name, method_names());
+  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {}, near.empty() ? "" : fmt::format("did you mean {}?", near));
 }
 
 }  // namespace comma::interpreter

@@ -15,6 +15,7 @@
 namespace comma::interpreter {
 
 class Value;
+enum class Operator;
 
 /// A function of reals that a concept holds: what formulas and loads call, without making values.
 struct RealFunction {
@@ -34,6 +35,10 @@ struct ConceptData {
   virtual Value call(const std::vector<Value>& arguments) const;          ///< F(2.0)
   virtual Value method(std::string_view name, const std::vector<Value>& arguments,
                        const std::map<std::string, Value>& keywords) const;  ///< MA.getNumberOfNodes()
+  /// What an operator makes of it and of a number or a concept whose data is there; null where it makes nothing. `reversed`: the other one stands on the left.
+  virtual std::shared_ptr<ConceptData> combined(Operator, const Value& /*other*/, bool /*reversed*/) const { return nullptr; }
+  /// What method() answers to: for hasattr() and for hints.
+  virtual std::vector<std::string> method_names() const { return {}; }
 };
 
 /// The id of a concept that is taken out of another while the file is evaluated (a table of a result): it has its data, and no node of
@@ -58,5 +63,8 @@ struct Concept {
 };
 
 using ConceptPtr = std::shared_ptr<Concept>;
+
+/// What getMesh(), getModel() and getMaterialField() of a concept give: the nearest behind it of this type. Null for another method, or where there is none.
+ConceptPtr source_behind(const Concept& made, std::string_view method);
 
 }  // namespace comma::interpreter

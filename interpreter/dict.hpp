@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -39,6 +40,9 @@ class Dict {
   const std::vector<Entry>& entries() const { return entries_; }
   std::vector<Value> keys() const;
   std::vector<Value> values() const;
+
+  /// Of a defaultdict: what makes the value of a key that is read and missing; else null.
+  std::shared_ptr<const Value> factory = nullptr;
 
  private:
   std::size_t index_of(const Value& key, std::size_t hash) const;

@@ -47,7 +47,11 @@ class Evaluator {
 
   /// What builtins use. Calls a function of any kind; raises RaisedError.
   Value call(const Value& callee, const CallArguments& arguments);
+  /// The exception that a call raises, or null where it raises none.
+  std::shared_ptr<ExceptionObject> attempt(const Value& callee, const CallArguments& arguments);
   Value attribute(const Value& object, const std::string& name);
+  /// Whether a concept has a method or an attribute of this name; unknown while its data is not there.
+  Value has_attribute(const ConceptPtr& handle, const std::string& name);
   /// The same from outside of a run, for a function of the file (a formula calls it while the graph is executed). It can
   /// then call no commands.
   static Value call_from_outside(const FunctionObject& function, const CallArguments& arguments);
@@ -68,6 +72,7 @@ class Evaluator {
   Flow execute_while(const WhileStatement& statement);
   Flow execute_for(const ForStatement& statement);
   Flow execute_try(const TryStatement& statement);
+  Flow execute_with(const WithStatement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);
@@ -86,6 +91,9 @@ class Evaluator {
   void execute_import(const ImportStatement& statement);
   void execute_import_from(const ImportStatement& statement);
   Value import_module(const std::string& path, Span span);
+  Value import_member(const Value& module, const ImportStatement& statement, const ImportStatement::Item& item);
+  Value absent(std::string path, bool whole, std::shared_ptr<ExceptionObject> error) const;
+  Value use_absent(AbsentObject& thing, const std::string& path);
 
   // Variables (evaluator.cpp).
   Value load(const NameNode& name);
@@ -111,6 +119,9 @@ class Evaluator {
   Value evaluate_lambda(const LambdaNode& node);
   Value evaluate_comprehension(const ComprehensionNode& node);
   Value evaluate_subscript(const SubscriptNode& node);
+  Value evaluate_name(const NameNode& node);
+  Value concept_operation(Operator op, const Value& left, const Value& right);
+  Value item(const Value& object, const Value& index);
   Value evaluate_slice(const SliceNode& node);
   Value evaluate_or_none(const NodePtr& node);
 

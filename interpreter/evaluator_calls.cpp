@@ -173,6 +173,9 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   }
   if (const auto* method = callee.as_object<ConceptMethod>()) {
     if (arguments.any_unknown()) return Value::unknown();
+    if (method->name == "getName" && arguments.size() == 0 && arguments.named.empty()) return Value(method->handle->name);
+    if (arguments.size() == 0 && arguments.named.empty())
+      if (ConceptPtr source = source_behind(*method->handle, method->name)) return Value(std::move(source));
     return with_host([&]() -> Value {
       host_.force(method->handle);
       if (!method->handle->data) return Value::unknown();
@@ -183,6 +186,17 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (arguments.any_unknown()) return Value::unknown();
     if (!arguments.named.empty()) raise(ErrorKind::type, fmt::format("{}() takes no keyword arguments", method->name));
     return with_host([&] { return method->code(arguments.positional); });
+  }
+  if (const auto* method = callee.as_object<HostMethod>()) {
+    if (arguments.any_unknown()) return Value::unknown();
+    // Not as work of the host: what it calls of the file counts as the file's own.
+    try {
+      return method->code(*this, arguments);
+    } catch (const LimitReached&) {
+      throw;
+    } catch (const DiagnosticError& error) {
+      throw RaisedError(make_exception(error.diagnostic()));
+    }
   }
   if (callee.is_concept()) {
     if (arguments.any_unknown()) return Value::unknown();

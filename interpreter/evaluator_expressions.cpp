@@ -30,7 +30,7 @@ Value Evaluator::evaluate_node(const Node& node) {
     case NodeKind::constant:
       return static_cast<const ConstantNode&>(node).value;
     case NodeKind::name:
-      return load(static_cast<const NameNode&>(node));
+      return evaluate_name(static_cast<const NameNode&>(node));
     case NodeKind::formatted:
       return evaluate_formatted(static_cast<const FormattedNode&>(node));
     case NodeKind::tuple:
@@ -41,12 +41,17 @@ Value Evaluator::evaluate_node(const Node& node) {
       return evaluate_dict(static_cast<const DictNode&>(node));
     case NodeKind::unary: {
       const auto& unary = static_cast<const UnaryNode&>(node);
-      return unary_operation(unary.op, evaluate(*unary.operand));
+      const Value operand = evaluate(*unary.operand);
+      if (unary.op == Operator::minus && operand.is_concept()) return concept_operation(Operator::multiply, operand, Value(-1.0));
+      return unary_operation(unary.op, operand);
     }
     case NodeKind::binary: {
       const auto& binary = static_cast<const BinaryNode&>(node);
       const Value left = evaluate(*binary.left);
-      return binary_operation(binary.op, left, evaluate(*binary.right), meter_);
+      const Value right = evaluate(*binary.right);
+      const auto counts = [](const Value& value) { return value.is_number() || value.is_concept(); };
+      if ((left.is_concept() || right.is_concept()) && counts(left) && counts(right)) return concept_operation(binary.op, left, right);
+      return binary_operation(binary.op, left, right, meter_);
     }
     case NodeKind::logical:
       return evaluate_logical(static_cast<const LogicalNode&>(node));
@@ -164,10 +169,50 @@ Value Evaluator::evaluate_lambda(const LambdaNode& node) {
   return make_function(node.code, node.defaults);
 }
 
+/// Of concepts, and of one and a number: what comes of it has no command that makes it.
+Value Evaluator::concept_operation(Operator op, const Value& left, const Value& right) {
+  const bool reversed = !left.is_concept();
+  const ConceptPtr own = (reversed ? right : left).as_concept();
+  return with_host([&]() -> Value {
+    for (const Value& operand : {left, right}) {
+      if (!operand.is_concept()) continue;
+      host_.force(operand.as_concept());
+      if (!operand.as_concept()->data) return Value::unknown();
+    }
+    auto made = own->data->combined(op, reversed ? left : right, reversed);
+    if (!made) return binary_operation(op, left, right, meter_);
+    auto handle = std::make_shared<Concept>();
+    handle->name = "_" + own->name;
+    handle->type = own->type;
+    handle->id = detached_concept;
+    handle->reads_through = own->reads_through;
+    handle->data = std::move(made);
+    return Value(std::move(handle));
+  });
+}
+
+Value Evaluator::evaluate_name(const NameNode& node) {
+  Value value = load(node);
+  // What lies in an absent module is used by its name alone; of the module itself, the part behind the dot is.
+  if (auto* thing = value.as_object<AbsentObject>(); thing != nullptr && !thing->is_module) return use_absent(*thing, thing->path);
+  return value;
+}
+
+/// What a defaultdict lacks is made when it is asked for.
+Value Evaluator::item(const Value& object, const Value& index) {
+  if (object.is_dict() && object.as_dict().factory && !index.is_unknown() && object.as_dict().find(index) == nullptr) {
+    const std::shared_ptr<const Value> factory = object.as_dict().factory;
+    const Value made = call(*factory, CallArguments());
+    store_subscript(object, index, made, meter_);
+    return made;
+  }
+  return subscript(object, index, meter_);
+}
+
 Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   const Value object = evaluate(*node.object);
   const Value index = evaluate(*node.index);
-  if (!object.is_concept()) return subscript(object, index, meter_);
+  if (!object.is_concept()) return item(object, index);
   if (index.is_unknown()) return index;
   const ConceptPtr& handle = object.as_concept();
   return with_host([&]() -> Value {

@@ -1,6 +1,9 @@
 // Imports and attributes: which modules there are, and what lies in a value behind a dot.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "interpreter/array.hpp"
 #include "interpreter/builtins.hpp"
 #include "interpreter/dtype.hpp"
@@ -63,6 +66,8 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
     if (const auto* function = value.as_object<FunctionObject>()) return Value(function->code->name);
     if (const auto* function = value.as_object<BuiltinObject>()) return Value(function->name);
   }
+  if (const auto* function = value.as_object<BuiltinObject>(); function != nullptr && function->name == "chain" && name == "from_iterable")
+    return Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>("from_iterable", chain_of)));
   if (const auto* range = value.as_object<RangeObject>()) {
     if (name == "start") return Value(range->start);
     if (name == "stop") return Value(range->stop);
@@ -70,6 +75,9 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
   }
   return std::nullopt;
 }
+
+/// What every concept has, whatever its data.
+bool is_common_attribute(std::string_view name) { return name == "name" || name == "nom" || name == "userName" || name == "getName"; }
 
 /// type(e).__name__ works for every value: what type() gives is a TypeObject or an exception class.
 Value type_attribute_owner(const TypeObject& type) {
@@ -83,8 +91,19 @@ Value type_attribute_owner(const TypeObject& type) {
 
 }  // namespace
 
+Value Evaluator::has_attribute(const ConceptPtr& handle, const std::string& name) {
+  if (is_common_attribute(name) || source_behind(*handle, name)) return Value(true);
+  return with_host([&]() -> Value {
+    host_.force(handle);
+    if (!handle->data) return Value::unknown();
+    const std::vector<std::string> names = handle->data->method_names();
+    return Value(std::find(names.begin(), names.end(), name) != names.end());
+  });
+}
+
 Value Evaluator::attribute(const Value& object, const std::string& name) {
   if (object.is_unknown()) return object;
+  if (auto* thing = object.as_object<AbsentObject>()) return use_absent(*thing, thing->path + "." + name);
   if (const auto* module = object.as_object<ModuleObject>()) {
     if (const auto member = module->members.find(name); member != module->members.end()) return member->second;
     if (auto inner = find_module(module->name + "." + name)) return module_value(inner);
@@ -97,7 +116,7 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
     raise(ErrorKind::attribute, fmt::format("module '{}' has no attribute '{}'", module->name, name), std::move(hint));
   }
   if (object.is_concept()) {
-    if (name == "name" || name == "nom") return Value(object.as_concept()->name);
+    if (name == "name" || name == "nom" || name == "userName") return Value(object.as_concept()->name);
     return Value(std::shared_ptr<Object>(std::make_shared<ConceptMethod>(object.as_concept(), name)));
   }
   if (const auto* foreign = object.as_object<HostObject>()) {
@@ -120,13 +139,45 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
         did_you_mean(name, method_names(object)));
 }
 
+namespace {
+
+/// Why a module is left out whose use does not say it.
+std::string_view reason_of(std::string_view module) {
+  const std::string_view first = module.substr(0, module.find('.'));
+  for (const std::string_view clock : {"time", "datetime", "timeit"})
+    if (first == clock) return "a command file knows no clock";
+  for (const std::string_view outside : {"subprocess", "shutil", "glob", "pathlib", "tempfile", "socket", "pickle", "io"})
+    if (first == outside) return "a command file reaches no file, process or network: use LIRE_*, IMPR_* and the units of the .export";
+  return "a command file may import math, numpy (a part), copy, itertools, functools, operator, collections, string, and the modules of code_aster";
+}
+
+std::shared_ptr<ExceptionObject> no_module(const std::string& path, const Span& span) {
+  std::string hint = did_you_mean(path, module_names());
+  if (hint.empty()) hint = reason_of(path);
+  auto error = make_exception(ErrorKind::module_not_found, fmt::format("No module named '{}'", path), std::move(hint));
+  error->span = span;
+  return error;
+}
+
+}  // namespace
+
+/// Within a `try` the import itself fails, as in Python: there the file asks whether the module is there.
+Value Evaluator::absent(std::string path, bool whole, std::shared_ptr<ExceptionObject> error) const {
+  if (tries_ > 0) throw RaisedError(std::move(error));
+  return Value(std::shared_ptr<Object>(std::make_shared<AbsentObject>(std::move(path), whole, std::move(error))));
+}
+
+Value Evaluator::use_absent(AbsentObject& thing, const std::string& path) {
+  if (recovering() && std::exchange(thing.told, true)) return Value::unknown();
+  auto error = std::make_shared<ExceptionObject>(*thing.error);
+  if (error->kind == ErrorKind::module_not_found) error->arguments = {Value(fmt::format("{} cannot be used: {}", path, thing.error->text()))};
+  error->span = Span();
+  throw RaisedError(std::move(error));
+}
+
 Value Evaluator::import_module(const std::string& path, Span span) {
   if (auto module = find_module(path)) return module_value(module);
-  std::string hint = did_you_mean(path, module_names());
-  if (hint.empty()) hint = "a command file may import math, numpy (a part), and the modules of code_aster";
-  auto error = make_exception(ErrorKind::module_not_found, fmt::format("No module named '{}'", path), std::move(hint));
-  error->span = std::move(span);
-  throw RaisedError(std::move(error));
+  return absent(path, true, no_module(path, span));
 }
 
 void Evaluator::execute_import(const ImportStatement& statement) {
@@ -139,24 +190,29 @@ void Evaluator::execute_import(const ImportStatement& statement) {
   }
 }
 
+Value Evaluator::import_member(const Value& module, const ImportStatement& statement, const ImportStatement::Item& item) {
+  const std::string path = statement.module + "." + item.path;
+  if (const auto* missing = module.as_object<AbsentObject>()) return absent(path, false, missing->error);
+  try {
+    return attribute(module, item.path);
+  } catch (const RaisedError& error) {
+    auto refused = make_exception(ErrorKind::import, fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
+                                  error.object()->hint);
+    refused->span = span_of(item.begin, item.end);
+    return absent(path, false, std::move(refused));
+  }
+}
+
 void Evaluator::execute_import_from(const ImportStatement& statement) {
   const Value value = import_module(statement.module, span_of(statement.module_begin, statement.module_end));
-  const auto& module = *value.as_object<ModuleObject>();
   for (const auto& item : statement.items) {
-    if (!item.name) {
-      // The commands themselves are known without import.
-      for (const auto& [name, member] : module.members) globals_[name] = member;
+    if (item.name) {
+      store(static_cast<const NameNode&>(*item.name), import_member(value, statement, item));
       continue;
     }
-    try {
-      store(static_cast<const NameNode&>(*item.name), attribute(value, item.path));
-    } catch (const RaisedError& error) {
-      auto refused = make_exception(ErrorKind::import,
-                                    fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
-                                    error.object()->hint);
-      refused->span = span_of(item.begin, item.end);
-      throw RaisedError(std::move(refused));
-    }
+    // Which names an absent module would bring nobody knows. The commands themselves are known without import.
+    if (const auto* missing = value.as_object<AbsentObject>()) throw RaisedError(missing->error);
+    for (const auto& [name, member] : value.as_object<ModuleObject>()->members) globals_[name] = member;
   }
 }
 

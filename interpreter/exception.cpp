@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -122,6 +123,15 @@ Diagnostic ExceptionObject::diagnostic() const {
   if (row.code == "exception" || message.empty())
     message = fmt::format("{}{}{}", row.name, message.empty() ? "" : ": ", message);
   return {Severity::error, std::string(row.code), std::move(message), hint, span};
+}
+
+bool catches(const Value& classes, const ExceptionObject& error) {
+  const std::vector<Value> each = classes.is_tuple() ? std::vector<Value>(classes.items().begin(), classes.items().end()) : std::vector<Value>{classes};
+  return std::any_of(each.begin(), each.end(), [&](const Value& candidate) {
+    const auto* wanted = candidate.as_object<ExceptionClassObject>();
+    if (wanted == nullptr) raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
+    return is_subclass(error.kind, wanted->kind);
+  });
 }
 
 std::string ExceptionClassObject::repr() const {

@@ -107,6 +107,9 @@ class RaisedError : public std::exception {
   std::shared_ptr<ExceptionObject> object_;
 };
 
+/// Whether `except` with this class, or tuple of classes, catches the exception. Raises TypeError for anything else.
+bool catches(const Value& classes, const ExceptionObject& error);
+
 /// A limit of the evaluator was reached: ends the run, no `except` catches it.
 class LimitReached : public DiagnosticError {
  public:

@@ -49,6 +49,9 @@ class CommandHost {
   /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
   virtual void force(const ConceptPtr& handle) = 0;
 
+  /// Whether a call that is made at once, as within `try`, is really run: else nobody knows whether it would have failed.
+  virtual bool runs_calls() const { return true; }
+
   /// Takes note of a claim, whether it holds or not. A host without verdicts has no use for it.
   virtual void judge(const Assertion& /*assertion*/) {}
 };

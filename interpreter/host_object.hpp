@@ -26,6 +26,26 @@ struct HostObject : Object {
   virtual std::optional<Value> combined(Operator, const Value&) const { return std::nullopt; }
   /// What lies at object[index]; nothing where nothing does.
   virtual std::optional<Value> item(const Value&) const { return std::nullopt; }
+  /// The list that a loop over it runs through; nothing for an object without items.
+  virtual std::optional<Value> iterated() const { return std::nullopt; }
+  /// object[index] = value, and del object[index]; false where this is not possible.
+  virtual bool store_item(const Value&, const Value&) { return false; }
+  virtual bool delete_item(const Value&) { return false; }
+};
+
+class Evaluator;
+struct CallArguments;
+
+/// A method of such an object that takes keywords, or calls functions of the file. Its code may throw DiagnosticError.
+struct HostMethod : Object {
+  using Code = std::function<Value(Evaluator&, const CallArguments& arguments)>;
+
+  HostMethod(std::string word, Code what) : name(std::move(word)), code(std::move(what)) {}
+  std::string name;
+  Code code;
+  std::string type_name() const override { return "method"; }
+  std::string repr() const override { return "<method '" + name + "'>"; }
+  bool is_callable() const override { return true; }
 };
 
 /// A method of such an object, without keywords. Its code may throw DiagnosticError.

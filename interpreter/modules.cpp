@@ -158,6 +158,46 @@ Members members_of_path() {
           {"sep", Value("/")}};
 }
 
+Members members_of(std::span<const FunctionRow> rows) {
+  Members members;
+  for (const FunctionRow& row : rows) members.emplace(row.name, function_value(row.name, row.function));
+  return members;
+}
+
+Members members_of_copy() { return members_of(copy_functions()); }
+Members members_of_itertools() { return members_of(itertools_functions()); }
+Members members_of_functools() { return members_of(functools_functions()); }
+Members members_of_operator() { return members_of(operator_functions()); }
+
+/// Every dict keeps the order of its keys.
+Members members_of_collections() {
+  Members members = members_of(collections_functions());
+  members.emplace("OrderedDict", *builtin_value("dict"));
+  return members;
+}
+
+Members members_of_string() {
+  const std::string lower = "abcdefghijklmnopqrstuvwxyz", upper = "ABCDEFGHIJKLMNOPQRSTUVWXYZ", digits = "0123456789";
+  const std::string punctuation = "!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~", blanks = " \t\n\r\x0b\x0c";
+  return {{"ascii_lowercase", Value(lower)},
+          {"ascii_uppercase", Value(upper)},
+          {"ascii_letters", Value(lower + upper)},
+          {"digits", Value(digits)},
+          {"hexdigits", Value(digits + "abcdefABCDEF")},
+          {"octdigits", Value("01234567")},
+          {"punctuation", Value(punctuation)},
+          {"whitespace", Value(blanks)},
+          {"printable", Value(digits + lower + upper + punctuation + blanks)}};
+}
+
+/// What these switched on, Python 3 has.
+Members members_of_future() {
+  Members members;
+  for (const char* name : {"absolute_import", "annotations", "division", "generators", "nested_scopes", "print_function", "unicode_literals", "with_statement"})
+    members.emplace(name, Value(true));
+  return members;
+}
+
 Members members_of_sys() {
   return {{"exit", function_value("exit", leave)},
           {"maxsize", Value(std::numeric_limits<std::int64_t>::max())},
@@ -184,6 +224,13 @@ constexpr std::array modules = {
     ModuleRow{"os", members_of_os},
     ModuleRow{"os.path", members_of_path},
     ModuleRow{"sys", members_of_sys},
+    ModuleRow{"copy", members_of_copy},
+    ModuleRow{"itertools", members_of_itertools},
+    ModuleRow{"functools", members_of_functools},
+    ModuleRow{"operator", members_of_operator},
+    ModuleRow{"collections", members_of_collections},
+    ModuleRow{"string", members_of_string},
+    ModuleRow{"__future__", members_of_future},
     // Imported out of habit; each use of what is in it is told.
     ModuleRow{"re", nothing},
     ModuleRow{"code_aster", members_of_code_aster, true},

@@ -4,6 +4,7 @@
 
 #include "interpreter/array.hpp"
 #include "interpreter/dtype.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/utf8.hpp"
 
 namespace comma::interpreter {
@@ -178,6 +179,8 @@ std::shared_ptr<Iterator> iterate(const Value& value) {
   if (const auto* view = value.as_object<DictView>())
     return wrap("dict_itemiterator", over_dict(value, *view->dict, view->kind));
   if (const auto* array = value.as_object<ArrayObject>()) return wrap("array_iterator", over_array(value, *array));
+  if (const auto* foreign = value.as_object<HostObject>())
+    if (const auto items = foreign->iterated()) return wrap("list_iterator", over_sequence(*items));
   if (value.as_object<Iterator>() != nullptr) {
     return std::dynamic_pointer_cast<Iterator>(std::get<std::shared_ptr<Object>>(value.storage()));
   }

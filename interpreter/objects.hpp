@@ -141,6 +141,19 @@ struct ModuleObject : Object {
   std::string repr() const override { return "<module '" + name + "'>"; }
 };
 
+/// A module that comma does not have, or what a file imports out of one that does not have it. The import alone is no error: many files import out
+/// of habit what they never use.
+struct AbsentObject : Object {
+  AbsentObject(std::string what, bool whole, std::shared_ptr<ExceptionObject> why)
+      : path(std::move(what)), is_module(whole), error(std::move(why)) {}
+  std::string path;  ///< "subprocess", "math.sinus"
+  bool is_module;
+  std::shared_ptr<ExceptionObject> error;  ///< what Python's import would raise
+  bool told = false;                       ///< one mistake makes one error
+  std::string type_name() const override { return "module"; }
+  std::string repr() const override { return "<module '" + path + "'>"; }
+};
+
 struct RangeObject : Object {
   RangeObject(std::int64_t from, std::int64_t to, std::int64_t by) : start(from), stop(to), step(by) {}
   std::int64_t start, stop, step;

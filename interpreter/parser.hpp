@@ -96,6 +96,7 @@ class Parser {
   StatementPtr parse_for();
   StatementPtr parse_function();
   StatementPtr parse_try();
+  StatementPtr parse_with();
   TryStatement::Handler parse_handler();
   void report_misplaced(std::string message, std::string hint);
   StatementPtr parse_return();

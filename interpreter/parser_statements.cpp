@@ -16,8 +16,6 @@ struct Unsupported {
 };
 
 constexpr std::array unsupported = {
-    Unsupported{"with", "'with' is not part of the command language",
-                "files are declared in the .export and read by commands"},
     Unsupported{"class", "classes cannot be defined in a command file", "use functions, tuples and dicts"},
     Unsupported{"async", "'async' is not part of the command language", "a command file runs from top to bottom"},
     Unsupported{"await", "'await' is not part of the command language", "a command file runs from top to bottom"},
@@ -27,7 +25,7 @@ constexpr std::array unsupported = {
 
 bool is_compound(const Token& token) {
   return token.kind == TokenKind::keyword && (token.text == "if" || token.text == "while" || token.text == "for" ||
-                                              token.text == "def" || token.text == "try");
+                                              token.text == "def" || token.text == "try" || token.text == "with");
 }
 
 }  // namespace
@@ -127,6 +125,7 @@ StatementPtr Parser::parse_compound() {
   if (at("while")) return parse_while();
   if (at("for")) return parse_for();
   if (at("def")) return parse_function();
+  if (at("with")) return parse_with();
   return parse_try();
 }
 
@@ -272,6 +271,22 @@ StatementPtr Parser::parse_try() {
   if (!has_finally && statement->handlers.empty()) {
     report("syntax", "'try' has neither 'except' nor 'finally'", header, "say what to catch: except CA.AsterError:");
   }
+  statement->end = previous_end_;
+  return statement;
+}
+
+StatementPtr Parser::parse_with() {
+  auto statement = std::make_unique<WithStatement>(StatementKind::with_, now_.begin, now_.end);
+  advance();
+  statement->manager = parse_expression();
+  if (accept("as")) {
+    if (now_.kind != TokenKind::name) fail_here("a name");
+    statement->target = parse_name();
+    bind_target(*statement->target);
+  }
+  if (at(",")) fail("not-supported", "'with' takes one object", span_of(now_), "put one 'with' into the other");
+  expect_colon("'with'");
+  statement->body = parse_block("'with'", statement->begin);
   statement->end = previous_end_;
   return statement;
 }

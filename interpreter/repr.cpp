@@ -41,6 +41,11 @@ void write_items(std::span<const Value> items, std::string& out, Path& path) {
 }
 
 void write_dict(const Dict& dict, std::string& out, Path& path) {
+  if (dict.factory) {
+    out += "defaultdict(";
+    write(*dict.factory, out, path);
+    out += ", ";
+  }
   out += '{';
   bool first = true;
   for (const Dict::Entry& entry : dict.entries()) {
@@ -51,7 +56,7 @@ void write_dict(const Dict& dict, std::string& out, Path& path) {
     out += ": ";
     write(entry.value, out, path);
   }
-  out += '}';
+  out += dict.factory ? "})" : "}";
 }
 
 void write_set(const Value& value, std::string& out, Path& path) {

@@ -38,6 +38,7 @@ class Session : public CommandHost {
   /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's
   /// data stays null, and the evaluator goes on with an unknown value.
   void force(const ConceptPtr& handle) override;
+  bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
   void judge(const Assertion& assertion) override;
 
   void set_assertion_sink(AssertionSink sink) { assertion_sink_ = std::move(sink); }

@@ -67,6 +67,9 @@ void for_each_block(const Statement& statement, Visit visit) {
       visit(node.finally, false);
       break;
     }
+    case StatementKind::with_:
+      visit(static_cast<const WithStatement&>(statement).body, false);
+      break;
     default:
       break;
   }
@@ -83,6 +86,9 @@ void collect(const Statement& statement, NameNodes& names) {
       break;
     case StatementKind::for_:
       add_target(static_cast<const ForStatement&>(statement).target.get(), names);
+      break;
+    case StatementKind::with_:
+      add_target(static_cast<const WithStatement&>(statement).target.get(), names);
       break;
     case StatementKind::function:
       add_target(static_cast<const FunctionStatement&>(statement).name.get(), names);

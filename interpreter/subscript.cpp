@@ -190,6 +190,7 @@ void store_subscript(const Value& object, const Value& index, const Value& value
     return;
   }
   if (auto* array = object.as_object<ArrayObject>()) return array_store(*array, index, value, meter);
+  if (auto* foreign = object.as_object<HostObject>(); foreign != nullptr && foreign->store_item(index, value)) return;
   raise(ErrorKind::type, fmt::format("'{}' object does not support item assignment", object.type_name()),
         object.is_tuple() ? "use a list where items change" : "");
 }
@@ -200,6 +201,7 @@ void delete_subscript(const Value& object, const Value& index) {
     if (object.as_dict().erase(index)) return;
     dict_item(object.as_dict(), index);
   }
+  if (auto* foreign = object.as_object<HostObject>(); foreign != nullptr && foreign->delete_item(index)) return;
   if (!object.is_list())
     raise(ErrorKind::type, fmt::format("'{}' object doesn't support item deletion", object.type_name()));
   std::vector<Value>& items = object.as_list();

@@ -10,6 +10,7 @@
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/operations.hpp"
+#include "interpreter/pattern.hpp"
 
 namespace comma::interpreter {
 
@@ -147,6 +148,59 @@ Value assert_not_almost_equal(Evaluator& evaluator, const Value&, const CallArgu
   return judge_distance(evaluator, "assertNotAlmostEqual", arguments, false);
 }
 
+/// The names of the classes, as a message tells them.
+std::string names_of(const Value& classes) {
+  if (const auto* one = classes.as_object<ExceptionClassObject>()) return std::string(class_of(one->kind).name);
+  std::string names;
+  if (!classes.is_tuple()) raise(ErrorKind::type, "assertRaises() arg 1 must be an exception type or tuple of exception types");
+  for (const Value& each : classes.items()) names += (names.empty() ? "" : ", ") + names_of(each);
+  return "(" + names + ")";
+}
+
+/// Without a function to call: what `with` watches over. With one: the call, judged.
+Value expect_error(Evaluator& evaluator, std::string_view method, const CallArguments& arguments, std::size_t operands) {
+  if (arguments.size() < operands) raise(ErrorKind::type, fmt::format("{}() takes at least {} arguments, not {}", method, operands, arguments.size()));
+  auto claim = std::make_shared<ExpectedError>();
+  claim->classes = arguments[0];
+  names_of(arguments[0]);
+  if (operands > 1) {
+    if (!arguments[1].is_text()) raise(ErrorKind::type, "the pattern must be a str, not " + arguments[1].type_name());
+    claim->pattern = arguments[1].as_text();
+    finds_pattern("", *claim->pattern);
+  }
+  claim->assertion.method = method;
+  claim->assertion.span = arguments.span;
+  if (arguments.size() == operands) {
+    for (const auto& option : arguments.named)
+      if (option.name != "msg") raise(ErrorKind::type, fmt::format("{}() got an unexpected keyword argument '{}'", method, option.name));
+    if (const Value* message = arguments.find("msg"); message != nullptr && message->is_text()) claim->assertion.message = message->as_text();
+    return Value(std::shared_ptr<Object>(std::move(claim)));
+  }
+  CallArguments rest = arguments;
+  rest.positional.erase(rest.positional.begin(), rest.positional.begin() + static_cast<std::ptrdiff_t>(operands) + 1);
+  const auto raised = evaluator.attempt(arguments[operands], rest);
+  if (!claim->judge(evaluator, raised)) throw RaisedError(raised);
+  return Value();
+}
+
+Value assert_raises(Evaluator& evaluator, const Value&, const CallArguments& arguments) {
+  return expect_error(evaluator, "assertRaises", arguments, 1);
+}
+
+Value assert_raises_regex(Evaluator& evaluator, const Value&, const CallArguments& arguments) {
+  return expect_error(evaluator, "assertRaisesRegex", arguments, 2);
+}
+
+Value assert_instance(Evaluator& evaluator, const Value&, const CallArguments& arguments) {
+  Claim claim("assertIsInstance", arguments, 2);
+  return claim.judge(evaluator, is_instance(claim.first(), claim.second()));
+}
+
+Value assert_not_instance(Evaluator& evaluator, const Value&, const CallArguments& arguments) {
+  Claim claim("assertNotIsInstance", arguments, 2);
+  return claim.judge(evaluator, !is_instance(claim.first(), claim.second()));
+}
+
 /// printSummary(): the run itself sums its verdicts up.
 Value print_summary(Evaluator&, const Value&, const CallArguments& arguments) {
   expect_arguments("printSummary", arguments, 0, 0);
@@ -162,12 +216,31 @@ constexpr auto make_methods(std::index_sequence<index...>) {
                     MethodRow{"assertIsNotNone", assert_not_none},
                     MethodRow{"assertAlmostEqual", assert_almost_equal},
                     MethodRow{"assertNotAlmostEqual", assert_not_almost_equal},
+                    MethodRow{"assertIsInstance", assert_instance},
+                    MethodRow{"assertNotIsInstance", assert_not_instance},
+                    MethodRow{"assertRaises", assert_raises},
+                    MethodRow{"assertRaisesRegex", assert_raises_regex},
                     MethodRow{"printSummary", print_summary}};
 }
 
 constexpr auto check_table = make_methods(std::make_index_sequence<relations.size()>());
 
 }  // namespace
+
+std::optional<Value> ExpectedError::attribute(std::string_view name) const {
+  return name == "exception" ? std::optional(exception) : std::nullopt;
+}
+
+bool ExpectedError::judge(Evaluator& evaluator, const std::shared_ptr<ExceptionObject>& raised) {
+  if (!raised && !evaluator.host().runs_calls()) return true;
+  if (raised && !catches(classes, *raised)) return false;
+  if (raised) exception = Value(std::shared_ptr<Object>(raised));
+  assertion.holds = raised && (!pattern || finds_pattern(raised->text(), *pattern));
+  if (!assertion.holds && assertion.message.empty())
+    assertion.message = raised ? fmt::format("{} does not hold {}", Value(raised->text()).repr(), Value(*pattern).repr()) : names_of(classes) + " not raised";
+  evaluator.host().judge(assertion);
+  return true;
+}
 
 Value make_test_case(Evaluator&, const CallArguments& arguments) {
   expect_arguments("TestCase", arguments, 0, 1);

@@ -2,9 +2,26 @@
 // goes to the host, which makes a verdict of it; a claim that does not hold stops nothing.
 #pragma once
 
+#include "interpreter/host.hpp"
+#include "interpreter/host_object.hpp"
 #include "interpreter/objects.hpp"
 
 namespace comma::interpreter {
+
+/// assertRaises(ERROR), assertRaisesRegex(ERROR, pattern): what a block or a call has to raise; `exception` is what it raised.
+struct ExpectedError : HostObject {
+  Value classes;
+  std::optional<std::string> pattern;  ///< that the exception's text holds
+  Assertion assertion;
+  Value exception;
+
+  std::string type_name() const override { return "_AssertRaisesContext"; }
+  std::optional<Value> attribute(std::string_view name) const override;
+  std::vector<std::string> attribute_names() const override { return {"exception"}; }
+
+  /// Gives its verdict on what was raised, null for nothing. False for an exception of another class: it goes on its way up.
+  bool judge(Evaluator& evaluator, const std::shared_ptr<ExceptionObject>& raised);
+};
 
 struct TestCaseObject : Object {
   std::string type_name() const override { return "TestCase"; }

@@ -66,7 +66,8 @@ bool has_block(const Statement& statement) {
     case StatementKind::while_:
     case StatementKind::for_:
     case StatementKind::function:
-    case StatementKind::try_: return true;
+    case StatementKind::try_:
+    case StatementKind::with_: return true;
     default: return false;
   }
 }

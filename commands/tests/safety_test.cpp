@@ -50,11 +50,11 @@ using Codes = std::vector<std::string>;
 
 TEST_CASE("A command file reaches no file, process, network or clock by itself") {
   const Folder folder;
-  for (const char* text : {"text = open('/etc/passwd').read()\n", "import subprocess\n", "import socket\n", "import os\nos.system('ls')\n",
-                           "import os\nos.environ['HOME']\n", "import os\nos.remove('x')\n", "import sys\nsys.modules['os']\n", "import time\n",
-                           "import shutil\n", "import ctypes\n", "import pickle\n", "__import__('os')\n", "eval('1')\n", "exec('x = 1')\n",
-                           "compile('1', 'f', 'eval')\n", "globals()\n", "().__class__.__bases__\n", "import builtins\n", "import importlib\n",
-                           "import numpy\nnumpy.load('x')\n", "import numpy\nnumpy.fromfile('x')\n", "from os import popen\n", "input()\n"}) {
+  for (const char* text : {"text = open('/etc/passwd').read()\n", "import subprocess\nsubprocess.run('ls')\n", "import socket\nsocket.socket()\n", "import os\nos.system('ls')\n",
+                           "import os\nos.environ['HOME']\n", "import os\nos.remove('x')\n", "import sys\nsys.modules['os']\n", "import time\ntime.time()\n",
+                           "import shutil as tools\ntools.rmtree('x')\n", "from ctypes import *\n", "from pickle import load\nload(3)\n", "__import__('os')\n", "eval('1')\n", "exec('x = 1')\n",
+                           "compile('1', 'f', 'eval')\n", "globals()\n", "().__class__.__bases__\n", "import builtins\nbuiltins.open('x')\n", "import importlib.util\nimportlib.import_module('os')\n",
+                           "import numpy\nnumpy.load('x')\n", "import numpy\nnumpy.fromfile('x')\n", "from os import popen\npopen('ls')\n", "input()\n"}) {
     INFO(text);
     CHECK(codes_of(folder.write("stranger.comm", text)).size() == 1);
   }

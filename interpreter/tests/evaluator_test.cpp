@@ -21,8 +21,11 @@ TEST_CASE("A mistake is told once, with its code and its place", "[evaluator]") 
       {"d = {'DX': 1}\nprint(d['DY'])\n", "key-error 2:7"},
       {"x = int('a')\n", "value-error 1:5"},
       {"x = 'a'.uper()\n", "unknown-attribute 1:5"},
-      {"import maths\ny = maths.sin(1)\n", "unknown-module 1:8"},
-      {"from math import sinus\nprint(sinus(1))\n", "unknown-module 1:18"},
+      {"import maths\ny = maths.sin(1)\nz = maths.cos(1)\n", "unknown-module 2:5"},
+      {"from math import sinus\nprint(sinus(1))\nprint(sinus(2))\n", "unknown-module 2:7"},
+      {"from scipy.linalg import inv\nx = 2 * inv\nprint(x)\n", "unknown-module 2:9"},
+      {"from scipy import *\n", "unknown-module 1:6"},
+      {"import time, copy\ndef f():\n    return time.time()\nx = [f(), f()]\n", "unknown-module 3:12"},
       {"import os\nos.system('x')\n", "unknown-attribute 2:1"},
       {"f = open('x')\nf.read()\n", "not-supported 1:5"},
       {"def f(a): return a\nx = f()\nprint(x + 1)\n", "type-error 2:5"},
@@ -78,7 +81,7 @@ TEST_CASE("Hints name what was meant", "[evaluator]") {
       {"d = {'DX': 1}\nd['DXX']\n", "did you mean 'DX'?"},
       {"x = gamma(2)\n", "write 'from math import gamma' before"},
       {"def f(rayon=1): pass\nf(rayo=2)\n", "did you mean rayon?"},
-      {"import numpi\n", "did you mean numpy?"},
+      {"import numpi\nx = numpi.zeros(3)\n", "did you mean numpy?"},
   };
   for (const auto& [text, hint] : cases) {
     INFO(text);
@@ -196,6 +199,71 @@ TEST_CASE("init and close of code_aster are the commands DEBUT and FIN", "[evalu
   CHECK(run.host->calls[0].arguments.size() == 1);
   CHECK(run.host->calls[0].span.file != nullptr);
   CHECK(run.host->calls[1].name == "FIN");
+}
+
+namespace {
+
+/// A concept with one method, and how it is asked for.
+struct Counted : ConceptData {
+  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override {
+    return name == "size" ? Value(3) : ConceptData::method(name, arguments, keywords);
+  }
+  std::vector<std::string> method_names() const override { return {"size"}; }
+};
+
+/// Keeps what the file's own claims came to; `solves` as in a run, not a check.
+struct JudgingHost : RecordingHost {
+  bool solves = true;
+  std::vector<std::string> verdicts;
+  bool runs_calls() const override { return solves; }
+  void judge(const Assertion& claim) override { verdicts.push_back(claim.method + (claim.holds ? " holds" : " fails: " + claim.message)); }
+};
+
+std::vector<std::string> verdicts_of(const std::string& text, bool solves = true) {
+  auto host = std::make_unique<JudgingHost>();
+  JudgingHost& judge = *host;
+  judge.solves = solves;
+  judge.failure = "no-convergence";
+  const Run run("from code_aster import CA\ntest = CA.TestCase()\ndef fail(what='x', key=None):\n    raise ValueError('bad ' + what)\n" + text, std::move(host));
+  std::vector<std::string> verdicts = judge.verdicts;
+  for (const std::string& finding : run.findings()) verdicts.push_back(finding);
+  return verdicts;
+}
+
+}  // namespace
+
+TEST_CASE("hasattr of a concept asks what it has, and does not know while it is not there", "[evaluator]") {
+  auto host = std::make_unique<RecordingHost>();
+  host->data = std::make_shared<Counted>();
+  const Run run("T = DEFI_FONCTION()\nprint(hasattr(T, 'size'), hasattr(T, 'sise'), hasattr(T, 'nom'), hasattr(T, 'getName'), T.getName(), T.userName, getattr(T, 'sise', 0), getattr(T, 'size')())\n",
+                std::move(host));
+  CHECK(run.output == "True False True True T T 0 3\n");
+  CHECK(run.findings().empty());
+  const Run unknown("T = DEFI_FONCTION()\nif hasattr(T, 'size'):\n    x = 1\nelse:\n    x = 2\nprint(T.getName())\nprint(x)\n");
+  CHECK(unknown.output == "T\n");
+  CHECK(unknown.findings().empty());
+}
+
+TEST_CASE("What a block or a call has to raise is a claim as others are", "[evaluator]") {
+  CHECK(verdicts_of("with test.assertRaises(ValueError):\n    fail()\n") == Findings{"assertRaises holds"});
+  CHECK(verdicts_of("with test.assertRaises((KeyError, LookupError)) as caught:\n    [][1]\ntest.assertEqual(str(caught.exception), 'list index out of range')\n") ==
+        Findings{"assertRaises holds", "assertEqual holds"});
+  CHECK(verdicts_of("with test.assertRaises(ValueError):\n    x = 1\n") == Findings{"assertRaises fails: ValueError not raised"});
+  CHECK(verdicts_of("with test.assertRaises(KeyError):\n    fail()\n") == Findings{"value-error 4:5"});
+  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'b.d [xy]$'):\n    fail()\n") == Findings{"assertRaisesRegex holds"});
+  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'good'):\n    fail()\n") == Findings{"assertRaisesRegex fails: 'bad x' does not hold 'good'"});
+  CHECK(verdicts_of("test.assertRaises(ValueError, fail, 'y', key=2)\ntest.assertRaisesRegex(ValueError, '^bad', fail)\ntest.assertRaises(ZeroDivisionError, lambda: 0)\n") ==
+        Findings{"assertRaises holds", "assertRaisesRegex holds", "assertRaises fails: ZeroDivisionError not raised"});
+  CHECK(verdicts_of("def f():\n    with test.assertRaises(CA.AsterError):\n        STAT_NON_LINE()\n    return 1\nx = f()\n") == Findings{"assertRaises holds"});
+  CHECK(verdicts_of("test.assertIsInstance(1, (int, str))\ntest.assertNotIsInstance('a', int)\ntest.assertIsInstance(1.5, int)\n") ==
+        Findings{"assertIsInstance holds", "assertNotIsInstance holds", "assertIsInstance fails: "});
+  CHECK(verdicts_of("with 3:\n    x = 1\n") == Findings{"not-supported 5:1"});
+  CHECK(verdicts_of("with open('x') as f:\n    y = f.read()\nz = y\n") == Findings{"not-supported 5:6"});
+}
+
+TEST_CASE("A check does not say that nothing was raised by what it does not run", "[evaluator]") {
+  CHECK(verdicts_of("with test.assertRaises(CA.AsterError):\n    x = 1\n", false).empty());
+  CHECK(verdicts_of("with test.assertRaises(ValueError):\n    fail()\n", false) == Findings{"assertRaises holds"});
 }
 
 TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
