@@ -184,7 +184,7 @@ Value array(TableRows& table, Evaluator&, const MethodArguments& given) {
   for (const auto& row : table.rows)
     for (const std::string* name : {&x, &y}) numbers.push_back(interpreter::real_of(cell_in(*row, Value(*name))));
   const std::size_t count = numbers.size() / 2;
-  return interpreter::make_array(std::move(numbers), {count, 2}, false);
+  return interpreter::make_value({std::move(numbers), {count, 2}});
 }
 
 Value rename(TableRows& table, Evaluator&, const MethodArguments& given) {

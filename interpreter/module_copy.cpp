@@ -26,7 +26,7 @@ class Copying {
     if (value.is_tuple()) return deep_ ? Value::tuple(inner(value.items())) : value;
     if (value.is_factor()) return deep_ ? copy_factor(value.as_factor()) : value;
     if (value.is_concept()) raise(ErrorKind::type, "a concept cannot be copied", "make another one by a command, or put the concept itself into a new list");
-    if (const auto* array = value.as_object<ArrayObject>()) return make_array(array->data, array->shape, array->integers);
+    if (const auto* array = value.as_object<ArrayObject>()) return make_value(array->numbers());
     if (value.as_object<Iterator>() != nullptr || value.as_object<HostObject>() != nullptr)
       raise(ErrorKind::type, "a '" + value.type_name() + "' object cannot be copied");
     return value;  // numbers, texts, functions: nothing changes them
