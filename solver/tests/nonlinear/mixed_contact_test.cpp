@@ -530,4 +530,8 @@ TEST_CASE("Statuses that do not settle get advice about what there is") {
   contact.zones[0].mixed.penalised = false;
   contact.zones[0].mixed.rule = ContactRule::simpson;
   CHECK_THAT(advice(contact), Catch::Contains("INTEGRATION='AUTO'") && !Catch::Contains("penalty"));
+  contact.zones[0].mixed.friction = 0.3;
+  CHECK_THAT(advice(contact), !Catch::Contains("LISSAGE"));
+  contact.zones[0].normal_side = NormalSide::average;
+  CHECK_THAT(advice(contact), Catch::Contains("LISSAGE='OUI'"));
 }
