@@ -11,6 +11,7 @@ loop = [1]
 loop.append(loop)
 twin = copy.deepcopy(loop)
 print(twin, twin[1] is twin, copy.copy('a'), copy.copy({1, 2}), copy.deepcopy((1, 'a', None, 2.5)))
+loop.clear(); twin.clear()  # nothing counts what holds itself
 # ----
 from itertools import product, chain, combinations, permutations, zip_longest, count, islice, repeat, accumulate
 import itertools
