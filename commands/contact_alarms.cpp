@@ -32,11 +32,11 @@ void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& def
       const auto [earlier, is_first] = zones.emplace(node, k);
       if (is_first) continue;
       diagnostics.alarm("shared-slave-nodes",
-                                fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
-                                            !is_mixed               ? "it has the penalties of both"
-                                            : zone.mixed.penalised ? "it has the penalties of both, and LAGS_C there is the sum of two pressures"
-                                                                   : "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"),
-                                call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
+                        fmt::format("DEFI_CONTACT: node {} is a slave of zones {} and {}: {}", mesh.node_name(node), earlier->second + 1, k + 1,
+                                    !is_mixed               ? "it has the penalties of both"
+                                    : zone.mixed.penalised ? "it has the penalties of both, and LAGS_C there is the sum of two pressures"
+                                                           : "LAGS_C there is the sum of two pressures, and with points between nodes the pressures around it depend on where the zones are parted"),
+                        call.factors("ZONE")[k].span, "where the surface is one, make it one zone; or leave the node to one of them (SANS_GROUP_NO)");
       return;
     }
   }
@@ -60,7 +60,7 @@ void warn_of_idle_exclusions(const Call& call, const solver::ContactDefinition& 
       const std::vector<int> nodes = selected_nodes(zones[k], mesh, names);
       if (std::ranges::any_of(nodes, [&](int node) { return known.contains(node); })) continue;
       diagnostics.alarm("idle-exclusion", fmt::format("DEFI_CONTACT: {} names no node of the slave surface, and leaves out nothing", keyword), zones[k].span_of(keyword),
-                                "name nodes of GROUP_MA_ESCL, or leave it out");
+                        "name nodes of GROUP_MA_ESCL, or leave it out");
     }
   }
 }
@@ -75,10 +75,10 @@ void warn_of_few_points(const Call& call, const solver::ContactDefinition& defin
       const auto points = solver::face_rule(mesh.cell_types[cell], zone.mixed.rule, zone.mixed.rule_order).size();
       if (points >= mesh.cell(cell).size()) continue;
       diagnostics.alarm("few-points",
-                                fmt::format("DEFI_CONTACT: {} points on slave face {} do not determine the multipliers of its {} nodes: pressures at nodes (LAGS_C) may be arbitrary, forces "
-                                            "and stresses are not",
-                                            points, mesh.cell_name(cell), mesh.cell(cell).size()),
-                                call.factors("ZONE")[k].span, "take a higher ORDRE_INT, or INTEGRATION='AUTO'");
+                        fmt::format("DEFI_CONTACT: {} points on slave face {} do not determine the multipliers of its {} nodes: pressures at nodes (LAGS_C) may be arbitrary, forces "
+                                    "and stresses are not",
+                                    points, mesh.cell_name(cell), mesh.cell(cell).size()),
+                        call.factors("ZONE")[k].span, "take a higher ORDRE_INT, or INTEGRATION='AUTO'");
       return;
     }
   }
@@ -103,8 +103,9 @@ void warn_of_inward_directions(const Call& call, const solver::ContactDefinition
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const solver::ContactZone& zone = definition.zones[k];
     const auto look = [&](const char* keyword, solver::NormalRule rule, solver::NormalSide other, const std::array<double, 3>& direction, const std::vector<int>& cells) {
+      if (rule != solver::NormalRule::fixed || zone.normal_side == other) return;
       const bool has_normals = lies_in_plane(mesh) || std::ranges::all_of(cells, [&](int cell) { return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == 2; });
-      if (rule != solver::NormalRule::fixed || zone.normal_side == other || !has_normals || !points_inward(direction, cells, mesh)) return;
+      if (!has_normals || !points_inward(direction, cells, mesh)) return;
       diagnostics.alarm("inward-normals", fmt::format("DEFI_CONTACT: {} points into the body, where it stands for the normal that points out of it: the bodies may go through each other", keyword),
                         zones[k].span_of(keyword), "turn the vector round");
     };
