@@ -33,6 +33,8 @@ constexpr double touching = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
+/// An augmentation between nodes of this share of the stiffness of the bodies changes the solution by less than figures are compared by (2e-8 in a block that opens), and pressures keep enough digits in it.
+constexpr double least_augmentation = 1e-10;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -396,20 +398,41 @@ std::vector<char> MixedContact::shared_multipliers() const {
 }
 
 /// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as stiff as the bodies
-/// suits any unit of length.
+/// suits any unit of length. Where points lie between nodes it does, but the softer the less: one too soft beside the bodies is raised to where the solution
+/// hardly changes, and pressures no longer lose their digits in it.
 void MixedContact::add_natural_augmentation() {
-  const Eigen::VectorXd& sizes = tangent_.row_sizes();
   const std::vector<char> shared = shared_multipliers();
+  std::vector<double> least(definition_.zones.size(), std::numeric_limits<double>::infinity());  // of points that share multipliers: one a zone, in which points weigh by it
+  const auto is_shared = [&](const CondensedPoint& point) { return shared[static_cast<std::size_t>(point.nodes[0])] != 0; };
   for (std::size_t p = 0; p < points_.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
-    if (points_[p].node < 0 || point.rows == 0 || shared[static_cast<std::size_t>(point.nodes[0])]) continue;
-    double stiffness = 0.0;
-    for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
-      stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
-    point.stiffness = stiffness / point.weight;
-    if (!point.law.penalised) point.law.augmentation = point.stiffness;
-    if (!point.law.friction_penalised) point.law.friction_augmentation = point.stiffness;
+    if (point.rows == 0 || point.node_count == 0) continue;
+    if (is_shared(point)) {
+      double& softest = least[static_cast<std::size_t>(points_[p].zone)];
+      softest = std::min(softest, stiffness_at(p));
+    } else if (points_[p].node >= 0) {
+      point.stiffness = stiffness_at(p);
+      if (!point.law.penalised) point.law.augmentation = point.stiffness;
+      if (!point.law.friction_penalised) point.law.friction_augmentation = point.stiffness;
+    }
   }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0 || point.node_count == 0 || !is_shared(point)) continue;
+    const double lowest = least_augmentation * least[static_cast<std::size_t>(points_[p].zone)];
+    if (!point.law.penalised) point.law.augmentation = std::max(point.law.augmentation, lowest);
+    if (!point.law.friction_penalised) point.law.friction_augmentation = std::max(point.law.friction_augmentation, lowest);
+  }
+}
+
+/// What the unknowns that move a point resist by: a pressure a length.
+double MixedContact::stiffness_at(std::size_t p) const {
+  const CondensedPoint& point = problem_.points[p];
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  double stiffness = 0.0;
+  for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+    stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
+  return stiffness / std::abs(point.weight);
 }
 
 Vector3d MixedContact::multiplier(int number) const {

@@ -120,6 +120,7 @@ class MixedContact {
   std::vector<char> shared_multipliers() const;
   void share_friction();
   void add_natural_augmentation();
+  double stiffness_at(std::size_t p) const;
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void count_slips();
