@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 
 /// Gaps, pressures and shears beyond zero by less than this share of the largest are rounding: they change no status.
 constexpr double status_tolerance = 1e-12;
+/// Nor do pressures interpolated from larger ones of the nodes that push by so many of their roundings: beside a small augmentation these are long gaps.
+constexpr double pressure_roundings = 16.0;
 /// The system is solved when what is left of it is this share of the jumps.
 constexpr double residual_tolerance = 1e-12;
 /// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned compliance.
@@ -504,7 +506,7 @@ bool CondensedNewton::is_meant(std::size_t p, ContactStatus now, ContactStatus w
   const Vector3d multiplier = multiplier_at(point);
   const Vector3d jump = jump_at(point);
   const double pressure = trial_pressure(law, multiplier, jump);
-  if (now == ContactStatus::open) return pressure > status_tolerance * law.augmentation * scale_;
+  if (now == ContactStatus::open) return pressure > law.augmentation * std::max(status_tolerance * scale_, pressure_roundings * law_rounding(p)[0]);
   if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
   const double beyond = std::abs(shear_beyond_limit(law, multiplier, jump));
   return beyond > status_tolerance * problem_.points[p].law.friction * pressure_scale_;
