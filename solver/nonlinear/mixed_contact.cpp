@@ -389,11 +389,16 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
 }
 
-/// Multipliers that points between nodes take part of: there the law holds in the mean alone, and the augmentation is in the solution.
+/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law holds in the mean alone, and the augmentation is in
+/// the solution.
 std::vector<char> MixedContact::shared_multipliers() const {
-  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0);
+  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0), taken = shared;
   for (const CondensedPoint& point : problem_.points)
-    for (int i = 0; i < point.node_count && point.node_count > 1; ++i) shared[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+    for (int i = 0; i < point.node_count; ++i) {
+      const auto node = static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)]);
+      if (point.node_count > 1 || taken[node]) shared[node] = 1;
+      if (point.rows > 0) taken[node] = 1;
+    }
   return shared;
 }
 
