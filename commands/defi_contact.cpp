@@ -227,6 +227,7 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   if (zone.penalised && adapts_penalties(keywords)) zone.largest_depth = keywords.real("PENE_MAXI");
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
+  zone.keeps_augmentation = keywords.text("ADAPTATION") == "NON";
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
   if (!keywords.has("COULOMB")) return zone;

@@ -79,6 +79,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                           "interpolated between the nodes, which is another discretisation",
                           zone),
               "put points on the nodes, where both are the same (INTEGRATION='AUTO' on linear faces), or take smaller steps"};
+    case solver::DoubtKind::lowered_augmentation:
+      return {"softer-coefficient",
+              fmt::format("with COEF_CONT = {:.3g} no states of the points of zone {} hold the law of contact and friction: one of {:.1g} was taken, which is in the solution where faces are partly in contact",
+                          doubt.penalty, zone, doubt.wanted),
+              fmt::format("take COEF_CONT = {:.0e}, put points on the nodes, where it is not in the solution (INTEGRATION='AUTO' on linear faces), or take smaller steps", doubt.wanted)};
     case solver::DoubtKind::held_overlap:
       return {"held-overlap",
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, where the penalty gives no force",

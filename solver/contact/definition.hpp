@@ -40,6 +40,7 @@ struct MixedZone {
   ContactRule rule = ContactRule::automatic;
   int rule_order = 0;                ///< 0: the rule's default
   double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
+  bool keeps_augmentation = false;   ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
   bool local_average = false;        ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
   bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
   std::optional<double> largest_depth;  ///< PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper

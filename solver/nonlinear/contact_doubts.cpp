@@ -21,6 +21,7 @@ constexpr double overlap_share = 1e-9;
 
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   if (rubs_by_shears_) note_unshared_friction(doubts);
+  if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (rows_.rows() == 0 || std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
@@ -93,6 +94,16 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
 void MixedContact::note_unshared_friction(ContactDoubts& doubts) const {
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (problem_.points[p].rows > 1 && problem_.points[p].share_augmentation > 0.0) doubts.note({.kind = DoubtKind::unshared_friction, .zone = points_[p].zone});
+}
+
+void MixedContact::note_lowered_augmentation(ContactDoubts& doubts) const {
+  const std::vector<char> shared = shared_multipliers();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    const double given = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.augmentation;
+    if (point.rows == 0 || point.law.penalised || !shared[static_cast<std::size_t>(point.nodes[0])] || !(point.law.augmentation < given)) continue;
+    doubts.note({.kind = DoubtKind::lowered_augmentation, .zone = points_[p].zone, .share = given / point.law.augmentation, .penalty = given, .wanted = point.law.augmentation});
+  }
 }
 
 void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {

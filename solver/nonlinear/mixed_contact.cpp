@@ -35,6 +35,8 @@ constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
 /// An augmentation between nodes of this share of the stiffness of the bodies changes the solution by less than figures are compared by (2e-8 in a block that opens), and pressures keep enough digits in it.
 constexpr double least_augmentation = 1e-10;
+/// By this it is lowered at a time.
+constexpr double softer_augmentation = 1e-2;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -208,6 +210,7 @@ double MixedContact::initial_gap(const ContactPoint& point) const {
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   reference_ = faced_at_ = u;
   step_begins_ = true;
+  augmentation_share_ = 1.0;
   problem_.expected = state_.multipliers + duration * rates_;
   start_ = state_.multipliers;
   if (rows_.rows() > 0) count_slips();
@@ -425,9 +428,42 @@ void MixedContact::add_natural_augmentation() {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || point.node_count == 0 || !is_shared(point)) continue;
     const double lowest = least_augmentation * least[static_cast<std::size_t>(points_[p].zone)];
-    if (!point.law.penalised) point.law.augmentation = std::max(point.law.augmentation, lowest);
-    if (!point.law.friction_penalised) point.law.friction_augmentation = std::max(point.law.friction_augmentation, lowest);
+    const double present = std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points_[p].zone)]), lowest);
+    if (!point.law.penalised) point.law.augmentation = present;
+    if (!point.law.friction_penalised) point.law.friction_augmentation = present;
   }
+}
+
+double MixedContact::augmentation_of(const ContactZone& zone) const {
+  return zone.mixed.keeps_augmentation ? zone.mixed.augmentation : augmentation_share_ * zone.mixed.augmentation;
+}
+
+/// A point between nodes that opens while these press on loses friction at once, since its limit is that of the pressure without the augmentation: no statuses need hold the law then.
+/// A softer augmentation makes that jump smaller. Whether any became softer.
+bool MixedContact::lower_augmentation() {
+  if (problem_.components == 1) return false;
+  const auto all = [this] {
+    std::vector<double> values;
+    for (const CondensedPoint& point : problem_.points) values.push_back(point.law.augmentation);
+    return values;
+  };
+  const std::vector<double> before = all();
+  augmentation_share_ *= softer_augmentation;
+  add_natural_augmentation();
+  return all() != before;
+}
+
+/// With the augmentations given; where there is no solution, with softer ones.
+CondensedSolution MixedContact::solve_law() {
+  const CondensedState earlier = state_;
+  CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
+  while (solution.verdict == CondensedVerdict::too_many_iterations && schur_->is_exact() && lower_augmentation()) {
+    state_ = earlier;
+    const int iterations = solution.iterations;
+    solution = solve_condensed(*schur_, problem_, state_);
+    solution.iterations += iterations;
+  }
+  return solution;
 }
 
 /// What the unknowns that move a point resist by: a pressure a length.
@@ -528,7 +564,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   if (!problem_.springs.empty() || problem_.indefinite) close_nearest(free);
 
   const CondensedState earlier = state_;
-  const CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
+  const CondensedSolution solution = solve_law();
   counters_.contact_iterations += solution.iterations;
   problem_.expected.resize(0);
   rubs_by_shears_ = solution.by_shears;

@@ -120,6 +120,9 @@ class MixedContact {
   std::vector<char> shared_multipliers() const;
   void share_friction();
   void add_natural_augmentation();
+  double augmentation_of(const ContactZone& zone) const;
+  bool lower_augmentation();
+  CondensedSolution solve_law();
   double stiffness_at(std::size_t p) const;
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
@@ -134,6 +137,7 @@ class MixedContact {
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
+  void note_lowered_augmentation(ContactDoubts& doubts) const;
   void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
@@ -162,6 +166,7 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
+  double augmentation_share_ = 1.0;  ///< of what is given, between nodes: lowered in a step where nothing else leads to a solution
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   std::tuple<CondensedState, RaisedPenalties, bool> remembered_;
   std::size_t spring_count_ = 0;
