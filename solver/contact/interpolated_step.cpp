@@ -13,20 +13,6 @@ using SparseColumns = InterpolatedStep::SparseColumns;
 /// Products that take about a third as long as the factors of so many multipliers, one of so many.
 constexpr Index multipliers_a_product = 200;
 
-/// S F between unknown rows.
-MatrixXd responses(const SchurComplement& schur, const std::vector<int>& rows, const SparseColumns& forces) {
-  const auto count = static_cast<Index>(rows.size());
-  MatrixXd result = MatrixXd::Zero(count, forces.cols());
-  const bool is_whole = count == schur.size() && std::ranges::is_sorted(rows);
-  for (Index unknown = 0; unknown < forces.cols(); ++unknown)
-    for (SparseColumns::InnerIterator force(forces, unknown); force; ++force) {
-      const SchurComplement::Column column = schur.column(rows[static_cast<std::size_t>(force.row())]);
-      if (is_whole) result.col(unknown) += force.value() * column;
-      else for (Index k = 0; k < count; ++k) result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
-    }
-  return result;
-}
-
 }  // namespace
 
 SparseColumns InterpolatedStep::matrix(int height, const std::vector<Entry>& entries) const {
@@ -48,7 +34,7 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
   if (!all_) {
     const Index rows = step.row_count();
     MatrixXd all(step.unknowns(), step.unknowns());
-    all.topRows(rows) = -responses(schur, step.rows(), step.forces());
+    all.topRows(rows) = -schur.responses(step.rows(), step.forces());
     all.topLeftCorner(rows, rows).diagonal().array() += 1.0;
     all.bottomRows(step.law_count()) = step.laws();
     all_.emplace(std::move(all));
@@ -97,7 +83,7 @@ std::optional<VectorXd> InterpolatedSolver::solve_by_products(const Interpolated
   take(step, schur);
   if (!without_augmentation_) {
     const SparseColumns forces = step.forces(), law = step.laws(), law_by_jumps = law.leftCols(rows);
-    MatrixXd by_multipliers = responses(schur, step.rows(), forces.rightCols(laws));
+    MatrixXd by_multipliers = schur.responses(step.rows(), forces.rightCols(laws));
     DenseLu factor(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
     without_augmentation_.emplace(WithoutAugmentation{forces.leftCols(rows), law_by_jumps, std::move(by_multipliers), std::move(factor)});
   }

@@ -27,13 +27,96 @@ SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vect
   assert(std::is_sorted(support_.begin(), support_.end()));
   rows_.makeCompressed();
   source_ = rows_;
+  choose_form();
+}
+
+/// Rows that leave the support are multiplied out.
+void SchurComplement::choose_form() {
+  is_factored_ = false;
+  on_support_.resize(0, 0);
+  if (rows_.rows() < factored_rows || support_.size() > largest_factor || static_cast<double>(rows_.rows()) < factored_share * static_cast<double>(support_.size())) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < rows_.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(rows_, row); it; ++it) {
+      const int place = support_index(static_cast<int>(it.col()));
+      if (place < 0) return;
+      entries.emplace_back(row, place, it.value());
+    }
+  is_factored_ = true;
+  on_support_.resize(rows_.rows(), static_cast<Eigen::Index>(support_.size()));
+  on_support_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void SchurComplement::solve_factor() {
+  const auto count = static_cast<Eigen::Index>(support_.size());
+  RowMatrix units(count, rows_.cols());
+  for (Eigen::Index k = 0; k < count; ++k) units.insert(k, support_[static_cast<std::size_t>(k)]) = 1.0;
+  if (whole_) factor_ = whole_(units);
+  if (factor_.size() == 0) {
+    Eigen::MatrixXd factor(count, count);
+    for (Eigen::Index first = 0; first < count; first += batch_size) {
+      const Eigen::Index width = std::min<Eigen::Index>(batch_size, count - first);
+      Eigen::MatrixXd batch = Eigen::MatrixXd(units.middleRows(first, width).transpose());
+      inverse_(batch);
+      factor.middleCols(first, width) = units * batch;
+    }
+    factor_ = std::move(factor);
+  }
+  exact_ = true;
+  ++version_;
+}
+
+Eigen::VectorXd SchurComplement::times_factors(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd on_support = on_support_.transpose() * x;
+  Eigen::VectorXd result = on_support_ * symmetric_product(factor_, on_support);
+  if (softness_.size()) result += softness_.cwiseProduct(x);
+  return result;
+}
+
+Eigen::VectorXd SchurComplement::column_of_factors(int row) const {
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(factor_.rows());
+  for (RowMatrix::InnerIterator it(on_support_, row); it; ++it) response += it.value() * factor_.col(it.col());
+  Eigen::VectorXd column = on_support_ * response;
+  if (softness_.size()) column[row] += softness_[row];
+  return column;
+}
+
+Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const {
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  if (has_factors()) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index k = 0; k < count; ++k)
+      for (RowMatrix::InnerIterator it(on_support_, rows[static_cast<std::size_t>(k)]); it; ++it) entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
+    RowMatrix taken(count, on_support_.cols());
+    taken.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SparseMatrix<double> on_support = Eigen::SparseMatrix<double>(taken.transpose()) * forces;
+    const Eigen::MatrixXd moved = factor_ * on_support;
+    Eigen::MatrixXd result = taken * moved;
+    for (Eigen::Index unknown = 0; unknown < forces.cols() && softness_.size(); ++unknown)
+      for (Eigen::SparseMatrix<double>::InnerIterator force(forces, unknown); force; ++force)
+        result(force.row(), unknown) += softness_[rows[static_cast<std::size_t>(force.row())]] * force.value();
+    return result;
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, forces.cols());
+  const bool is_whole = count == size() && std::ranges::is_sorted(rows);
+  for (Eigen::Index unknown = 0; unknown < forces.cols(); ++unknown)
+    for (Eigen::SparseMatrix<double>::InnerIterator force(forces, unknown); force; ++force) {
+      const Column column = this->column(rows[static_cast<std::size_t>(force.row())]);
+      if (is_whole) result.col(unknown) += force.value() * column;
+      else for (Eigen::Index k = 0; k < count; ++k) result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
+    }
+  return result;
 }
 
 bool SchurComplement::has_columns() const {
-  return whole_matrix_.size() != 0 || std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
+  return has_factors() || whole_matrix_.size() != 0 || std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
 }
 
 void SchurComplement::require(std::span<const int> indices) {
+  if (is_factored_) {
+    if (!has_factors() && !indices.empty()) solve_factor();
+    return;
+  }
   std::vector<int> missing;
   for (const int index : indices)
     if (!known(index)) missing.push_back(index);
@@ -112,6 +195,7 @@ bool SchurComplement::build_from_compliance(const std::vector<int>& missing) {
 
 SchurComplement::Column SchurComplement::column(int index) const {
   assert(known(index));
+  if (has_factors() && columns_[index].size() == 0) columns_[index] = column_of_factors(index);
   const double* first = whole_matrix_.size() ? whole_matrix_.col(index).data() : columns_[index].data();
   return {first, size()};
 }
@@ -125,6 +209,7 @@ Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
   for (int row = 0; row < size(); ++row)
     if (x[row] != 0.0) taken.push_back(row);
   require(taken);
+  if (is_factored_) return taken.empty() ? Eigen::VectorXd::Zero(size()) : times_factors(x);
   if (whole_matrix_.size() && static_cast<double>(taken.size()) >= many_share * size()) return symmetric_product(whole_matrix_, x);
   Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
   for (const int row : taken) product += x[row] * column(row);
@@ -148,12 +233,29 @@ void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen:
   softness_ = std::move(softness);
   if (same(rows_, rows) && keys_ == keys) return;
   rows_change_ = rows_change_ || rows_.rows() > 0;
+  if (is_factored_ && replace_factored_rows(rows, keys)) return;
   const bool same_keys = keys_ == keys && rows_.rows() == rows.rows();
   const bool taken = !keeps_compliance() && has_columns() && (same_keys || take_over(rows, keys));
   rows_ = std::move(rows);
   keys_ = std::move(keys);
   exact_ = !taken;
-  if (!taken) clear();
+  if (taken) return;
+  clear();
+  choose_form();
+}
+
+/// The compliance of the support does not change with the rows. False where these are not to be factored any more.
+bool SchurComplement::replace_factored_rows(RowMatrix& rows, std::vector<int>& keys) {
+  std::swap(rows_, rows);
+  choose_form();
+  if (!is_factored_) {
+    std::swap(rows_, rows);
+    factor_.resize(0, 0);
+    return false;
+  }
+  keys_ = std::move(keys);
+  clear();
+  return true;
 }
 
 void SchurComplement::clear() {
@@ -222,11 +324,13 @@ void SchurComplement::complete_columns(const std::vector<int>& added) {
 
 void SchurComplement::forget() {
   compliance_.assign(support_.size(), Eigen::VectorXd());
+  if (keeps_compliance()) factor_.resize(0, 0);
   if (keeps_compliance() || !has_columns()) clear();
   else exact_ = false;
 }
 
 void SchurComplement::start_anew() {
+  factor_.resize(0, 0);
   clear();
   exact_ = true;
 }

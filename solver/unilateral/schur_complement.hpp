@@ -18,7 +18,8 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
 ///  - where few unknowns are touched by rows (the support), what is kept is the compliance C = K^-1 between them: S = A C A^T then
 ///    follows for any rows without another solve;
-///  - where they are many, S stays that of the earlier rows and stiffness: it is not exact any more, but so near that whoever
+///  - where rows are many more than the unknowns they touch, as with many points a face, S is never made: its products are those of A, C and A^T;
+///  - where unknowns are many, S stays that of the earlier rows and stiffness: it is not exact any more, but so near that whoever
 ///    corrects with it again, after a look at what is left, needs a few solves instead of one a row.
 /// S is in unknown / multiplier (a length a force, for contact).
 class SchurComplement {
@@ -51,9 +52,11 @@ class SchurComplement {
   Eigen::VectorXd times(const Eigen::VectorXd& x);
   /// The same to single precision, in half the time or less where all columns are known and many.
   Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
+  /// S F between some rows (n), for forces F on these rows alone (n x k); their columns must have been required.
+  Eigen::MatrixXd responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
   /// The entries on some rows of S x for an x on these rows alone (one a row).
   Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
-  bool known(int index) const { return whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0; }
+  bool known(int index) const { return has_factors() || whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0; }
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
@@ -77,10 +80,20 @@ class SchurComplement {
   /// From this many columns on, if they are this share of all, the whole is asked for at once.
   static constexpr std::size_t many_columns = 100;
   static constexpr double many_share = 0.25;
+  /// So many rows, and so many times as many as unknowns, are never multiplied out; nor are there more unknowns than so many (50 MB).
+  static constexpr int factored_rows = 600;
+  static constexpr double factored_share = 2.0;
+  static constexpr std::size_t largest_factor = 2500;
 
  private:
   bool keeps_compliance() const { return support_.size() <= largest_support; }
   bool has_columns() const;
+  bool has_factors() const { return factor_.size() != 0; }
+  void choose_form();
+  bool replace_factored_rows(RowMatrix& rows, std::vector<int>& keys);
+  void solve_factor();
+  Eigen::VectorXd times_factors(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd column_of_factors(int row) const;
   void take_columns(const std::vector<int>& origin);
   void clear();
   bool take_over(const RowMatrix& rows, const std::vector<int>& keys);
@@ -97,7 +110,10 @@ class SchurComplement {
   std::vector<int> keys_;
   ApplyInverse inverse_;
   WholeCompliance whole_;
-  std::vector<Eigen::VectorXd> columns_;
+  mutable std::vector<Eigen::VectorXd> columns_;
+  bool is_factored_ = false;
+  RowMatrix on_support_;    ///< the rows over the support, where S is kept as its factors
+  Eigen::MatrixXd factor_;  ///< C over the support, or nothing as yet
   Eigen::MatrixXd whole_matrix_;  ///< all columns, or none
   SingleTriangle single_;         ///< of whole_matrix_, or nothing
   Eigen::VectorXd softness_;

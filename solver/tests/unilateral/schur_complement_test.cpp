@@ -185,3 +185,65 @@ TEST_CASE("Rows that come to a whole of columns get theirs, and products take al
   CHECK((schur.times(x) - expected * x).norm() < 1e-14 * x.norm());
   CHECK((schur.times_roughly(x) - expected * x).norm() < 1e-5 * x.norm());
 }
+
+TEST_CASE("Of many rows on few unknowns S is its factors: one solve an unknown, however often rows change") {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(generator); };
+  const int n = 60, unknowns = 40, m = SchurComplement::factored_rows + 7;
+  const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(n, n, draw);
+  const Eigen::LLT<Eigen::MatrixXd> factor(half * half.transpose() + Eigen::MatrixXd::Identity(n, n));
+  std::vector<int> support(unknowns), all(m);
+  std::iota(support.begin(), support.end(), 5);
+  std::iota(all.begin(), all.end(), 0);
+  const auto random_rows = [&](int count) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, n);
+    for (int row = 0; row < count; ++row)
+      for (int k = 0; k < 3; ++k) rows(row, 5 + static_cast<int>(generator() % unknowns)) += draw();
+    return rows;
+  };
+  long solves = 0;
+  Eigen::MatrixXd rows = random_rows(m);
+  SchurComplement schur(rows.sparseView(),
+                        [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
+                          solves += rhs.cols();
+                          rhs = factor.solve(rhs).eval();
+                        },
+                        support);
+  const Eigen::VectorXd softness = Eigen::VectorXd::LinSpaced(m, 0.0, 1.0);
+  schur.soften(softness);
+
+  const auto check = [&](const Eigen::VectorXd& soft) {
+    schur.require(all);
+    Eigen::MatrixXd expected = rows * factor.solve(rows.transpose());
+    if (soft.size()) expected.diagonal() += soft;
+    const Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(rows.rows(), draw);
+    CHECK((schur.times(x) - expected * x).norm() < 1e-10 * expected.norm() * x.norm());
+    CHECK((schur.column(8) - expected.col(8)).norm() < 1e-10 * expected.norm());
+    const std::vector<int> some = {9, 2, 400};
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::NullaryExpr(3, 2, draw);
+    CHECK((schur.responses(some, forces.sparseView()) - expected(some, some) * forces).norm() < 1e-10 * expected.norm() * forces.norm());
+    CHECK(schur.is_exact());
+  };
+  check(softness);
+  CHECK(solves == unknowns);
+  rows = random_rows(m);
+  schur.replace_rows(rows.sparseView());
+  check({});
+  CHECK(solves == unknowns);
+  schur.forget();
+  check({});
+  CHECK(solves == 2 * unknowns);
+
+  SECTION("few rows are multiplied out") {
+    rows = random_rows(SchurComplement::factored_rows - 1);
+    all.resize(static_cast<std::size_t>(rows.rows()));
+    schur.replace_rows(rows.sparseView());
+    check({});
+  }
+  SECTION("and so are rows on other unknowns") {
+    rows(0, 0) = 1.0;
+    schur.replace_rows(rows.sparseView());
+    check({});
+  }
+}
