@@ -33,10 +33,6 @@ constexpr double touching = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
-/// An augmentation between nodes of this share of the stiffness of the bodies changes the solution by less than figures are compared by (2e-8 in a block that opens), and pressures keep enough digits in it.
-constexpr double least_augmentation = 1e-10;
-/// By this it is lowered at a time.
-constexpr double softer_augmentation = 1e-2;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -390,90 +386,6 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
     if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points_[p].cell))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
-}
-
-/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law holds in the mean alone, and the augmentation is in
-/// the solution.
-std::vector<char> MixedContact::shared_multipliers() const {
-  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0), taken = shared;
-  for (const CondensedPoint& point : problem_.points)
-    for (int i = 0; i < point.node_count; ++i) {
-      const auto node = static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)]);
-      if (point.node_count > 1 || taken[node]) shared[node] = 1;
-      if (point.rows > 0) taken[node] = 1;
-    }
-  return shared;
-}
-
-/// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as stiff as the bodies
-/// suits any unit of length. Where points lie between nodes it does, but the softer the less: one too soft beside the bodies is raised to where the solution
-/// hardly changes, and pressures no longer lose their digits in it.
-void MixedContact::add_natural_augmentation() {
-  const std::vector<char> shared = shared_multipliers();
-  std::vector<double> least(definition_.zones.size(), std::numeric_limits<double>::infinity());  // of points that share multipliers: one a zone, in which points weigh by it
-  const auto is_shared = [&](const CondensedPoint& point) { return shared[static_cast<std::size_t>(point.nodes[0])] != 0; };
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || point.node_count == 0) continue;
-    if (is_shared(point)) {
-      double& softest = least[static_cast<std::size_t>(points_[p].zone)];
-      softest = std::min(softest, stiffness_at(p));
-    } else if (points_[p].node >= 0) {
-      point.stiffness = stiffness_at(p);
-      if (!point.law.penalised) point.law.augmentation = point.stiffness;
-      if (!point.law.friction_penalised) point.law.friction_augmentation = point.stiffness;
-    }
-  }
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || point.node_count == 0 || !is_shared(point)) continue;
-    const double lowest = least_augmentation * least[static_cast<std::size_t>(points_[p].zone)];
-    const double present = std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points_[p].zone)]), lowest);
-    if (!point.law.penalised) point.law.augmentation = present;
-    if (!point.law.friction_penalised) point.law.friction_augmentation = present;
-  }
-}
-
-double MixedContact::augmentation_of(const ContactZone& zone) const {
-  return zone.mixed.keeps_augmentation ? zone.mixed.augmentation : augmentation_share_ * zone.mixed.augmentation;
-}
-
-/// A point between nodes that opens while these press on loses friction at once, since its limit is that of the pressure without the augmentation: no statuses need hold the law then.
-/// A softer augmentation makes that jump smaller. Whether any became softer.
-bool MixedContact::lower_augmentation() {
-  if (problem_.components == 1) return false;
-  const auto all = [this] {
-    std::vector<double> values;
-    for (const CondensedPoint& point : problem_.points) values.push_back(point.law.augmentation);
-    return values;
-  };
-  const std::vector<double> before = all();
-  augmentation_share_ *= softer_augmentation;
-  add_natural_augmentation();
-  return all() != before;
-}
-
-/// With the augmentations given; where there is no solution, with softer ones.
-CondensedSolution MixedContact::solve_law() {
-  const CondensedState earlier = state_;
-  CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
-  while (solution.verdict == CondensedVerdict::too_many_iterations && schur_->is_exact() && lower_augmentation()) {
-    state_ = earlier;
-    const int iterations = solution.iterations;
-    solution = solve_condensed(*schur_, problem_, state_);
-    solution.iterations += iterations;
-  }
-  return solution;
-}
-
-/// What the unknowns that move a point resist by: a pressure a length.
-double MixedContact::stiffness_at(std::size_t p) const {
-  const CondensedPoint& point = problem_.points[p];
-  const Eigen::VectorXd& sizes = tangent_.row_sizes();
-  double stiffness = 0.0;
-  for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
-    stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
-  return stiffness / std::abs(point.weight);
 }
 
 Vector3d MixedContact::multiplier(int number) const {
