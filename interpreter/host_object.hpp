@@ -36,11 +36,12 @@ struct HostObject : Object {
 class Evaluator;
 struct CallArguments;
 
-/// A method of such an object that takes keywords, or calls functions of the file. Its code may throw DiagnosticError.
-struct HostMethod : Object {
-  using Code = std::function<Value(Evaluator&, const CallArguments& arguments)>;
+/// A method of such an object. Its code may throw DiagnosticError.
+template <class Signature>
+struct HostCallable : Object {
+  using Code = std::function<Signature>;
 
-  HostMethod(std::string word, Code what) : name(std::move(word)), code(std::move(what)) {}
+  HostCallable(std::string word, Code what) : name(std::move(word)), code(std::move(what)) {}
   std::string name;
   Code code;
   std::string type_name() const override { return "method"; }
@@ -48,16 +49,9 @@ struct HostMethod : Object {
   bool is_callable() const override { return true; }
 };
 
-/// A method of such an object, without keywords. Its code may throw DiagnosticError.
-struct HostFunction : Object {
-  using Code = std::function<Value(const std::vector<Value>& arguments)>;
-
-  HostFunction(std::string word, Code what) : name(std::move(word)), code(std::move(what)) {}
-  std::string name;
-  Code code;
-  std::string type_name() const override { return "method"; }
-  std::string repr() const override { return "<method '" + name + "'>"; }
-  bool is_callable() const override { return true; }
-};
+/// One that takes keywords, or calls functions of the file.
+using HostMethod = HostCallable<Value(Evaluator&, const CallArguments& arguments)>;
+/// One without keywords.
+using HostFunction = HostCallable<Value(const std::vector<Value>& arguments)>;
 
 }  // namespace comma::interpreter

@@ -1,7 +1,5 @@
 #include "solver/contact/interpolated_step.hpp"
 
-#include <algorithm>
-
 namespace comma::solver {
 namespace {
 
