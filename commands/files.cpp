@@ -41,22 +41,28 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
                                      fmt::format("put {}.{} beside the command file, or name both in an .export", command_file_.stem().string(), unit));
 }
 
-fs::path Files::found(int unit, const std::vector<std::string>& extensions) const {
-  std::vector<std::string> stems = {command_file_.stem().string()};
-  if (const std::string& stem = stems.front(); stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back()))) {
-    stems.push_back(stem.substr(0, stem.size() - 1));
-  }
-  const fs::path own = command_file_.parent_path() / (stems.front() + "." + std::to_string(unit));
-  if (fs::is_regular_file(own)) return own;
-  std::string tried = own.filename().string();
-  for (const std::string& stem : stems) {
-    for (const std::string& extension : extensions) {
-      const fs::path candidate = command_file_.parent_path() / (stem + "." + extension);
-      if (fs::is_regular_file(candidate)) return candidate;
-      tried += ", " + candidate.filename().string();
-    }
-  }
+// Of the command file, and less the letter of the modelisation.
+std::vector<std::string> Files::stems() const {
+  std::vector<std::string> result = {command_file_.stem().string()};
+  if (const std::string& stem = result.front(); stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back()))) result.push_back(stem.substr(0, stem.size() - 1));
+  return result;
+}
+
+std::optional<fs::path> Files::candidate(const std::vector<std::string>& extensions) const {
+  for (const std::string& stem : stems())
+    for (const std::string& extension : extensions)
+      if (const fs::path path = command_file_.parent_path() / (stem + "." + extension); fs::is_regular_file(path)) return path;
   if (const auto others = files_with(command_file_.parent_path(), extensions); others.size() == 1) return others.front();
+  return std::nullopt;
+}
+
+fs::path Files::found(int unit, const std::vector<std::string>& extensions) const {
+  const fs::path own = command_file_.parent_path() / (command_file_.stem().string() + "." + std::to_string(unit));
+  if (fs::is_regular_file(own)) return own;
+  if (const auto named = candidate(extensions)) return *named;
+  std::string tried = own.filename().string();
+  for (const std::string& stem : stems())
+    for (const std::string& extension : extensions) tried += ", " + stem + "." + extension;
   throw interpreter::DiagnosticError("missing-file", "no file stands for unit " + std::to_string(unit), {},
                                      "put one of " + tried + " beside the command file, or name it in an .export");
 }

@@ -33,6 +33,9 @@ class Files {
   /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for, or where the file stands for another unit already.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
 
+  /// A file that `input` would find by one of these extensions for some unit; nothing where there is none.
+  std::optional<std::filesystem::path> candidate(const std::vector<std::string>& extensions) const;
+
   /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of the
   /// command file, or one that the .export names). Throws DiagnosticError `missing-file`; `forbidden-file` for a name
   /// that leads elsewhere.
@@ -49,6 +52,7 @@ class Files {
 
  private:
   bool is_read(const std::filesystem::path& path) const;
+  std::vector<std::string> stems() const;
   std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;
 
   std::filesystem::path command_file_;

@@ -47,9 +47,26 @@ std::string text_format_of(const std::string& path) {
   return found == std::end(marks) ? "" : found->second;
 }
 
+// A file that is there, but is called as those of another format are.
+[[noreturn]] void tell_missing(const interpreter::DiagnosticError& missing, const Call& call, Context& context) {
+  for (const auto& [format, names] : extensions()) {
+    const auto path = context.files.candidate(names);
+    if (path) throw interpreter::DiagnosticError("missing-file", missing.what(), call.span, fmt::format("FORMAT='{}' would read {}", format, path->filename().string()));
+  }
+  throw missing;
+}
+
+std::string input_path(const Call& call, Context& context) {
+  try {
+    return context.files.input(static_cast<int>(call.integer("UNITE")), extensions().at(call.text("FORMAT"))).string();
+  } catch (const interpreter::DiagnosticError& missing) {
+    tell_missing(missing, call, context);
+  }
+}
+
 solver::Mesh read(const Call& call, Context& context) {
   const std::string& format = call.text("FORMAT");
-  const std::string path = context.files.input(static_cast<int>(call.integer("UNITE")), extensions().at(format)).string();
+  const std::string path = input_path(call, context);
   context.console.progress("  reads " + path);
   if (format == "ASTER") return read_names_aside(call, path, context);
   if (format == "GMSH") return solver::read_gmsh_mesh(path);
