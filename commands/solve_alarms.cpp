@@ -106,6 +106,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",
                           zone, mesh.node_name(doubt.node), doubt.length, 100.0 * doubt.share),
               how_to_follow(contact)};
+    case solver::DoubtKind::coarse_face:
+      return {"coarse-slave",
+              fmt::format("where faces of the slave side of zone {} are partly in contact their points overlap the master by {:.3g} on the mean, {:.0f} % of what contact pushes back: forces come out too small by about that share",
+                          zone, doubt.length, 100.0 * doubt.share),
+              "refine the slave side there, or put points on the nodes (INTEGRATION='AUTO' on linear faces)"};
     case solver::DoubtKind::passed_master: break;
   }
   const std::string hint = is_mixed ? "make the finer side the slave, take more points (INTEGRATION='NCOTES', ORDRE_INT), or averages (ALGO_CONT='LAC')"

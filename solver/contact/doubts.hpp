@@ -23,6 +23,7 @@ enum class DoubtKind : std::uint8_t {
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with that
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
+  coarse_face,  ///< points between nodes overlap: faces that are partly in contact press for all of their points together
   kept_facet,  ///< points that hopped between two facets are left on one of them
   restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
@@ -31,7 +32,7 @@ enum class DoubtKind : std::uint8_t {
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`: of the mean depth of master nodes in what contact pushes back, infinite where it pushes nothing
+  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`, `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back (infinite where it pushes nothing)
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`

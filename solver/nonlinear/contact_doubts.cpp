@@ -22,6 +22,7 @@ constexpr double overlap_share = 1e-9;
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   if (rubs_by_shears_) note_unshared_friction(doubts);
   if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
+  note_coarse_faces(u, doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (rows_.rows() == 0 || std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
@@ -45,6 +46,27 @@ double MixedContact::pushed_back() {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
   forces.head(forces_.size()) = forces_;
   return schur_->times(forces).head(forces_.size()).cwiseAbs().maxCoeff();
+}
+
+/// Between nodes the law holds in the mean over the points of a face: one that is pressed at few of its points cannot press there alone, and lets the master in.
+void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts) {
+  const auto counts = [&](std::size_t p) { return problem_.points[p].rows > 0 && problem_.points[p].node_count > 1 && !problem_.points[p].law.penalised; };
+  const Eigen::VectorXd now = jumps(u);
+  std::vector<double> overlap(definition_.zones.size(), 0.0), area = overlap;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (!counts(p)) continue;
+    const double depth = -now[problem_.points[p].first_row];
+    if (depth <= overlap_share * extent(mesh_, points_[p].cell)) continue;
+    const auto zone = static_cast<std::size_t>(points_[p].zone);
+    overlap[zone] += points_[p].weight * depth;
+    area[zone] += points_[p].weight;
+  }
+  if (std::ranges::all_of(area, [](double each) { return each == 0.0; })) return;
+  const double reach = std::max(pushed_back(), doubtful_share * largest_component(u));
+  for (std::size_t zone = 0; zone < area.size(); ++zone) {
+    const double mean = area[zone] > 0.0 ? overlap[zone] / area[zone] : 0.0;
+    if (mean > doubtful_passage * reach) doubts.note({.kind = DoubtKind::coarse_face, .zone = static_cast<int>(zone), .share = mean / reach, .length = mean});
+  }
 }
 
 void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {
