@@ -29,7 +29,7 @@ double status_of(const NodeContact& contact, const Eigen::Vector3d& place) {
   if (contact.pair.status == PairingStatus::watched)
     return contact.gap < -touching_share * (place.norm() + contact.pair.foot.norm()) ? overlapping : not_paired;
   if (contact.sticking) return sticking;
-  return contact.closed || contact.normal_force > 0.0 ? sliding : open;
+  return contact.closed ? sliding : open;
 }
 
 void write_state(const NodeContact& contact, Positions positions, double* row) {
@@ -87,7 +87,7 @@ NodalField contact_field(std::span<const ContactPair> pairs, std::span<const dou
                          int node_count, Positions positions) {
   std::vector<NodeContact> contacts;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    contacts.push_back({.pair = pairs[k], .gap = gaps[k], .normal_force = multipliers[static_cast<Eigen::Index>(k)]});
+    contacts.push_back({.pair = pairs[k], .gap = gaps[k], .normal_force = multipliers[static_cast<Eigen::Index>(k)], .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0});
   return contact_field(contacts, node_count, positions);
 }
 

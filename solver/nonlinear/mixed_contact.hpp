@@ -87,7 +87,7 @@ class MixedContact {
   /// `no-convergence` where that does not help.
   bool stiffen_penalties(const Eigen::VectorXd& u);
 
-  /// Of a step that has converged at u: how far penalties let the bodies into each other. Costs a solve where there are any.
+  /// Of a step that has converged at u: how far penalties, and faces too coarse for what they touch, let the bodies into each other. Costs a solve where there are penalties.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
   /// How far contact forces move the points, at most (a length).
   double pushed_back();
@@ -138,8 +138,11 @@ class MixedContact {
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
   void note_lowered_augmentation(ContactDoubts& doubts) const;
+  Eigen::Vector3d shear_force(std::size_t p) const;
+  void add_forces_between_nodes(const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
   void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
+  void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
   Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }

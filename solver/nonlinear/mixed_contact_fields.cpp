@@ -14,15 +14,19 @@ namespace {
 
 using Eigen::Vector3d;
 
+void add_forces(const Vector3d& normal, const Vector3d& shear, NodeContact& sum) {
+  const Vector3d whole = sum.normal_force * sum.pair.normal + normal;
+  sum.shear_force += shear;
+  sum.normal_force = whole.norm();
+  if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
+}
+
 /// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them do.
 void add_contact(const NodeContact& contact, NodeContact& sum) {
-  const Vector3d whole = sum.normal_force * sum.pair.normal + contact.normal_force * contact.pair.normal;
   sum.sticking = sum.closed && contact.closed ? sum.sticking && contact.sticking : sum.sticking || contact.sticking;
   sum.closed |= contact.closed;
   sum.gap = std::min(sum.gap, contact.gap);
-  sum.shear_force += contact.shear_force;
-  sum.normal_force = whole.norm();
-  if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
+  add_forces(contact.normal_force * contact.pair.normal, contact.shear_force, sum);
 }
 
 }  // namespace
@@ -72,11 +76,8 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contact.sticking = state_.statuses[p] == ContactStatus::sticking;
     }
     if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
-    const Directions along = condensed.rows > 1 ? directions(point) : Directions();
-    for (int c = 1; c < condensed.rows; ++c) {
-      contact.shear_force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
-      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
-    }
+    contact.shear_force = shear_force(p);
+    for (int c = 1; c < condensed.rows; ++c) contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
     if (is_first) {
       contacts.push_back(contact);
@@ -86,8 +87,30 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contacts[known->second] = contact;
     }
   }
+  add_forces_between_nodes(by_node, contacts);
   add_nodes_without_contact(positions, contacts);
   return contact_field(contacts, mesh_.node_count(), positions);
+}
+
+Vector3d MixedContact::shear_force(std::size_t p) const {
+  const CondensedPoint& condensed = problem_.points[p];
+  Vector3d force = Vector3d::Zero();
+  if (condensed.rows < 2) return force;
+  const Directions along = directions(points_[p]);
+  for (int c = 1; c < condensed.rows; ++c) force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
+  return force;
+}
+
+/// Nodes bear their shares of what points between them do, so that all together bear the whole force.
+void MixedContact::add_forces_between_nodes(const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0) continue;
+    const Vector3d normal = forces_[problem_.points[p].first_row] * point.normal, shear = shear_force(p);
+    const auto nodes = mesh_.cell(point.cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      if (const auto known = by_node.find(Key(point.zone, nodes[a])); known != by_node.end()) add_forces(point.shape[a] * normal, point.shape[a] * shear, contacts[known->second]);
+  }
 }
 
 /// Nodes of zones where contact is not enforced, and those that the user leaves out.
