@@ -107,7 +107,8 @@ void check_normals(const Keywords& zone, const std::string& keyword, const std::
 void check_surface(const Keywords& zone, const char* keyword, const std::vector<int>& cells, const solver::Model& model) {
   for (const int cell : cells) {
     const auto type = model.mesh->cell_types[static_cast<std::size_t>(cell)];
-    if (solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) != solver::dimension(type)) continue;
+    const int body = solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]);
+    if (body == 0 || body != solver::dimension(type)) continue;
     const bool solid = solver::dimension(type) == 3;
     throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: {} holds {}, a cell of the body itself ({}), not of its surface", keyword, model.mesh->cell_name(cell), solver::name_of(type)),
                           zone.span_of(keyword), fmt::format("name a group of its {}", solid ? "faces" : "edges"));

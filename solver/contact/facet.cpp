@@ -149,6 +149,7 @@ FacetShape facet_shape(CellType type, const Vector2d& xi) {
 }
 
 Vector2d facet_node(CellType type, int node) {
+  if (type == CellType::poi1) return {};
   switch (family_of(type)) {
     case Family::line: return {node == 2 ? 0.0 : 2.0 * node - 1.0, 0.0};
     case Family::triangle: return {triangle_places[node][0], triangle_places[node][1]};
