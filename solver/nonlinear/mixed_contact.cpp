@@ -508,7 +508,8 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0) continue;
+    // On the axis of revolution nothing acts (a point there has no area).
+    if (point.rows == 0 || point.weight == 0.0) continue;
     const std::optional<double> deepest = penalties_.allowed_depth(mixed);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
