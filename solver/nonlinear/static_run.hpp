@@ -69,8 +69,8 @@ class StaticRun {
   bool refines_collision(const std::vector<char>& before, StepSequence& sequence) const;
   /// Whether Newton's method takes statuses and geometry along, as Code_Aster does: figures are then those of the same iterations (ssnv104d, to 2e-12).
   bool iterates_jointly() const { return problem_.contact->joint_iterations && !options_.line_search && mixed_->can_iterate_jointly(); }
-  /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else once the step cannot be cut (ssnv506e).
-  int solve_jointly_or_settled(double instant, const Progress& before);
+  /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else in parts of a step that has been cut (ssnv506e), or where it cannot be.
+  int solve_jointly_or_settled(double instant, const Progress& before, bool is_part);
   int solve_settled(double instant, const Progress& before);
   /// Of a step that cannot be cut.
   int solve_as_last_resort(double instant, const Progress& before, const Error& error);

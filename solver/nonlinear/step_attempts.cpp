@@ -16,7 +16,7 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   watch_->start_step();
   if (mixed_) mixed_->remember();
   try {
-    const int iterations = solve_jointly_or_settled(instant, before);
+    const int iterations = solve_jointly_or_settled(instant, before, sequence.is_part());
     watch_->check_increment(instant, [&] { return fields_now(instant); });
     if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
     if (!refines_collision(closed_before, sequence)) return iterations;
@@ -56,11 +56,12 @@ bool StaticRun::refines_collision(const std::vector<char>& before, StepSequence&
               "write ACTION='DECOUPE' to go on in shorter steps");
 }
 
-int StaticRun::solve_jointly_or_settled(double instant, const Progress& before) {
+int StaticRun::solve_jointly_or_settled(double instant, const Progress& before, bool is_part) {
   try {
     return solve_from_either_side(instant, before);
   } catch (const Error& error) {
-    if (!mixed_ || !mixed_->is_joint() || assembler_.has_memory() || !is_failure_of_step(error.code())) throw;
+    const bool is_cut_first = assembler_.has_memory() && !is_part;
+    if (!mixed_ || !mixed_->is_joint() || is_cut_first || !is_failure_of_step(error.code())) throw;
   }
   return solve_settled(instant, before);
 }
