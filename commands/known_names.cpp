@@ -17,10 +17,11 @@ constexpr std::array<std::string_view, 56> quantities = {
     "ETOT", "EPOT", "ECIN", "DISS", "INDL", "VARI", "VAEX", "VARC", "ENDO", "CRIT", "PDIL", "PRAC", "PRME", "SING",
     "ERME", "ERZ1", "ERZ2", "QIRE", "QIZ1", "QIZ2", "FLUX", "META", "DURT", "STRX", "COHE", "INTE", "PRES", "TEMP"};
 constexpr std::array<std::string_view, 4> locations = {"ELGA", "ELNO", "NOEU", "ELEM"};
-constexpr std::array<std::string_view, 30> other_fields = {
+constexpr std::array<std::string_view, 32> other_fields = {
     "DEPL", "VITE", "ACCE", "TEMP", "PRES", "IRRA", "SECH", "HYDR_NOEU", "HYDR_ELNO", "NEUT", "GEOMETRIE", "COMPORTEMENT",
     "COMPORTHER", "COMPMETA", "CONT_NOEU", "CONT_ELEM", "INDC_ELEM", "SECO_ELEM", "FORC_NODA", "REAC_NODA", "FORC_EXTE",
-    "FORC_AMOR", "FORC_LIAI", "DEPL_ABSOLU", "VITE_ABSOLU", "ACCE_ABSOLU", "DEPL_VIBR", "SISE_ELNO", "VALE_CONT", "PRES_NOEU"};
+    "FORC_AMOR", "FORC_LIAI", "DEPL_ABSOLU", "VITE_ABSOLU", "ACCE_ABSOLU", "DEPL_VIBR", "SISE_ELNO", "VALE_CONT", "PRES_NOEU",
+    "MODE_FLAMB", "MODE_STAB"};
 
 bool is_users_own(std::string_view name) {
   return name.size() > 4 && name.starts_with("UT") && std::isdigit(static_cast<unsigned char>(name[2])) != 0;
@@ -68,7 +69,8 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
   if (is_users_own(field)) return std::vector<std::string>{"X"};
   const std::string_view quantity = field.substr(0, 4);
   if (quantity == "SIEF" || quantity == "SIGM") {
-    return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N", "VY", "VZ", "MT", "MFY", "MFZ"};
+    return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N",   "VY",  "VZ",  "MT",  "MFY", "MFZ", "NXX", "NYY", "NXY", "MXX", "MYY",
+                                    "MXY",  "QX",   "QY",   "S1X",  "S1Y",  "S1Z",  "S2X", "S2Y", "S2Z", "S3X", "S3Y", "S3Z", "S4X", "S4Y", "S4Z"};
   }
   static constexpr std::array<std::string_view, 5> strains = {"EPSI", "EPME", "EPSG", "EPMG", "EPSP"};
   if (std::ranges::find(strains, quantity) != strains.end()) return std::vector<std::string>{"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};

@@ -16,6 +16,7 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_computation.hpp"
 #include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
@@ -100,13 +101,6 @@ solver::Field formula_of(const Keywords& keywords, const solver::Field& held, co
   }
 }
 
-// The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula.
-const solver::Field& watched(const Keywords& keywords, const solver::Field& held, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours, solver::Field& made) {
-  if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held, mesh);
-  if (!keywords.given("NOM_VARI")) return held;
-  return made = by_variable_names(keywords, held, behaviours);
-}
-
 // Where a place of the wrong kind alone is named nothing would be observed.
 void check_place(const Keywords& keywords, const solver::Field& field) {
   const bool at_nodes = std::holds_alternative<solver::NodalField>(field);
@@ -117,12 +111,12 @@ void check_place(const Keywords& keywords, const solver::Field& field) {
 
 }  // namespace
 
-Observer::Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours) : mesh_(mesh), behaviours_(behaviours) {
+Observer::Observer(const interpreter::Call& call, const ResultConcept& computed) : computed_(computed), mesh_(computed.result.mesh()) {
   for (const Keywords& given : call.factors("OBSERVATION")) {
     const bool everywhere = !names_a_place(given, places_of_nodes);
     Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
-                            everywhere ? all_indices(mesh.node_count()) : selected_nodes(given, mesh, places_of_nodes),
-                            everywhere ? all_indices(mesh.cell_count()) : selected_cells(given, mesh, cell_places),
+                            everywhere ? all_indices(mesh_.node_count()) : selected_nodes(given, mesh_, places_of_nodes),
+                            everywhere ? all_indices(mesh_.cell_count()) : selected_cells(given, mesh_, cell_places),
                             given.reals("INST"), instant_tolerance(given)};
     if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;
     observations_.push_back(std::move(observation));
@@ -137,7 +131,8 @@ bool Observer::is_due(const Observation& observation, double instant, int number
   return std::ranges::any_of(observation.instants, [&](double wanted) { return observation.tolerance.meets(wanted, instant); });
 }
 
-void Observer::observe(const solver::ResultStep& step, int number, Table& table) {
+void Observer::observe(int number, Table& table) {
+  const solver::ResultStep& step = computed_.result.steps.back();
   for (Observation& observation : observations_) {
     if (is_due(observation, step.instant, number)) observe(observation, step, number, table);
   }
@@ -155,13 +150,23 @@ void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Di
   }
 }
 
+const solver::Field& Observer::watched(const Keywords& keywords, const solver::ResultStep& step, solver::Field& made) const {
+  const std::string& name = keywords.text("NOM_CHAM");
+  const bool is_computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
+  if (is_computed) made = solver::FieldComputation(computed_.problem, computed_.result).compute(name, computed_.result.steps.size() - 1);
+  const solver::Field& held = is_computed ? made : field_of(keywords, step);
+  if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held, mesh_);
+  if (!keywords.given("NOM_VARI")) return held;
+  return made = by_variable_names(keywords, held, computed_.problem.behaviours.get());
+}
+
 void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const {
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
   observation.was_due = true;
   solver::Field made;
-  const solver::Field& field = watched(keywords, field_of(keywords, step), mesh_, behaviours_, made);
+  const solver::Field& field = watched(keywords, step, made);
   check_place(keywords, field);
   const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");

@@ -14,13 +14,14 @@ namespace comma::commands {
 class Observer {
  public:
   /// `call`: STAT_NON_LINE. Keeps copies of its occurrences. Throws DiagnosticError for a place that the mesh lacks.
-  /// `behaviours`: of its cells, for NOM_VARI.
-  Observer(const interpreter::Call& call, const solver::Mesh& mesh, const solver::BehaviourOfCells* behaviours);
+  /// Keeps a reference to what is computed.
+  Observer(const interpreter::Call& call, const ResultConcept& computed);
 
   bool empty() const { return observations_.empty(); }
-  /// Appends the rows of a step; `number` counts the steps, 0 being the initial state. Throws DiagnosticError
+  /// Appends the rows of the last step; `number` counts the steps, 0 being the initial state. Fields that the step does not hold are computed as CALC_CHAMP
+  /// does. Throws DiagnosticError
   /// `unknown-field`, `unknown-component`, `wrong-type`.
-  void observe(const solver::ResultStep& step, int number, Table& table);
+  void observe(int number, Table& table);
 
   /// Tells of occurrences that have given no row, and of instants among the `computed` ones of all steps at which none ended.
   void warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const;
@@ -38,9 +39,11 @@ class Observer {
 
   bool is_due(const Observation& observation, double instant, int number) const;
   void observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
+  /// The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula; `made` holds what the step does not.
+  const solver::Field& watched(const interpreter::Keywords& keywords, const solver::ResultStep& step, solver::Field& made) const;
 
+  const ResultConcept& computed_;
   const solver::Mesh& mesh_;
-  const solver::BehaviourOfCells* behaviours_;
   std::vector<Observation> observations_;
 };
 

@@ -254,7 +254,7 @@ void warn_of_scene(const Call& call, const Scene& scene, Context& context) {
 
 Product prepare_stat_non_line(const Call& call, Context& context) {
   const Scene scene = scene_of(call);
-  const Observer observer(call, scene.product->result.mesh(), scene.product->problem.behaviours.get());
+  const Observer observer(call, *scene.product);
   const Archive archive(call);
   solver::require_solvable(scene.product->problem, scene.steps, scene.options);
   if (context.only_checks) warn_of_scene(call, scene, context);
@@ -269,7 +269,7 @@ Product stat_non_line(const Call& call, Context& context) {
   call.result->data = product;
   warn_of_scene(call, scene, context);
   const solver::Counters before = context.counters;
-  Observer observer(call, product->result.mesh(), product->problem.behaviours.get());
+  Observer observer(call, *product);
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
   std::vector<double> computed;
@@ -280,7 +280,7 @@ Product stat_non_line(const Call& call, Context& context) {
   };
   // What goes on with steps that are there has no initial one.
   const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
-    if (product->observations) observer.observe(result.steps.back(), number, *product->observations);
+    if (product->observations) observer.observe(number, *product->observations);
     ++number;
     computed.push_back(result.steps.back().instant);
     keep_residuals(last, result.steps.back());
