@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
@@ -21,6 +23,21 @@ std::string& quantity_of(Field& field) {
 }
 int component_of(const Field& field, std::string_view name) {
   return std::visit([&](const auto& values) { return values.component(name); }, field);
+}
+
+/// The stresses or strains of an element that carries stiffness; nothing for other quantities.
+std::set<std::string_view> known_components(std::string_view quantity, Formulation formulation) {
+  static const std::set<std::string_view> plane_strains = {"EPXX", "EPYY", "EPZZ", "EPXY"}, solid_strains = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+  const int continuum = continuum_dimension(formulation);
+  if (quantity == "EPSI_R") return continuum == 3 ? solid_strains : continuum == 2 ? plane_strains : std::set<std::string_view>();
+  if (quantity != "SIEF_R") return {};
+  std::set<std::string_view> names;
+  if (continuum == 2) names.insert(plane_stress_names.begin(), plane_stress_names.end());
+  if (continuum == 3) names.insert(solid_stress_names.begin(), solid_stress_names.end());
+  if (mixed_field_count(formulation) > 0) names.insert("SIP");
+  if (is_beam(formulation)) names.insert(beam_force_names.begin(), beam_force_names.end());
+  if (is_bar(formulation)) names.insert("N");
+  return names;
 }
 
 /// The rows of a field: place p has those from starts()[p] to starts()[p + 1].
@@ -154,6 +171,23 @@ void fill_absent(Field& field, double value) {
   for (double& each : values_of(field)) {
     if (std::isnan(each)) each = value;
   }
+}
+
+void add_unnamed_zeros(ElementField& field, const Model& model) {
+  std::set<std::string_view> wanted;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
+    if (field.points(cell) > 0 && !model.is_skin(cell)) wanted.merge(known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]));
+  const std::size_t before = field.components.size();
+  for (const std::string_view name : wanted)
+    if (field.component(name) < 0) field.components.emplace_back(name);
+  const std::size_t width = field.components.size();
+  std::vector<double> values;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    const auto own = known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]);
+    for (int row = field.starts[static_cast<std::size_t>(cell)]; row < field.starts[static_cast<std::size_t>(cell) + 1]; ++row)
+      for (std::size_t c = 0; c < width; ++c) values.push_back(c < before ? field.values[static_cast<std::size_t>(row) * before + c] : own.contains(field.components[c]) ? 0.0 : absent);
+  }
+  field.values = std::move(values);
 }
 
 void drop_empty_cells(ElementField& field) {

@@ -49,6 +49,8 @@ void assign(Field& field, int component, double value, const std::vector<int>* p
 
 /// Absent values become `value`.
 void fill_absent(Field& field, double value);
+/// Stresses (SIEF_R) and strains (EPSI_R) of the model's elements have all components that the element knows: those that the field does not name become zero.
+void add_unnamed_zeros(ElementField& field, const Model& model);
 
 /// Takes away the room of cells that have no value at all.
 void drop_empty_cells(ElementField& field);
