@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
+#include "solver/model/component.hpp"
 #include "solver/mesh/orientation.hpp"
 
 namespace comma::commands {
@@ -58,6 +63,33 @@ void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& c
   }
 }
 
+bool imposes_the_same(const solver::LinearRelation& one, const solver::LinearRelation& other) {
+  return !one.function && !other.function && one.value * other.terms.front().coefficient == other.value * one.terms.front().coefficient;
+}
+
+// Of several values that occurrences of one keyword impose on a component of a node the last counts (U1.03.00, rule of overloading).
+void keep_last(const Call& call, const char* keyword, std::size_t first, const LoadedModel& target, solver::Load& load, Context& context) {
+  std::map<std::pair<int, solver::Component>, std::size_t> last;
+  std::vector<char> overridden(load.relations.size(), 0);
+  std::string example;
+  for (std::size_t k = first; k < load.relations.size(); ++k) {
+    const solver::LinearRelation& relation = load.relations[k];
+    if (relation.terms.size() != 1) continue;
+    const auto [known, is_first] = last.try_emplace({relation.terms.front().node, relation.terms.front().component}, k);
+    if (is_first) continue;
+    const std::size_t before = std::exchange(known->second, k);
+    if (imposes_the_same(load.relations[before], relation)) continue;
+    overridden[before] = 1;
+    if (example.empty()) example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component), target.mesh.node_name(relation.terms.front().node));
+  }
+  const auto count = std::ranges::count(overridden, 1);
+  if (count == 0) return;
+  context.diagnostics.alarm("overridden-value", fmt::format("{}: {} of its values give way to later ones of the same keyword, that of {} for one", keyword, count, example), call.span,
+                            "where both are meant to hold, put them into two loads");
+  std::size_t k = 0;
+  std::erase_if(load.relations, [&](const solver::LinearRelation&) { return overridden[k++] != 0; });
+}
+
 }  // namespace
 
 Product affe_char_meca(const Call& call, Context& context) {
@@ -65,7 +97,10 @@ Product affe_char_meca(const Call& call, Context& context) {
   auto load = std::make_shared<solver::Load>();
   if (call.text("DOUBLE_LAGRANGE") == "NON") load->multipliers_per_relation = 1;
   for (const Keywords& imposed : call.factors("DDL_IMPO")) add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
+  keep_last(call, "DDL_IMPO", 0, target, *load, context);
+  const std::size_t of_faces = load->relations.size();
   for (const Keywords& imposed : call.factors("FACE_IMPO")) add_face_displacements(imposed, target, *load, context.diagnostics);
+  keep_last(call, "FACE_IMPO", of_faces, target, *load, context);
   for (const Keywords& imposed : call.factors("ARETE_IMPO")) add_edge_displacements(imposed, target, *load);
   for (const Keywords& imposed : call.factors("CHAMNO_IMPO")) add_displacements_of_field(imposed, target, *load);
   for (const Keywords& imposed : call.factors("DDL_POUTRE")) add_beam_displacements(imposed, target, *load);
@@ -84,6 +119,7 @@ Product affe_char_cine(const Call& call, Context& context) {
   for (const Keywords& imposed : call.factors("MECA_IMPO")) {
     add_imposed_displacements(imposed, "MECA_IMPO", target, *load, &context.diagnostics);
   }
+  keep_last(call, "MECA_IMPO", 0, target, *load, context);
   return load_concept(call, std::move(load));
 }
 
