@@ -1,16 +1,12 @@
 #include "commands/behaviour_reading.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
 #include "commands/selection.hpp"
-#include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
 
-using interpreter::DiagnosticError;
 using interpreter::Keywords;
 
 namespace {
@@ -47,14 +43,10 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   return {deformation->second, relation->second};
 }
 
-// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11).
-solver::CellBehaviour behaviour_on(const Keywords& keywords, solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
+// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.
+solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
   const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
   if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0) return behaviour;
-  if (behaviour.relation != solver::Relation::elastic && behaviour.relation != solver::Relation::hyperelastic) {
-    throw DiagnosticError("unsupported", fmt::format("STAT_NON_LINE: RELATION='{}' with DEFORMATION='GROT_GDEP' is not known of continua", keywords.text("RELATION")),
-                          keywords.span, "DEFORMATION='GDEF_LOG' has plasticity in large rotations");
-  }
   behaviour.kinematics = solver::Kinematics::green_lagrange;
   return behaviour;
 }
@@ -74,7 +66,7 @@ std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& ca
       cells.resize(result->size());
       std::iota(cells.begin(), cells.end(), 0);
     }
-    for (const int cell : cells) (*result)[static_cast<std::size_t>(cell)] = behaviour_on(keywords, behaviour, model, cell);
+    for (const int cell : cells) (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell);
   }
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;

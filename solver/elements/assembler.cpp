@@ -58,7 +58,7 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
   if (is_of_springs(relation)) return make_discrete_law_block(input, std::move(cells));
   const bool flows = relation != Relation::elastic;
-  if (flows && (formulation == Formulation::bar || formulation == Formulation::bar_2d)) return make_inelastic_bar_block(input, std::move(cells));
+  if ((flows || input.behaviour_of(cells.front()).from_initial_state) && is_bar(formulation)) return make_inelastic_bar_block(input, std::move(cells));
   if (flows)
     throw Error("unsupported", fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
                 "give these cells RELATION='ELAS'");

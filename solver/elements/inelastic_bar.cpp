@@ -156,24 +156,30 @@ class InelasticBar final : public ElementBlock {
   }
 
   int variable_count() const override {
+    if (behaviour_.relation == Relation::elastic) return 1;
     if (behaviour_.relation == Relation::kinematic_linear) return back_stress_size + 1;
     if (is_asymmetric()) return 4;
     return is_mixed() ? 2 + back_stress_size : 2;
   }
   void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::ranges::fill(out, 0.0);
+    if (behaviour_.relation == Relation::elastic) return;
     for (int element = 0; element < map_.element_count(); ++element) {
       const BarState reached = respond(element, u, state).state;
       const auto of_element = out.subspan(static_cast<std::size_t>(element * variable_count()));
       of_element[place_of_flow(reached.stress)] = reached.flowing ? 1.0 : 0.0;
       if (is_asymmetric()) of_element[2] = reached.p_compression;
       if (behaviour_.relation != Relation::kinematic_linear) of_element[0] = reached.p;
-      if (behaviour_.relation == Relation::kinematic_linear || is_mixed()) of_element[place_of_back_stress()] = reached.back_stress;
+      if (moves_centre()) of_element[place_of_back_stress()] = shown_back_stress() * reached.back_stress;
     }
   }
 
-  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
-    throw Error("unsupported", fmt::format("comma does not compute energies of bars that flow, such as {}", mesh_.cell_name(cells_.front())), "name the cells without them");
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Member& own = members_[static_cast<std::size_t>(element)];
+      const BarState reached = respond(element, u, state).state;
+      out[static_cast<std::size_t>(element)] = own.length * own.area * reached.stress * reached.stress / (2.0 * young_of(reached.moduli));
+    }
   }
   void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
     std::ranges::fill(out, absent);
@@ -193,12 +199,12 @@ class InelasticBar final : public ElementBlock {
       past.expansion = now.expansion;
       past.moduli = now.plastic;
       if (!reported.empty()) past.stress = reported[index] / members_[index].area;
-      if (variables.empty()) continue;
+      if (variables.empty() || behaviour_.relation == Relation::elastic) continue;
       const auto of_element = variables.subspan(index * static_cast<std::size_t>(variable_count()));
       past.flowing = of_element[place_of_flow(past.stress)] > 0.5;
       if (is_asymmetric()) past.p_compression = of_element[2];
       if (behaviour_.relation != Relation::kinematic_linear) past.p = of_element[0];
-      if (behaviour_.relation == Relation::kinematic_linear || is_mixed()) past.back_stress = of_element[place_of_back_stress()];
+      if (moves_centre()) past.back_stress = of_element[place_of_back_stress()] / shown_back_stress();
     }
   }
 
@@ -221,10 +227,12 @@ class InelasticBar final : public ElementBlock {
   bool is_mixed() const { return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction; }
   bool is_asymmetric() const { return behaviour_.relation == Relation::asymmetric_linear; }
   std::size_t place_of_flow(double stress) const {
-    if (is_asymmetric()) return stress < 0.0 ? 3 : 1;
-    return behaviour_.relation == Relation::kinematic_linear ? back_stress_size : 1;
+    return is_asymmetric() && stress < 0.0 ? 3 : 1;
   }
+  bool moves_centre() const { return behaviour_.relation == Relation::kinematic_linear || is_mixed(); }
   std::size_t place_of_back_stress() const { return is_mixed() ? 2 : 0; }
+  /// Kinematic hardening alone shows X of |stress - X| <= SY (R5.03.09), both together that of the tensor.
+  double shown_back_stress() const { return is_mixed() ? 1.0 : 1.5; }
 
   Member member(const BlockInput& input, int cell) const {
     const auto found = input.properties.sections.find(cell);

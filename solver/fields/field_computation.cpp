@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -46,18 +47,21 @@ std::vector<int> skin_cells(const Model& model) {
 // What plates have: forces and strains in their own axes, energies, forces on nodes. Their other fields lie in layers.
 constexpr std::array<std::string_view, 9> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
+std::vector<int> all_cells(const Model& model) {
+  std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  return cells;
+}
+
 void check_plates(const Model& model, std::string_view name, std::optional<std::span<const int>> cells) {
   if (std::ranges::find(plate_fields, name) != plate_fields.end()) return;
-  const auto check = [&](int cell) {
-    if (!is_plate(model.formulations[cell]) || model.is_skin(cell)) return;
-    throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(cell)),
-                "name the cells without plates, or take EFGE_ELNO");
-  };
-  if (cells) {
-    std::ranges::for_each(*cells, check);
-    return;
-  }
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) check(cell);
+  const std::vector<int> all = cells ? std::vector<int>(cells->begin(), cells->end()) : all_cells(model);
+  const auto plate = std::ranges::find_if(all, [&](int cell) { return is_plate(model.formulations[cell]) && !model.is_skin(cell); });
+  if (plate == all.end()) return;
+  // Over the whole model the elements that have such a field get it.
+  const auto has_other_elements = [&](int cell) { return model.formulations[cell] != Formulation::none && !is_plate(model.formulations[cell]) && !model.is_skin(cell); };
+  if (!cells && std::ranges::any_of(all, has_other_elements)) return;
+  throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)), "name the cells without plates, or take EFGE_ELNO");
 }
 
 std::vector<int> plate_cells(const Model& model) {
@@ -335,9 +339,18 @@ std::vector<int> FieldComputation::cells_in_green_strains() const {
   return cells;
 }
 
-// Of continua from their stresses; of springs, bars and beams from their displacements.
+bool FieldComputation::has_bars_with_memory() const {
+  if (!problem_.behaviours) return false;
+  for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell)
+    if (is_bar(problem_.model->formulations[cell]) && has_memory((*problem_.behaviours)[cell])) return true;
+  return false;
+}
+
+// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from what they remember.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
-  Field energies = assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
+  const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
+  if (has_bars_with_memory()) assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
+  Field energies = assembler_.elastic_energies(u);
   const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
   return energies;

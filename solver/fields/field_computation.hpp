@@ -69,6 +69,7 @@ class FieldComputation {
   void require_small_strains(std::string_view name) const;
   std::vector<int> cells_in_green_strains() const;
   void require_elastic_patterns(const ElementField& stresses) const;
+  bool has_bars_with_memory() const;
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);

@@ -42,7 +42,7 @@ struct CellBehaviour {
 
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {
-  return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && behaviour.kinematics == Kinematics::small) ||
+  return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && (behaviour.kinematics == Kinematics::small || behaviour.kinematics == Kinematics::green_lagrange)) ||
          behaviour.kinematics == Kinematics::logarithmic ||
          behaviour.kinematics == Kinematics::multiplicative || behaviour.kinematics == Kinematics::updated ||
          behaviour.kinematics == Kinematics::large_rotations;
