@@ -139,6 +139,7 @@ Product affe_materiau(const Call& call, Context&) {
     for (const int cell : selected_cells(assignment, mesh)) field->by_cell[cell] = material;
   }
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
+    if (assignment.text("NOM_VARC") == "GEOM") continue;
     solver::CommandVariable variable = command_variable(assignment, mesh);
     check_even_through_thickness(variable, assignment);
     if (const char* component = named_variable(assignment).component) keep_component(component, assignment, variable);

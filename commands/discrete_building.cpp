@@ -111,6 +111,10 @@ void assign(const Keywords& assignment, const Characteristic& wanted, const solv
     const auto make = all_terms ? solver::unsymmetric_mass : solver::symmetric_mass;
     properties.masses[cell] = make(mesh, cell, formulation, values, frame, orientation);
   }
+  if (wanted.stiffness) return;
+  // What is not given is zero (U4.42.01).
+  const std::vector<double> none(static_cast<std::size_t>(solver::discrete_components(formulation)), 0.0);
+  properties.discrete.try_emplace(cell, solver::diagonal_stiffness(mesh, cell, formulation, none, frame, orientation));
 }
 
 void check_count(const Keywords& assignment, std::size_t least, std::size_t most) {

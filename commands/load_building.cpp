@@ -53,7 +53,7 @@ bool is_plate(const LoadedModel& target, int cell) { return solver::is_plate(tar
 
 bool is_surface(const LoadedModel& target, int cell) {
   if (solver::is_plate(target.model.formulations[cell])) return is_plate(target, cell);
-  return target.model.is_skin(cell);
+  return target.model.is_skin(cell) && solver::dimension(target.mesh.cell_types[cell]) == solver::continuum_dimension(target.model.formulations[cell]) - 1;
 }
 
 std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,

@@ -14,6 +14,9 @@ using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 /// Cells by the names of their columns.
 using Row = std::vector<std::pair<std::string, Cell>>;
 
+/// Code_Aster's texts have fixed lengths: blanks at their ends do not count.
+std::string_view without_padding(std::string_view text);
+
 /// Every row has as many cells as there are columns.
 struct Table {
   std::string title;

@@ -49,7 +49,7 @@ bool passes(const Keywords& filter, const Cell& cell) {
     const auto* text = std::get_if<std::string>(&cell);
     if (text == nullptr) return false;
     return over_values(filter, filter.texts("VALE_K"), [&](const std::string& wanted) {
-      return holds(filter.text("CRIT_COMP"), text->compare(wanted));
+      return holds(filter.text("CRIT_COMP"), without_padding(*text).compare(without_padding(wanted)));
     });
   }
   const auto value = number_in(cell);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/table.hpp"
+
 namespace comma::commands {
 
 using interpreter::Keywords;
@@ -21,7 +23,9 @@ double as_double(const TestedValue& value) {
 void compare(Verdict& verdict) {
   const TestedValue& computed = *verdict.computed;
   if (std::holds_alternative<std::string>(verdict.reference) || std::holds_alternative<std::string>(computed)) {
-    verdict.passed = verdict.reference == computed;
+    const auto* one = std::get_if<std::string>(&verdict.reference);
+    const auto* other = std::get_if<std::string>(&computed);
+    verdict.passed = one != nullptr && other != nullptr ? without_padding(*one) == without_padding(*other) : verdict.reference == computed;
     verdict.error = verdict.passed ? 0.0 : 1.0;
     return;
   }

@@ -105,6 +105,16 @@ std::optional<Value> convert(const Value& value, const TypePage& type, const Cat
                                                                                                : std::nullopt;
     case Kind::factor:
       return std::nullopt;
+    case Kind::node_group:
+    case Kind::cell_group:
+    case Kind::node:
+    case Kind::cell:
+    case Kind::component:
+    case Kind::field:
+    case Kind::parameter:
+      // Names have fixed lengths in Code_Aster: blanks at their ends do not count.
+      if (!value.is_text() || !value.as_text().ends_with(' ')) return value.is_text() ? std::optional(value) : std::nullopt;
+      return Value(value.as_text().substr(0, value.as_text().find_last_not_of(' ') + 1));
     default:
       return value.is_text() ? std::optional(value) : std::nullopt;
   }
