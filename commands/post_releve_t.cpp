@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "commands/angles.hpp"
 #include "commands/commands.hpp"
 #include "commands/field_reading.hpp"
 #include "commands/points.hpp"
+#include "commands/reductions.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -319,13 +321,25 @@ void average(Table& table, const Keywords& action, const Reading& reading) {
   add("MOYE_EXT", [](const auto& mean) { return mean.last(); });
 }
 
+void add_mean(Table& table, Row row, const std::string& component, const std::vector<double>& values) {
+  row.insert(row.end(), {{"CMP", component}, {"MOYENNE", mean_of(values)}});
+  table.add_row(row);
+}
+
 void average_of_nodes(Table& table, const Keywords& action, const Reading& reading) {
-  for (const int component : wanted_components(action, reading.field)) {
-    const auto values = profile(reading, component).values;
-    double total = 0.0;
-    for (const double value : values) total += value;
-    Row row = reading.head;
-    row.insert(row.end(), {{"CMP", reading.field.components[component]}, {"MOYENNE", total / static_cast<double>(values.size())}});
+  for (const int component : wanted_components(action, reading.field)) add_mean(table, reading.head, reading.field.components[component], profile(reading, component).values);
+}
+
+// `where`: the columns that say where an extreme lies.
+template <class Where>
+void add_extremes(Table& table, const Row& head, const std::string& component, const solver::Extremes& found, Where where) {
+  for (const auto& [name, extreme] : {std::pair("MAX", found.greatest), std::pair("MIN", found.least), std::pair("MAXI_ABS", found.greatest_magnitude),
+                                      std::pair("MINI_ABS", found.least_magnitude)}) {
+    Row row = head;
+    row.emplace_back("EXTREMA", std::string(name));
+    const Row place = where(extreme);
+    row.insert(row.end(), place.begin(), place.end());
+    row.insert(row.end(), {{"CMP", component}, {"VALE", extreme.value}});
     table.add_row(row);
   }
 }
@@ -333,16 +347,47 @@ void average_of_nodes(Table& table, const Keywords& action, const Reading& readi
 void list_extremes(Table& table, const Keywords& action, const Reading& reading) {
   for (const int component : wanted_components(action, reading.field)) {
     const auto found = solver::extremes(reading.field, component, std::span<const int>(reading.nodes));
-    if (!found) continue;
-    for (const auto& [name, extreme] : {std::pair("MAX", found->greatest), std::pair("MIN", found->least),
-                                        std::pair("MAXI_ABS", found->greatest_magnitude), std::pair("MINI_ABS", found->least_magnitude)}) {
-      Row row = reading.head;
-      row.insert(row.end(), {{"EXTREMA", std::string(name)},
-                             {"NOEUD", table_node(reading.mesh, extreme.place)},
-                             {"CMP", reading.field.components[component]},
-                             {"VALE", extreme.value}});
-      table.add_row(row);
+    if (found) add_extremes(table, reading.head, reading.field.components[component], *found, [&](const solver::Extreme& at) { return Row{{"NOEUD", table_node(reading.mesh, at.place)}}; });
+  }
+}
+
+// --- values as cells have them: only what is extracted is averaged at nodes (U4.81.21) -------------------------------------
+
+bool is_of_cells(const Keywords& action, const FieldSource& source, const std::string& operation) {
+  const bool is_plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX");
+  return is_plain && (operation == "EXTREMA" || operation == "MOYENNE_ARITH") && std::holds_alternative<solver::ElementField>(source.field) && !names_a_place(action, node_places);
+}
+
+std::vector<int> cells_of(const Keywords& action, const solver::Mesh& mesh) {
+  std::vector<int> cells = place_of(action, mesh).cells;
+  if (!cells.empty()) return cells;
+  cells.resize(static_cast<std::size_t>(mesh.cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  return cells;
+}
+
+void add_of_cells(Table& table, const Keywords& action, const FieldSource& source, const std::string& operation) {
+  const auto& field = std::get<solver::ElementField>(source.field);
+  const std::vector<int> cells = cells_of(action, source.mesh);
+  const Row head = head_of_action(action, source);
+  const auto where = [&](const solver::Extreme& at) {
+    Row row = {{"MAILLE", table_cell(source.mesh, at.place)}};
+    if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(source.mesh, source.mesh.cell(at.place)[static_cast<std::size_t>(at.point)]));
+    if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", std::int64_t{at.point + 1});
+    return row;
+  };
+  for (const int component : chosen_components(action, field.components)) {
+    const std::string& name = field.components[static_cast<std::size_t>(component)];
+    if (operation == "EXTREMA") {
+      if (const auto found = solver::extremes(source.field, component, std::span<const int>(cells))) add_extremes(table, head, name, *found, where);
+      continue;
     }
+    std::vector<double> values;
+    for (const int cell : cells)
+      for (int point = 0; point < field.points(cell); ++point)
+        if (const double value = field.at(cell, point, component); !std::isnan(value)) values.push_back(value);
+    if (values.empty()) throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no cell there carries {}", name), action.span);
+    add_mean(table, head, name, values);
   }
 }
 
@@ -385,9 +430,16 @@ void act(Table& table, const Keywords& action, Context& context) {
       extract_by_cells(table, action, source);
       continue;
     }
+    std::vector<std::string> operations = action.texts("OPERATION");
+    std::erase_if(operations, [&](const std::string& operation) {
+      const bool of_cells = is_of_cells(action, source, operation);
+      if (of_cells) add_of_cells(table, action, source, operation);
+      return of_cells;
+    });
+    if (operations.empty()) continue;
     const Reading reading = read(action, source);
     if (std::exchange(first, false)) warn_of_order(action, reading, context);
-    for (const std::string& operation : action.texts("OPERATION")) {
+    for (const std::string& operation : operations) {
       if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
       if (operation == "EXTRACTION" && !action.has("RESULTANTE")) extract(table, action, reading);
       if (operation == "MOYENNE") average(table, action, reading);
