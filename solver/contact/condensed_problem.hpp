@@ -28,6 +28,7 @@ struct CondensedPoint {
   /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length (see shared_friction.hpp).
   double share_augmentation = 0.0;
   bool bilateral = false;                       ///< once closed it stays closed
+  double idle_friction = 0.0;  ///< Coulomb's coefficient where conditions hold both bodies along the surface: such friction moves nothing, and the law has none
 };
 
 /// A row whose force is `stiffness` times its own jump: springs that were added to the bodies come off again with it.

@@ -1,6 +1,7 @@
 #include "solver/contact/dead_directions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPo
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(squares);
     const Eigen::VectorXd along = motions.eigenvectors().col(0).tail(point.rows - 1);
     const bool shear_is_dead = motions.eigenvalues()[0] <= dead && along.norm() >= least_along;
-    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead)) point.law.friction = 0.0;
+    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead)) point.idle_friction = std::exchange(point.law.friction, 0.0);
     else if (shear_is_dead) point.law.dead = along.normalized();
   }
 }

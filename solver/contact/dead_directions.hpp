@@ -10,7 +10,7 @@
 namespace comma::solver {
 
 /// A traction along a direction in which both bodies are held (normal to a plane of symmetry) does nothing, and a shear that is its part along the surface does no more than a
-/// pressure: the law of the point gets it as its dead one, also where the surface lies askew. Where they are held in two directions, or in the plane in one that has a part along the surface, there is no friction. `reduced_rows`: those of the points, on the unknowns that conditions leave.
+/// pressure: the law of the point gets it as its dead one, also where the surface lies askew. Where they are held in two directions, or in the plane in one that has a part along the surface, friction moves nothing, and the law has none (CondensedPoint::idle_friction). `reduced_rows`: those of the points, on the unknowns that conditions leave.
 void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPoint>& points);
 
 /// Along what a point has no friction, because it lies on a node that has none there, or nearest to such nodes (SANS_GROUP_NO_FR, DIRE_EXCL_FROT); null: along no

@@ -97,7 +97,7 @@ class MixedContact {
 
   /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact is open, absent but at slave nodes (under local average
   /// contact at those inside patches); with friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
-  void add_multipliers(NodalField& displacements) const;
+  void add_multipliers(const Eigen::VectorXd& u, NodalField& displacements) const;
   /// CONT_NOEU (see contact_field.hpp) at u.
   NodalField contact_state(const Eigen::VectorXd& u, Positions positions) const;
 
@@ -138,8 +138,9 @@ class MixedContact {
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
   void note_lowered_augmentation(ContactDoubts& doubts) const;
-  Eigen::Vector3d shear_force(std::size_t p) const;
-  void add_forces_between_nodes(const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
+  Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;
+  Eigen::Vector3d shear_force(std::size_t p, const Eigen::VectorXd& jumps) const;
+  void add_forces_between_nodes(const Eigen::VectorXd& jumps, const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
   void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);

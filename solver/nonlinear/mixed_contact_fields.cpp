@@ -14,6 +14,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// A prescribed slip below this share of the largest displacement is none.
+constexpr double least_prescribed_slip = 1e-9;
+
 void add_forces(const Vector3d& normal, const Vector3d& shear, NodeContact& sum) {
   const Vector3d whole = sum.normal_force * sum.pair.normal + normal;
   sum.shear_force += shear;
@@ -31,7 +34,7 @@ void add_contact(const NodeContact& contact, NodeContact& sum) {
 
 }  // namespace
 
-void MixedContact::add_multipliers(NodalField& displacements) const {
+void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displacements) const {
   if (definition_.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
   const int added_components = definition_.has_friction ? dimension_ : problem_.components;
@@ -56,6 +59,14 @@ void MixedContact::add_multipliers(NodalField& displacements) const {
     place(key.second)[0] -= value[0];
     for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
   }
+  const Eigen::VectorXd now = jumps(u);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    const double limit = point.idle_friction * (point.rows > 0 ? forces_[point.first_row] : 0.0);
+    if (points_[p].node < 0 || !(limit > 0.0)) continue;
+    const Eigen::VectorXd shear = shear_rows(p, now);
+    for (Eigen::Index c = 0; c < shear.size(); ++c) place(points_[p].node)[c + 1] += shear[c] / limit;
+  }
   displacements.values = std::move(values);
 }
 
@@ -76,7 +87,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contact.sticking = state_.statuses[p] == ContactStatus::sticking;
     }
     if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
-    contact.shear_force = shear_force(p);
+    contact.shear_force = shear_force(p, now);
     for (int c = 1; c < condensed.rows; ++c) contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
     if (is_first) {
@@ -87,26 +98,36 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
       contacts[known->second] = contact;
     }
   }
-  add_forces_between_nodes(by_node, contacts);
+  add_forces_between_nodes(now, by_node, contacts);
   add_nodes_without_contact(positions, contacts);
   return contact_field(contacts, mesh_.node_count(), positions);
 }
 
-Vector3d MixedContact::shear_force(std::size_t p) const {
-  const CondensedPoint& condensed = problem_.points[p];
+/// Where conditions prescribe how a point slides the law leaves friction out, and it is what Coulomb's law says against that slip.
+Eigen::VectorXd MixedContact::shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const {
+  const CondensedPoint& point = problem_.points[p];
+  if (!(point.idle_friction > 0.0)) return forces_.segment(point.first_row + 1, point.rows - 1);
+  const Eigen::VectorXd slip = jumps.segment(point.first_row + 1, point.rows - 1);
+  const double size = slip.norm();
+  if (!(size > least_prescribed_slip * problem_.displacement)) return Eigen::VectorXd::Zero(point.rows - 1);
+  return -point.idle_friction * forces_[point.first_row] / size * slip;
+}
+
+Vector3d MixedContact::shear_force(std::size_t p, const Eigen::VectorXd& jumps) const {
   Vector3d force = Vector3d::Zero();
-  if (condensed.rows < 2) return force;
+  if (problem_.points[p].rows < 2) return force;
+  const Eigen::VectorXd rows = shear_rows(p, jumps);
   const Directions along = directions(points_[p]);
-  for (int c = 1; c < condensed.rows; ++c) force += forces_[condensed.first_row + c] * along[static_cast<std::size_t>(c)];
+  for (Eigen::Index c = 0; c < rows.size(); ++c) force += rows[c] * along[static_cast<std::size_t>(c + 1)];
   return force;
 }
 
 /// Nodes bear their shares of what points between them do, so that all together bear the whole force.
-void MixedContact::add_forces_between_nodes(const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
+void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
     if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0) continue;
-    const Vector3d normal = forces_[problem_.points[p].first_row] * point.normal, shear = shear_force(p);
+    const Vector3d normal = forces_[problem_.points[p].first_row] * point.normal, shear = shear_force(p, jumps);
     const auto nodes = mesh_.cell(point.cell);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       if (const auto known = by_node.find(Key(point.zone, nodes[a])); known != by_node.end()) add_forces(point.shape[a] * normal, point.shape[a] * shear, contacts[known->second]);

@@ -124,7 +124,7 @@ void StaticRun::add_patch_state(ResultStep& step) const {
 
 NodalField StaticRun::displacements() const {
   NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
-  if (mixed_) mixed_->add_multipliers(field);
+  if (mixed_) mixed_->add_multipliers(now_.state.u, field);
   return field;
 }
 
