@@ -98,6 +98,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPME_ELGA", &F::mechanical_strains},
       {"EPSG_ELGA", &F::green_strains},
       {"EPMG_ELGA", &F::mechanical_green_strains},
+      {"EPSL_ELGA", &F::logarithmic_strains},
       {"EPSP_ELGA", &F::plastic_strains_at_points},
       {"EPVC_ELGA", &F::variable_strains},
       {"VARC_ELGA", &F::command_variables},
@@ -277,6 +278,10 @@ Field FieldComputation::plastic_strains_at_points(std::size_t step) {
 
 Field FieldComputation::green_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::green);
+}
+
+Field FieldComputation::logarithmic_strains(std::size_t step) {
+  return strains(input(), displacement(step), StrainKind::logarithmic);
 }
 
 Field FieldComputation::mechanical_green_strains(std::size_t step) {

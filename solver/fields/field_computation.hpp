@@ -16,7 +16,7 @@
 
 namespace comma::solver {
 
-/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSP, EPVC, DEGE; criteria
+/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL, EPSP, EPVC, DEGE; criteria
 /// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC;
 /// energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
 /// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
@@ -62,6 +62,7 @@ class FieldComputation {
   Field plastic_strains_at_points(std::size_t step);
   Field green_strains(std::size_t step);
   Field mechanical_green_strains(std::size_t step);
+  Field logarithmic_strains(std::size_t step);
   Field variable_strains(std::size_t step);
   Field command_variables(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
@@ -31,6 +32,7 @@ class DisplacementGradients {
     const Eigen::Vector3d along = Eigen::Vector3d(model_.mesh->nodes[nodes[1]].data()) - Eigen::Vector3d(model_.mesh->nodes[nodes[0]].data());
     const Eigen::Vector3d change = value(nodes[1], dim, cell) - value(nodes[0], dim, cell);
     const double green = is_green(kind) ? 0.5 * change.squaredNorm() : 0.0;
+    if (kind == StrainKind::logarithmic) return std::log((along + change).norm() / along.norm());
     return (along.dot(change) + green) / along.squaredNorm();
   }
 
@@ -68,6 +70,13 @@ class DisplacementGradients {
   std::array<int, 3> columns_;
 };
 
+/// ln(F^T F) / 2 with F = I + h.
+Eigen::Matrix3d logarithmic_strain(const Eigen::Matrix3d& h) {
+  const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + h;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stretches(f.transpose() * f);
+  return stretches.eigenvectors() * (0.5 * stretches.eigenvalues().array().log()).matrix().asDiagonal() * stretches.eigenvectors().transpose();
+}
+
 Vector6d engineering(const Eigen::Matrix3d& strain) {
   Vector6d result;
   result << strain(0, 0), strain(1, 1), strain(2, 2), 2 * strain(0, 1), 2 * strain(0, 2), 2 * strain(1, 2);
@@ -85,6 +94,7 @@ Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, 
                    const MaterialPoint& at) {
   Eigen::Matrix3d tensor = 0.5 * (h + h.transpose());
   if (is_green(kind)) tensor += 0.5 * h.transpose() * h;
+  if (kind == StrainKind::logarithmic) tensor = logarithmic_strain(h);
   Vector6d strain = engineering(tensor);
   const bool plane_stress = is_plane_stress(input.model.formulations[cell]);
   if (!plane_stress && !is_mechanical(kind)) return strain;

@@ -10,7 +10,8 @@ enum class StrainKind : std::uint8_t {
   total,       ///< EPSI: symmetric part of the displacement gradient
   mechanical,  ///< EPME: less the strain of the command variables
   green,       ///< EPSG: Green-Lagrange
-  mechanical_green  ///< EPMG: the same less the strain of the command variables
+  mechanical_green,  ///< EPMG: the same less the strain of the command variables
+  logarithmic  ///< EPSL: ln(F^T F) / 2
 };
 
 /// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
