@@ -24,6 +24,13 @@ constexpr double widest_margin = 0.05;
 constexpr double telling_margin = 1e-3;
 /// Of a correction of the geometry at least this share is made.
 constexpr double least_relaxation = 0.05;
+/// Of the displacement of a step: what solutions may differ by from one update to the next although nothing has moved.
+constexpr double rounding_of_solutions = 1e-10;
+/// Updates are accelerated where less than this is tolerated and the last one moved less than that, by this share of the one before at most; so many moves are combined.
+constexpr double accelerated_tolerance = 1e-8;
+constexpr double accelerated_change = 1e-2;
+constexpr double nearing_share = 0.9;
+constexpr std::size_t accelerated_moves = 3;
 /// Displacements of a step below this share of the whole ones are rounding.
 constexpr double negligible_displacement = 1e-11;
 
@@ -64,7 +71,7 @@ bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::Vector
   if (worst_ >= 0) history_.worst = mesh_.node_name(worst_);
   if (contact_.geometry_update == GeometryUpdate::controlled)
     return static_cast<int>(history_.changes.size()) >= std::max(1, contact_.controlled_updates);
-  if (history_.changes.back() <= contact_.geometry_tolerance) return true;
+  if (history_.changes.back() <= contact_.geometry_tolerance || only_rounding_moves()) return true;
   if (!goes_to_and_fro()) return false;
   restless_ = history_.changes.back();
   return true;
@@ -81,6 +88,10 @@ double GeometryUpdates::margin_of(int done) const {
 Eigen::VectorXd GeometryUpdates::relaxed(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
   const auto& changes = history_.changes;
   if (contact_.geometry_update != GeometryUpdate::automatic || changes.empty()) return now;
+  if (auto combined = accelerated(paired, now)) {
+    last_move_ = now - paired;
+    return *std::move(combined);
+  }
   Eigen::VectorXd move = now - paired;
   const Eigen::VectorXd turn = last_move_.size() ? Eigen::VectorXd(move - last_move_) : Eigen::VectorXd();
   const bool nears = static_cast<int>(changes.size()) < free_updates || changes.back() < 0.5 * *std::min_element(changes.begin(), changes.end() - 1);
@@ -88,6 +99,37 @@ Eigen::VectorXd GeometryUpdates::relaxed(const Eigen::VectorXd& paired, const Ei
     relaxation_ = std::clamp(-relaxation_ * last_move_.dot(turn) / turn.squaredNorm(), least_relaxation, 1.0);
   last_move_ = std::move(move);
   return relaxation_ < 1.0 ? Eigen::VectorXd(paired + relaxation_ * last_move_) : now;
+}
+
+/// Where updates that hardly move anything no longer come nearer to rest what is left is the rounding of solutions.
+bool GeometryUpdates::only_rounding_moves() const {
+  const auto& changes = history_.changes;
+  if (changes.size() < 3) return false;
+  const double before = *std::min_element(changes.begin(), changes.end() - 1);
+  return changes.back() <= rounding_of_solutions && changes.back() > 0.5 * before;
+}
+
+/// Anderson's acceleration (Walker and Ni, SIAM Journal on Numerical Analysis 49, 2011) of updates that come nearer to rest, each by about as much, where many digits are wanted:
+/// the combination of the last moves that is the least.
+std::optional<Eigen::VectorXd> GeometryUpdates::accelerated(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+  const auto& changes = history_.changes;
+  const bool nears = changes.size() > 1 && changes.back() < nearing_share * *(changes.end() - 2);
+  if (contact_.geometry_tolerance > accelerated_tolerance || changes.back() > accelerated_change || !nears) {
+    earlier_.clear();
+    return std::nullopt;
+  }
+  earlier_.emplace_back(paired, now);
+  if (earlier_.size() > accelerated_moves + 1) earlier_.pop_front();
+  const auto count = static_cast<Eigen::Index>(earlier_.size()) - 1;
+  if (count == 0) return std::nullopt;
+  Eigen::MatrixXd moves(paired.size(), count), places(paired.size(), count);
+  const Eigen::VectorXd move = now - paired;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto& [from, to] = earlier_[static_cast<std::size_t>(k)];
+    places.col(k) = now - to;
+    moves.col(k) = move - (to - from);
+  }
+  return now - places * moves.colPivHouseholderQr().solve(move).eval();
 }
 
 bool GeometryUpdates::goes_to_and_fro() const {

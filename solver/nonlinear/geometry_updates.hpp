@@ -1,6 +1,9 @@
 // When the updates of the geometry within a step may end (RESI_GEOM, U4.44.11).
 #pragma once
 
+#include <deque>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/contact/contact_points.hpp"
@@ -43,7 +46,7 @@ class GeometryUpdates {
   double margin() const;
 
   /// The displacements at which surfaces are to be paired next: those of the last solution, or of updates that do not come nearer to rest the relaxed ones (Aitken's factor
-  /// of vectors: Kuettler and Wall, Computational Mechanics 43, 2008, section 3). `paired`, `now`: as settled() was given.
+  /// of vectors: Kuettler and Wall, Computational Mechanics 43, 2008, section 3), and of those that come nearer where many digits are wanted the accelerated ones. `paired`, `now`: as settled() was given.
   Eigen::VectorXd relaxed(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
 
   /// To be told the pairs of each geometry: facets that return after others took their place, several times over, will go on returning.
@@ -58,12 +61,15 @@ class GeometryUpdates {
   const DofMap& dofs_;
   const Eigen::VectorXd& start_;
   double margin_of(int done) const;
+  bool only_rounding_moves() const;
+  std::optional<Eigen::VectorXd> accelerated(const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
   bool goes_to_and_fro() const;
 
   GeometryHistory history_;
   double restless_ = 0.0;
   double relaxation_ = 1.0;
   Eigen::VectorXd last_move_;  ///< of the solution from where its surfaces were paired
+  std::deque<std::pair<Eigen::VectorXd, Eigen::VectorXd>> earlier_;  ///< where surfaces were paired and where nodes went from there, in the updates that are accelerated
   int worst_ = -1;  ///< the node that moved most
   std::vector<std::vector<ContactPair>> visited_;
 };
