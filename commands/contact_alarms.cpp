@@ -104,7 +104,8 @@ void warn_of_inward_directions(const Call& call, const solver::ContactDefinition
     const solver::ContactZone& zone = definition.zones[k];
     const auto look = [&](const char* keyword, solver::NormalRule rule, solver::NormalSide other, const std::array<double, 3>& direction, const std::vector<int>& cells) {
       if (rule != solver::NormalRule::fixed || zone.normal_side == other) return;
-      const bool has_normals = lies_in_plane(mesh) || std::ranges::all_of(cells, [&](int cell) { return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == 2; });
+      const int with_normals = lies_in_plane(mesh) ? 1 : 2;
+      const bool has_normals = std::ranges::all_of(cells, [&](int cell) { return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == with_normals; });
       if (!has_normals || !points_inward(direction, cells, mesh)) return;
       diagnostics.alarm("inward-normals", fmt::format("DEFI_CONTACT: {} points into the body, where it stands for the normal that points out of it: the bodies may go through each other", keyword),
                         zones[k].span_of(keyword), "turn the vector round");

@@ -129,7 +129,7 @@ Family family_of(CellType type) {
     case CellType::quad9: return Family::quadrangle;
     default:
       throw Error("unsupported", fmt::format("a {} cell cannot be a contact facet", name_of(type)),
-                  "contact surfaces are made of SEG2, SEG3, TRIA3, TRIA6, TRIA7, QUAD4, QUAD8 or QUAD9 cells");
+                  "contact surfaces are made of SEG2, SEG3, TRIA3, TRIA6, TRIA7, QUAD4, QUAD8 or QUAD9 cells; a POI1 may be a slave in FORMULATION='DISCRETE', with NORMALE='MAIT' or VECT_ESCL='FIXE'");
   }
 }
 
