@@ -172,7 +172,9 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
     if (options.tangent.correction == solver::TangentKind::elastic) options.max_iterations = std::max(options.max_iterations, options.max_elastic_iterations);
   }
   const SolverChoice choice = solver_choice(call);
-  options.method = choice.method;
+  // Each contact row is a right-hand side, and one factor serves them all.
+  const bool has_many_sides = call.has("CONTACT") && choice.method == solver::LinearMethod::conjugate_gradient;
+  options.method = has_many_sides ? solver::LinearMethod::cholmod : choice.method;
   options.linear = choice.options;
   return options;
 }
