@@ -27,7 +27,7 @@ Value initialise(Evaluator& evaluator, const CallArguments& arguments) {
   for (const Value& option : arguments.positional) {
     if (!option.is_text())
       raise(ErrorKind::type, "init takes options in quotes and KEYWORD=value",
-            "as in init(CODE=_F(NIV_PUB_WEB=\"INTERNET\"))");
+            "as in init(CODE=\"OUI\")");
   }
   for (const auto& item : arguments.named) {
     if (item.name != "debug") kept.named.push_back(item);
