@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "commands/angles.hpp"
@@ -68,6 +69,14 @@ void check_frame(const Keywords& action, const std::vector<int>& nodes, const so
   }
 }
 
+// Axes that go round a line; nothing for other frames.
+std::optional<solver::NodeAxes> round_axes(const Keywords& action, const solver::Mesh& mesh) {
+  const std::string& frame = action.text("REPERE");
+  if (frame == "POLAIRE") return solver::polar_axes(mesh);
+  if (frame == "CYLINDRIQUE") return solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z"));
+  return std::nullopt;
+}
+
 solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
   const std::string& frame = action.text("REPERE");
   if (frame == "GLOBAL") return field;
@@ -75,12 +84,11 @@ solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, co
     const Eigen::Matrix3d axes = axes_by_angles(action);
     return solver::in_axes(field, nodes, [&](int) { return axes; });
   }
-  if (frame == "POLAIRE") return solver::in_axes(field, nodes, solver::polar_axes(mesh));
   if (frame == "LOCAL") {
     const auto second = action.has("VECT_Y") ? std::optional(vector_of(action, "VECT_Y")) : std::nullopt;
     return solver::in_axes(field, nodes, solver::line_axes(mesh, nodes, second));
   }
-  return solver::in_axes(field, nodes, solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z")));
+  return solver::in_axes(field, nodes, solver::with_axes_of_neighbours(mesh, nodes, *round_axes(action, mesh)));
 }
 
 // The values themselves, or what is made of the tensors.
@@ -132,6 +140,17 @@ void warn_of_order(const Keywords& action, const Reading& reading, Context& cont
                             fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {}='{}' takes them to: the way turns back at {}", keyword,
                                         by_axes ? "LOCAL" : "MOYENNE", reading.mesh.node_name(*node)),
                             action.span_of(keyword), "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
+}
+
+// Away from an axis there is no direction on it: nodes there take the axes of others.
+void warn_of_axis(const Keywords& action, const Reading& reading, Context& context) {
+  const auto axes = round_axes(action, reading.mesh);
+  if (!axes || action.has("RESULTANTE")) return;
+  const auto on_axis = std::ranges::find_if(reading.nodes, [&](int node) { return !solver::has_axes(*axes, node); });
+  if (on_axis == reading.nodes.end()) return;
+  context.diagnostics.alarm("node-on-axis",
+                            fmt::format("POST_RELEVE_T: node {} lies on the axis, where there is no radial direction: it takes the axes of the nearest node off it", reading.mesh.node_name(*on_axis)),
+                            action.span_of("REPERE"), "leave it out, or look at its values in the axes of the mesh");
 }
 
 Reading read(const Keywords& action, const FieldSource& source) {
@@ -438,7 +457,10 @@ void act(Table& table, const Keywords& action, Context& context) {
     });
     if (operations.empty()) continue;
     const Reading reading = read(action, source);
-    if (std::exchange(first, false)) warn_of_order(action, reading, context);
+    if (std::exchange(first, false)) {
+      warn_of_order(action, reading, context);
+      warn_of_axis(action, reading, context);
+    }
     for (const std::string& operation : operations) {
       if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
       if (operation == "EXTRACTION" && !action.has("RESULTANTE")) extract(table, action, reading);

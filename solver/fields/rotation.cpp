@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -128,6 +129,27 @@ NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const 
     axes.row(1) = along;
     axes.row(2) = along.cross(radial.normalized());
     return axes;
+  };
+}
+
+bool has_axes(const NodeAxes& axes, int node) {
+  try {
+    axes(node);
+    return true;
+  } catch (const Error& error) {
+    if (error.code() != "zero-vector") throw;
+    return false;
+  }
+}
+
+NodeAxes with_axes_of_neighbours(const Mesh& mesh, std::span<const int> nodes, NodeAxes axes) {
+  std::vector<int> known;
+  std::ranges::copy_if(nodes, std::back_inserter(known), [&](int node) { return has_axes(axes, node); });
+  if (known.empty() || known.size() == nodes.size()) return axes;
+  return [&mesh, known, axes](int node) {
+    if (has_axes(axes, node)) return axes(node);
+    const auto place = [&](int each) { return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(each)].data()); };
+    return axes(*std::ranges::min_element(known, {}, [&](int each) { return (place(each) - place(node)).squaredNorm(); }));
   };
 }
 

@@ -34,6 +34,12 @@ NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const 
 /// asked for a node on the Z axis.
 NodeAxes polar_axes(const Mesh& mesh);
 
+/// Whether there are axes at a node: not on the line that axes go round.
+bool has_axes(const NodeAxes& axes, int node);
+
+/// The same axes; a node that has none takes those of the nearest of `nodes` that has: its own as it is approached from there. Throws what `axes` throws where none has.
+NodeAxes with_axes_of_neighbours(const Mesh& mesh, std::span<const int> nodes, NodeAxes axes);
+
 /// The axes along the broken line through `nodes`: first its tangent, at inner nodes the mean direction of the two segments there;
 /// second the part of `y` across it, without `y` (in a plane mesh) the tangent turned by 90 degrees; third their cross product. Throws
 /// Error `zero-vector` for a line of one node, for two neighbours at one place, and where `y` lies along the line; `missing-direction` for

@@ -69,6 +69,16 @@ TEST_CASE("a node on the axis of revolution is named", "[fields]") {
   CHECK_THROWS_WITH(axes(0), Catch::Contains("N1"));
 }
 
+TEST_CASE("a node on the axis of revolution may take the axes of its nearest neighbour", "[fields]") {
+  const Mesh mesh = nodes_at({{0, 0, 3}, {0, 1, 3}, {5, 0, 3}});
+  const std::vector<int> nodes = {0, 1, 2};
+  const auto axes = with_axes_of_neighbours(mesh, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  CHECK(axes(0).row(0) == Eigen::RowVector3d::UnitY());
+  CHECK(axes(2).row(0) == Eigen::RowVector3d::UnitX());
+  const std::vector<int> alone = {0};
+  CHECK_THROWS_WITH(with_axes_of_neighbours(mesh, alone, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()))(0), Catch::Contains("N1"));
+}
+
 TEST_CASE("a resultant's moment moves with its point as the force says", "[fields]") {
   const Mesh mesh = nodes_at({{1, 0, 0}, {0, 2, 0}});
   const NodalField forces{"DEPL_R", {"DX", "DY", "DRZ"}, {0.0, 3.0, 0.5, 4.0, absent, absent}};
