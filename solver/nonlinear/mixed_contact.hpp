@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -138,6 +139,8 @@ class MixedContact {
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
   void note_lowered_augmentation(ContactDoubts& doubts) const;
+  void add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const;
+  double share_of_limit(const CondensedPoint& point, double slip, double limit) const;
   Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;
   Eigen::Vector3d shear_force(std::size_t p, const Eigen::VectorXd& jumps) const;
   void add_forces_between_nodes(const Eigen::VectorXd& jumps, const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;

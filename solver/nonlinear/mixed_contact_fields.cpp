@@ -1,6 +1,7 @@
 // What the mixed formulation adds to results: multipliers, CONT_NOEU, CONT_ELEM.
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 
 #include "solver/contact/patch_field.hpp"
@@ -59,6 +60,13 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
     place(key.second)[0] -= value[0];
     for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
   }
+  add_idle_multipliers(u, place);
+  displacements.values = std::move(values);
+}
+
+/// Shares of the limit where conditions prescribe how points slide.
+void MixedContact::add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const {
+  if (std::ranges::none_of(problem_.points, [](const CondensedPoint& point) { return point.idle_friction > 0.0; })) return;
   const Eigen::VectorXd now = jumps(u);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
@@ -67,7 +75,6 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
     const Eigen::VectorXd shear = shear_rows(p, now);
     for (Eigen::Index c = 0; c < shear.size(); ++c) place(points_[p].node)[c + 1] += shear[c] / limit;
   }
-  displacements.values = std::move(values);
 }
 
 NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
@@ -109,8 +116,16 @@ Eigen::VectorXd MixedContact::shear_rows(std::size_t p, const Eigen::VectorXd& j
   if (!(point.idle_friction > 0.0)) return forces_.segment(point.first_row + 1, point.rows - 1);
   const Eigen::VectorXd slip = jumps.segment(point.first_row + 1, point.rows - 1);
   const double size = slip.norm();
-  if (!(size > least_prescribed_slip * problem_.displacement)) return Eigen::VectorXd::Zero(point.rows - 1);
-  return -point.idle_friction * forces_[point.first_row] / size * slip;
+  const double limit = point.idle_friction * forces_[point.first_row];
+  if (!(size > least_prescribed_slip * problem_.displacement) || !(limit > 0.0)) return Eigen::VectorXd::Zero(point.rows - 1);
+  return -limit * share_of_limit(point, size, limit) / size * slip;
+}
+
+/// Of the limit of friction: what a penalty brings by a slip of that size, a share a length in the mixed formulation (see share_friction), a force a length in the discrete one.
+double MixedContact::share_of_limit(const CondensedPoint& point, double slip, double limit) const {
+  if (!point.law.friction_penalised) return 1.0;
+  const double brought = point.law.friction_augmentation * slip;
+  return std::min(1.0, definition_.formulation == ContactFormulation::mixed ? brought : point.weight * brought / limit);
 }
 
 Vector3d MixedContact::shear_force(std::size_t p, const Eigen::VectorXd& jumps) const {
