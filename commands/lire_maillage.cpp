@@ -47,8 +47,9 @@ std::string text_format_of(const std::string& path) {
   return found == std::end(marks) ? "" : found->second;
 }
 
-// A file that is there, but is called as those of another format are.
+// A file that is there, but is called as those of another format are; where one of its own is there, something else is missing.
 [[noreturn]] void tell_missing(const interpreter::DiagnosticError& missing, const Call& call, Context& context) {
+  if (context.files.candidate(extensions().at(call.text("FORMAT")))) throw missing;
   for (const auto& [format, names] : extensions()) {
     const auto path = context.files.candidate(names);
     if (path) throw interpreter::DiagnosticError("missing-file", missing.what(), call.span, fmt::format("FORMAT='{}' would read {}", format, path->filename().string()));
