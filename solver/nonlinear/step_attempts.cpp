@@ -26,6 +26,8 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
     if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_);
     if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
       if (event) throw;
+      // In a part of a step contact has been settled already.
+      if (sequence.is_part()) throw advised(error, problem_);
       return solve_as_last_resort(instant, before, error);
     }
     return take_again(instant, before, sequence, event ? fmt::format("has failed ({})", error.code()) : "has failed");
