@@ -22,9 +22,10 @@ constexpr double overlap_share = 1e-9;
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   if (rubs_by_shears_) note_unshared_friction(doubts);
   if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
+  if (rows_.rows() == 0) return;
   note_coarse_faces(u, doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
-  if (rows_.rows() == 0 || std::ranges::none_of(definition_.zones, is_penalised)) return;
+  if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
   const Eigen::VectorXd without = jumps_without_contact(u);
   note_held_overlaps(now, doubts);
@@ -50,11 +51,12 @@ double MixedContact::pushed_back() {
 
 /// Between nodes the law holds in the mean over the points of a face: one that is pressed at few of its points cannot press there alone, and lets the master in.
 void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts) {
-  const auto counts = [&](std::size_t p) { return problem_.points[p].rows > 0 && problem_.points[p].node_count > 1 && !problem_.points[p].law.penalised; };
+  const auto counts = [](const CondensedPoint& point) { return point.rows > 0 && point.node_count > 1 && !point.law.penalised; };
+  if (std::ranges::none_of(problem_.points, counts)) return;
   const Eigen::VectorXd now = jumps(u);
   std::vector<double> overlap(definition_.zones.size(), 0.0), area = overlap;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    if (!counts(p)) continue;
+    if (!counts(problem_.points[p])) continue;
     const double depth = -now[problem_.points[p].first_row];
     if (depth <= overlap_share * extent(mesh_, points_[p].cell)) continue;
     const auto zone = static_cast<std::size_t>(points_[p].zone);
