@@ -16,7 +16,6 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
-#include "solver/fields/field_computation.hpp"
 #include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
@@ -133,8 +132,9 @@ bool Observer::is_due(const Observation& observation, double instant, int number
 
 void Observer::observe(int number, Table& table) {
   const solver::ResultStep& step = computed_.result.steps.back();
+  Computation computation;
   for (Observation& observation : observations_) {
-    if (is_due(observation, step.instant, number)) observe(observation, step, number, table);
+    if (is_due(observation, step.instant, number)) observe(observation, step, number, computation, table);
   }
 }
 
@@ -150,23 +150,24 @@ void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Di
   }
 }
 
-const solver::Field& Observer::watched(const Keywords& keywords, const solver::ResultStep& step, solver::Field& made) const {
+const solver::Field& Observer::watched(const Keywords& keywords, const solver::ResultStep& step, Computation& computation, solver::Field& made) const {
   const std::string& name = keywords.text("NOM_CHAM");
   const bool is_computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
-  if (is_computed) made = solver::FieldComputation(computed_.problem, computed_.result).compute(name, computed_.result.steps.size() - 1);
+  if (is_computed && !computation) computation.emplace(computed_.problem, computed_.result);
+  if (is_computed) made = computation->compute(name, computed_.result.steps.size() - 1);
   const solver::Field& held = is_computed ? made : field_of(keywords, step);
   if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held, mesh_);
   if (!keywords.given("NOM_VARI")) return held;
   return made = by_variable_names(keywords, held, computed_.problem.behaviours.get());
 }
 
-void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const {
+void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation, Table& table) const {
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
   observation.was_due = true;
   solver::Field made;
-  const solver::Field& field = watched(keywords, step, made);
+  const solver::Field& field = watched(keywords, step, computation, made);
   check_place(keywords, field);
   const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");

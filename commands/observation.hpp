@@ -1,12 +1,14 @@
 // Values followed through the steps of a nonlinear computation (STAT_NON_LINE, OBSERVATION; U4.51.03).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "commands/concepts.hpp"
 #include "commands/result_reading.hpp"
 #include "interpreter/call.hpp"
+#include "solver/fields/field_computation.hpp"
 
 namespace comma::commands {
 
@@ -38,9 +40,12 @@ class Observer {
   };
 
   bool is_due(const Observation& observation, double instant, int number) const;
-  void observe(Observation& observation, const solver::ResultStep& step, int number, Table& table) const;
+  /// The last step's fields that it does not hold, made when the first is asked for.
+  using Computation = std::optional<solver::FieldComputation>;
+
+  void observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation, Table& table) const;
   /// The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula; `made` holds what the step does not.
-  const solver::Field& watched(const interpreter::Keywords& keywords, const solver::ResultStep& step, solver::Field& made) const;
+  const solver::Field& watched(const interpreter::Keywords& keywords, const solver::ResultStep& step, Computation& computation, solver::Field& made) const;
 
   const ResultConcept& computed_;
   const solver::Mesh& mesh_;
