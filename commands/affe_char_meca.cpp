@@ -10,8 +10,8 @@
 #include "commands/commands.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
-#include "solver/model/component.hpp"
 #include "solver/mesh/orientation.hpp"
+#include "solver/model/component.hpp"
 
 namespace comma::commands {
 

@@ -69,7 +69,7 @@ solver::NodalFunction at_nodes(const History& history, int cell, std::span<const
 bool bears(const LoadedModel& target, const ForceField& kind, int cell) {
   const int body = solver::continuum_dimension(target.model.formulations[cell]);
   const int own = solver::dimension(target.mesh.cell_types[cell]);
-  return body == kind.body && (kind.inside ? own == body : target.model.is_skin(cell) && own == body - 1);
+  return body == kind.body && (kind.inside ? own == body : is_surface(target, cell));
 }
 
 int add_pressures(const solver::Result& result, const LoadedModel& target, solver::Load& load) {

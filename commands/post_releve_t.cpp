@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -112,13 +111,16 @@ struct Place {
   std::vector<int> nodes, cells;
 };
 
+void require_place(const Keywords& action) {
+  if (names_a_place(action)) return;
+  throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA, MAILLE or TOUT");
+}
+
 // Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give their nodes.
 Place place_of(const Keywords& action, const solver::Mesh& mesh) {
   const bool by_nodes = names_a_place(action, node_places);
   auto nodes = selected_nodes(action, mesh, by_nodes ? node_places : PlaceKeywords());
-  if (!names_a_place(action)) {
-    throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA, MAILLE or TOUT");
-  }
+  require_place(action);
   return {std::move(nodes), selected_cells(action, mesh, cell_places)};
 }
 
@@ -377,17 +379,10 @@ bool is_of_cells(const Keywords& action, const FieldSource& source, const std::s
   return is_plain && (operation == "EXTREMA" || operation == "MOYENNE_ARITH") && std::holds_alternative<solver::ElementField>(source.field) && !names_a_place(action, node_places);
 }
 
-std::vector<int> cells_of(const Keywords& action, const solver::Mesh& mesh) {
-  std::vector<int> cells = place_of(action, mesh).cells;
-  if (!cells.empty()) return cells;
-  cells.resize(static_cast<std::size_t>(mesh.cell_count()));
-  std::iota(cells.begin(), cells.end(), 0);
-  return cells;
-}
-
 void add_of_cells(Table& table, const Keywords& action, const FieldSource& source, const std::string& operation) {
   const auto& field = std::get<solver::ElementField>(source.field);
-  const std::vector<int> cells = cells_of(action, source.mesh);
+  require_place(action);
+  const std::vector<int> cells = selected_cells(action, source.mesh);
   const Row head = head_of_action(action, source);
   const auto where = [&](const solver::Extreme& at) {
     Row row = {{"MAILLE", table_cell(source.mesh, at.place)}};

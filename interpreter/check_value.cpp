@@ -113,8 +113,8 @@ std::optional<Value> convert(const Value& value, const TypePage& type, const Cat
     case Kind::field:
     case Kind::parameter:
       // Names have fixed lengths in Code_Aster: blanks at their ends do not count.
-      if (!value.is_text() || !value.as_text().ends_with(' ')) return value.is_text() ? std::optional(value) : std::nullopt;
-      return Value(value.as_text().substr(0, value.as_text().find_last_not_of(' ') + 1));
+      if (value.is_text() && value.as_text().ends_with(' ')) return Value(value.as_text().substr(0, value.as_text().find_last_not_of(' ') + 1));
+      [[fallthrough]];
     default:
       return value.is_text() ? std::optional(value) : std::nullopt;
   }
