@@ -7,6 +7,7 @@
 
 #include "solver/error.hpp"
 #include "solver/linear/blas_threads.hpp"
+#include "solver/linear/large_pages.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/shared_library.hpp"
 #include "solver/linear/supernodal_compliance.hpp"
@@ -25,8 +26,15 @@ void keep_loops_single(const SharedLibrary& library) {
   if (auto* set_levels = library.function_if_any<void(int)>("omp_set_max_active_levels")) set_levels(0);
 }
 
+void use_large_pages(const SharedLibrary& library) {
+  if (auto* memory = library.variable_if_any<SuiteSparse_config_struct>("SuiteSparse_config")) memory->malloc_func = allocate_in_large_pages;
+}
+
 struct Cholmod {
-  Cholmod() { keep_loops_single(library); }
+  Cholmod() {
+    keep_loops_single(library);
+    use_large_pages(library);
+  }
 
   SharedLibrary library{COMMA_CHOLMOD_LIBRARY};
   decltype(&cholmod_start) start = library.function<decltype(cholmod_start)>("cholmod_start");

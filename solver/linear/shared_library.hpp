@@ -18,7 +18,12 @@ class SharedLibrary {
   Function* function_if_any(const char* name) const {
     return reinterpret_cast<Function*>(symbol_if_any(name));
   }
-  /// The same. Throws Error `missing-library` if there is none of that name.
+  /// The address of a variable, here or in a library below; null where there is none.
+  template <typename Variable>
+  Variable* variable_if_any(const char* name) const {
+    return static_cast<Variable*>(symbol_if_any(name));
+  }
+  /// The address of a function. Throws Error `missing-library` if there is none of that name.
   template <typename Function>
   Function* function(const char* name) const {
     return reinterpret_cast<Function*>(symbol(name));
