@@ -89,7 +89,7 @@ solver::Result chosen_steps(const Keywords& print, const solver::Result& result)
   part.bare_mesh = result.bare_mesh;
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
-    std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first); });
+    std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first) || is_layered(item.second); });
   }
   return part;
 }
@@ -134,6 +134,18 @@ void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diag
   if (const auto names = missing("NOM_CMP", components); !fields.empty() && !names.empty())
     diagnostics.alarm("unknown-component", fmt::format("IMPR_RESU: no field that is written has {}: left out", fmt::join(names, ", ")), print.span_of("NOM_CMP"),
                       fmt::format("there is {}", fmt::join(components, ", ")));
+}
+
+void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics) {
+  if (!print.has("RESULTAT")) return;
+  const auto& source = print.concept_of("RESULTAT");
+  std::set<std::string> layered;
+  for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+    for (const auto& [name, field] : step->fields)
+      if (is_chosen(print, name) && is_layered(field)) layered.insert(name);
+  if (layered.empty()) return;
+  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not written: {} of {} left out", fmt::join(layered, ", "), source->name),
+                    print.span, "POST_CHAMP with EXTR_COQUE takes one of them");
 }
 
 PrintedPart part_of(const Keywords& print, bool med) {
@@ -352,7 +364,10 @@ Product impr_resu(const Call& call, Context& context) {
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
   const auto path = context.files.output(unit, format.extension, format.unit);
   check_model(call, word);
-  for (const Keywords& print : call.factors("RESU")) warn_of_missing_names(print, context.diagnostics);
+  for (const Keywords& print : call.factors("RESU")) {
+    warn_of_missing_names(print, context.diagnostics);
+    warn_of_layers(print, context.diagnostics);
+  }
   if (word == "MED") {
     write_med(call, path.string());
     context.console.progress("  writes " + path.string());

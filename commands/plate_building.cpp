@@ -36,6 +36,7 @@ void add_plate_sections(const Keywords& assignment, const solver::Model& model, 
   section.direction = direction_of(assignment);
   section.shear_factor = assignment.real("A_CIS");
   section.drilling = assignment.real("COEF_RIGI_DRZ");
+  section.layers = static_cast<int>(assignment.integer("COQUE_NCOU"));
   int assigned = 0;
   const Amount thickness = amount_of(assignment, assignment.given("EPAIS_FO") ? "EPAIS_FO" : "EPAIS");
   const Amount offset = amount_of(assignment, assignment.given("EXCENTREMENT_FO") ? "EXCENTREMENT_FO" : "EXCENTREMENT");

@@ -1,11 +1,17 @@
 #include <algorithm>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
 #include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/plate_forces.hpp"
+#include "solver/fields/plate_stresses.hpp"
 
 namespace comma::commands {
 
@@ -20,23 +26,41 @@ std::vector<int> chosen_cells(const Call& call, const solver::Mesh& mesh) {
   return all;
 }
 
+solver::ElementField layer_of(const Keywords& occurrence, const std::string& name, const solver::ResultStep& step, const std::vector<int>& cells) {
+  static const std::map<std::string, solver::LayerSide, std::less<>> sides = {{"INF", solver::LayerSide::lower}, {"MOY", solver::LayerSide::middle}, {"SUP", solver::LayerSide::upper}};
+  const auto found = step.fields.find(name);
+  if (found == step.fields.end())
+    throw DiagnosticError("unknown-field", fmt::format("step INST={} of the result holds no {}", step.instant, name), occurrence.span_of("NOM_CHAM"), "compute it by CALC_CHAMP before");
+  if (!is_layered(found->second))
+    throw DiagnosticError("wrong-field", fmt::format("EXTR_COQUE: {} has one value a point", name), occurrence.span_of("NOM_CHAM"), "take SIGM_ELGA, SIGM_ELNO, SIEQ_ELGA or SIEQ_ELNO of plates");
+  const auto& layered = std::get<solver::ElementField>(found->second);
+  solver::ElementField taken = solver::values_in_layer(solver::on_cells(layered, cells), static_cast<int>(occurrence.integer("NUME_COUCHE")), sides.at(occurrence.text("NIVE_COUCHE")));
+  if (!taken.values.empty()) return taken;
+  const int most = *std::ranges::max_element(layered.sub_points) / 3;
+  throw DiagnosticError("out-of-bounds", fmt::format("EXTR_COQUE: none of these cells has a layer {}", occurrence.integer("NUME_COUCHE")), occurrence.span_of("NUME_COUCHE"),
+                        fmt::format("layers count from 1 to {} (COQUE_NCOU of AFFE_CARA_ELEM)", most));
+}
+
 }  // namespace
 
-// The new result holds the moved fields alone.
+// The new result holds the fields that are taken or moved, alone.
 Product post_champ(const Call& call, Context&) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
-  const solver::StaticProblem problem = problem_of_result(call, source);
-  const auto cells = chosen_cells(call, *problem.model->mesh);
+  const auto cells = chosen_cells(call, source.result.mesh());
+  std::optional<solver::StaticProblem> problem;
+  if (!call.factors("COQU_EXCENT").empty()) problem = problem_of_result(call, source);
   auto product = std::make_shared<ResultConcept>();
   product->problem = source.problem;
   product->result.model = source.result.model;
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     solver::ResultStep step{chosen->order, chosen->instant, {}, chosen->parameters};
+    for (const Keywords& occurrence : call.factors("EXTR_COQUE"))
+      for (const std::string& name : occurrence.texts("NOM_CHAM")) step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));
     for (const Keywords& occurrence : call.factors("COQU_EXCENT")) {
       const auto* forces = std::get_if<solver::ElementField>(&field_of(occurrence, *chosen));
       if (forces == nullptr) throw DiagnosticError("wrong-field", "COQU_EXCENT wants a field on cells", occurrence.span_of("NOM_CHAM"));
       step.fields.insert_or_assign(occurrence.text("NOM_CHAM"),
-                                   solver::forces_about_middle(*problem.model, *problem.properties, *forces, cells));
+                                   solver::forces_about_middle(*problem->model, *problem->properties, *forces, cells));
     }
     product->result.steps.push_back(std::move(step));
   }

@@ -119,7 +119,19 @@ std::vector<const ResultStep*> steps_with_field(const Keywords& keywords, const 
   return steps;
 }
 
+bool is_layered(const solver::Field& field) {
+  const auto* on_cells = std::get_if<solver::ElementField>(&field);
+  return on_cells != nullptr && !on_cells->sub_points.empty();
+}
+
 const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
+  const solver::Field& field = layered_field_of(keywords, step);
+  if (!is_layered(field)) return field;
+  throw DiagnosticError("layered-field", fmt::format("{} has several values a point on plates, one for each place in their thickness", keywords.text("NOM_CHAM")), keywords.span_of("NOM_CHAM"),
+                        "POST_CHAMP with EXTR_COQUE takes one of them");
+}
+
+const solver::Field& layered_field_of(const Keywords& keywords, const ResultStep& step) {
   const std::string& name = keywords.text("NOM_CHAM");
   const auto found = step.fields.find(name);
   if (found != step.fields.end()) return found->second;

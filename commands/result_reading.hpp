@@ -45,8 +45,13 @@ const solver::ResultStep& only_step(const interpreter::Keywords& keywords, const
 /// (the initial state has no contact field, say). Throws as selected_steps and field_of where a step is named, or none has the field.
 std::vector<const solver::ResultStep*> steps_with_field(const interpreter::Keywords& keywords, const solver::Result& result);
 
-/// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are.
+/// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are, `layered-field` where plates have several values a
+/// point.
 const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
+/// The same, whatever number of values its points have.
+const solver::Field& layered_field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
+/// Whether some points have several values, one for each place in the thickness of a plate.
+bool is_layered(const solver::Field& field);
 
 /// The multipliers of AFFE_CHAR_MECA that stand among the values of DEPL (ssnp140a); none without a computation behind the result.
 std::vector<double> multipliers_of(const ResultConcept& data, const solver::ResultStep& step);

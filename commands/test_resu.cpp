@@ -93,17 +93,26 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
   return value;
 }
 
-// comma's elements have one value a point: SOUS_POINT can only be the first.
-void check_subpoint(const Keywords& test) {
-  if (!test.given("SOUS_POINT") || test.integer("SOUS_POINT") == 1) return;
-  throw DiagnosticError("out-of-bounds", "SOUS_POINT: the field has one value a point", test.span_of("SOUS_POINT"), "give 1, or leave it out");
+// Which of the values of a point SOUS_POINT names, from 0. A field that has several needs it.
+int sub_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
+  const int count = field.values_a_point(cell);
+  if (!test.given("SOUS_POINT")) {
+    if (count == 1) return 0;
+    throw DiagnosticError("missing-keyword", fmt::format("the field has {} values a point on cell {}, one for each place in its thickness", count, mesh.cell_name(cell)), test.span,
+                          "name one by SOUS_POINT: 1 at the lower side, 2 in the middle, 3 at the upper side of the lowest layer, and so on");
+  }
+  const auto wanted = test.integer("SOUS_POINT");
+  if (wanted <= count) return static_cast<int>(wanted) - 1;
+  throw DiagnosticError("out-of-bounds", fmt::format("SOUS_POINT: the field has {} a point on cell {}", count == 1 ? "one value" : fmt::format("{} values", count), mesh.cell_name(cell)),
+                        test.span_of("SOUS_POINT"), count == 1 ? "give 1, or leave it out" : fmt::format("give 1 to {}", count));
 }
 
 int local_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
   if (test.given("POINT")) {
     const auto point = test.integer("POINT");
-    if (point >= 1 && point <= field.points(cell)) return static_cast<int>(point) - 1;
-    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), field.points(cell)),
+    const int points = field.points(cell) / field.values_a_point(cell);
+    if (point >= 1 && point <= points) return static_cast<int>(point) - 1;
+    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), points),
                           test.span_of("POINT"), "points count from 1");
   }
   if (field.support == solver::Support::cell) return 0;
@@ -131,7 +140,6 @@ std::function<bool(int cell, int point)> points_tested(const Keywords& test, con
 }
 
 double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
-  check_subpoint(test);
   const auto components = components_tested(test, field.components);
   auto cells = selected_cells(test, mesh, cell_places);
   if (test.given("TYPE_TEST")) {
@@ -142,10 +150,11 @@ double element_value(const Keywords& test, const ElementField& field, const solv
     Values values;
     const auto is_tested = points_tested(test, field, mesh);
     for (const int cell : cells) {
-      for (int point = 0; point < field.points(cell); ++point) {
-        if (!is_tested(cell, point)) continue;
+      const int each = field.values_a_point(cell), only = test.given("SOUS_POINT") ? sub_point(test, field, cell, mesh) : -1;
+      for (int place = 0; place < field.points(cell); ++place) {
+        if (!is_tested(cell, place / each) || (only >= 0 && place % each != only)) continue;
         for (const int component : components) {
-          if (const double value = field.at(cell, point, component); !std::isnan(value)) values.push_back(value);
+          if (const double value = field.at(cell, place, component); !std::isnan(value)) values.push_back(value);
         }
       }
     }
@@ -154,7 +163,8 @@ double element_value(const Keywords& test, const ElementField& field, const solv
   }
   const int cell = single(test, cells, place_keyword(test, cell_places), "cell");
   if (field.points(cell) == 0) not_carried(test, "cell " + mesh.cell_name(cell));
-  const double value = field.at(cell, local_point(test, field, cell, mesh), components.front());
+  const int place = local_point(test, field, cell, mesh) * field.values_a_point(cell) + sub_point(test, field, cell, mesh);
+  const double value = field.at(cell, place, components.front());
   if (std::isnan(value)) not_carried(test, "cell " + mesh.cell_name(cell));
   return value;
 }
@@ -196,6 +206,7 @@ std::string label_of(const Keywords& test, const std::string& what) {
     lead = " of ";
   }
   if (test.given("POINT")) label += fmt::format(" point {}", test.integer("POINT"));
+  if (test.given("SOUS_POINT")) label += fmt::format(" sub-point {}", test.integer("SOUS_POINT"));
   return label;
 }
 
@@ -209,7 +220,7 @@ bool takes_multipliers_in(const Keywords& test) { return test.given("TYPE_TEST")
 
 TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
   if (test.given("PARA")) return parameter_value(test, step);
-  const solver::Field& held = field_of(test, step);
+  const solver::Field& held = layered_field_of(test, step);
   const solver::Mesh& mesh = data.result.mesh();
   if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem.behaviours.get()), mesh));
   const bool all = takes_multipliers_in(test) && test.text("NOM_CHAM") == "DEPL";

@@ -22,8 +22,8 @@ using comma::interpreter::Severity;
 namespace {
 
 // A scene with many calls has thousands of mutants; this many, evenly taken, keep the test short.
-constexpr std::size_t most_mutants_a_scene = 40;
-constexpr std::size_t most_pairs_a_scene = 12;
+constexpr std::size_t most_mutants_a_scene = 60;
+constexpr std::size_t most_pairs_a_scene = 20;
 // Scenes with a larger mesh say nothing more about the checks.
 constexpr std::uintmax_t largest_mesh = 500'000;
 

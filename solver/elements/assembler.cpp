@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -80,6 +81,12 @@ std::vector<std::string> variable_names(int count) {
 }
 
 std::vector<std::string> stress_names(const ElementBlock& block) { return {block.stress_names().begin(), block.stress_names().end()}; }
+
+std::vector<int> starts_of(const std::vector<int>& counts) {
+  std::vector<int> starts(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  return starts;
+}
 
 /// Values of one block (cells x points x names) into a field whose components are those of all blocks.
 void write_block(const ElementBlock& block, const std::vector<std::string>& names, const std::vector<double>& values, ElementField& field) {
@@ -435,16 +442,33 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
   return field;
 }
 
+ElementField Assembler::plate_forces(const Eigen::VectorXd& u) const {
+  ElementField field{"SIEF_R", Support::gauss_point, {}, {}, {}};
+  std::vector<int> counts(static_cast<std::size_t>(model_.mesh->cell_count()), 0);
+  for (const auto& block : blocks_->list) {
+    if (block->inner_point_count() > 0) field.components = stress_names(*block);
+    for (const int cell : block->cells()) counts[static_cast<std::size_t>(cell)] = block->inner_point_count();
+  }
+  field.starts = starts_of(counts);
+  field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
+  for (const auto& block : blocks_->list) {
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->inner_point_count()) * field.components.size());
+    block->inner_stresses(u, state_, values);
+    write_block(*block, field.components, values, field);
+  }
+  return field;
+}
+
 ElementField Assembler::field_at_points(std::string quantity, std::vector<std::string> components) const {
   ElementField field;
   field.quantity = std::move(quantity);
   field.support = Support::gauss_point;
   field.components = std::move(components);
-  field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
+  std::vector<int> counts(static_cast<std::size_t>(model_.mesh->cell_count()), 0);
   for (const auto& block : blocks_->list) {
-    for (const int cell : block->cells()) field.starts[cell + 1] = block->point_count();
+    for (const int cell : block->cells()) counts[static_cast<std::size_t>(cell)] = block->point_count();
   }
-  for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
+  field.starts = starts_of(counts);
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
   return field;
 }

@@ -128,6 +128,9 @@ class Assembler {
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
+  /// The forces NXX ... QY of plates, as stresses() has them, at the points with which their stiffness is integrated; other cells have none.
+  ElementField plate_forces(const Eigen::VectorXd& u) const;
+
   /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
   /// per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;

@@ -12,12 +12,11 @@
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 
 template <int Nodes>
 struct Plate {
@@ -86,8 +85,7 @@ class PlateBlock final : public ElementBlock {
         shears_(input.model.formulations[cells.front()] == Formulation::shear_plate),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), Nodes, gather_nodes(mesh_, cells_)),
-        // Exact for the squares of curvatures, which are linear in triangles.
-        points_(quadrature(type, Nodes == 3 ? "FPG3" : "FPG4")) {
+        points_(quadrature(type, plate_family(type))) {
     for (const int cell : cells_) {
       plates_.push_back(make_plate<Nodes>(input, cell));
       check_convex(static_cast<int>(plates_.size()) - 1);
@@ -134,29 +132,14 @@ class PlateBlock final : public ElementBlock {
 
   /// Forces and moments per length at the corners, about the surface of the mesh, in the plate's own axes.
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
-    std::array<int, size> dofs;
-    double* target = out.data();
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const auto moved = relative(u, dofs);
-      Vector own;
-      for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
-      for (int i = 0; i < size; i += 3) own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
-      const PlateRigidity rigidity = this->rigidity(element, state);
-      const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
-      const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
-      for (const ReferencePoint& corner : reference_nodes(type)) {
-        const PlateRows<Nodes> rows = kinematics.at(corner);
-        const double offset = plates_[element].section->offset;
-        const Eigen::Vector3d curvature = rows.curvature * own;
-        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
-        const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
-        const Eigen::Vector2d shear = rows.shear_force * own;
-        target = std::copy(normal.begin(), normal.end(), target);
-        target = std::copy(moment.begin(), moment.end(), target);
-        target = std::copy(shear.begin(), shear.end(), target);
-      }
-    }
+    forces_at(reference_nodes(type), u, state, out);
+  }
+
+  int inner_point_count() const override { return static_cast<int>(points_.size()); }
+  void inner_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::vector<ReferencePoint> places;
+    for (const QuadraturePoint& point : points_) places.push_back(point.at);
+    forces_at(places, u, state, out);
   }
 
   void impose(const ImposedStrains* strains) override { imposed_ = strains; }
@@ -221,6 +204,33 @@ class PlateBlock final : public ElementBlock {
   }
 
  private:
+  /// Forces and moments per length at places of the reference cell, about the surface of the mesh, in the plate's own axes.
+  void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const {
+    std::array<int, size> dofs;
+    double* target = out.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const auto moved = relative(u, dofs);
+      Vector own;
+      for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
+      for (int i = 0; i < size; i += 3) own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
+      const PlateRigidity rigidity = this->rigidity(element, state);
+      const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
+      const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
+      for (const ReferencePoint& place : places) {
+        const PlateRows<Nodes> rows = kinematics.at(place);
+        const double offset = plates_[element].section->offset;
+        const Eigen::Vector3d curvature = rows.curvature * own;
+        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
+        const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
+        const Eigen::Vector2d shear = rows.shear_force * own;
+        target = std::copy(normal.begin(), normal.end(), target);
+        target = std::copy(moment.begin(), moment.end(), target);
+        target = std::copy(shear.begin(), shear.end(), target);
+      }
+    }
+  }
+
   /// Forces and moments per length about the surface of the mesh.
   struct Resultants {
     Eigen::Vector3d normal;

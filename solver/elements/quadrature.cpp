@@ -366,6 +366,9 @@ std::string_view stiffness_family(CellType type, Formulation formulation) {
   return type == CellType::hexa20 ? "FPG8" : full_family(type);
 }
 
+// Exact for the squares of curvatures, which are linear in triangles.
+std::string_view plate_family(CellType type) { return type == CellType::tria3 ? "FPG3" : "FPG4"; }
+
 std::string_view mass_family(CellType type) {
   switch (type) {
     case CellType::tria3:

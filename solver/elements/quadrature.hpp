@@ -27,6 +27,8 @@ int quadrature_degree(CellType type, std::string_view name);
 
 /// The family of an element's stiffness and stresses.
 std::string_view stiffness_family(CellType type, Formulation formulation);
+/// The family of the stiffness and stresses of plates.
+std::string_view plate_family(CellType type);
 /// The family of its mass, gravity and centrifugal forces included.
 std::string_view mass_family(CellType type);
 /// The family of pressures and other forces on a skin cell.

@@ -106,6 +106,7 @@ struct BeamSection {
 struct PlateSection {
   double thickness = 0.0;
   double offset = 0.0;  ///< from the mesh to the mid-surface, along the normal of the cell
+  int layers = 1;       ///< of equal thickness; their stresses are given below, in the middle of and above each
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< its part in the plane of the plate is the first own axis
   double shear_factor = 5.0 / 6.0;                       ///< effective share of the thickness in shear
   /// Resistance to rotation about the normal, which plates do not have. Positive: that share of the smallest resistance to

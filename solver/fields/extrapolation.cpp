@@ -143,7 +143,22 @@ ElementField to_element_nodes(const Model& model, const NodalField& field) {
   return result;
 }
 
+void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
+  const auto check = [&](int cell) {
+    if (field.points(cell) == 0 || field.values_a_point(cell) == 1) return;
+    throw Error("layered-field", fmt::format("the field has {} values a point on cell {}, one for each place in the thickness of the plate", field.values_a_point(cell), mesh.cell_name(cell)),
+                "take one layer: POST_CHAMP with EXTR_COQUE");
+  };
+  if (field.sub_points.empty()) return;
+  if (cells) {
+    for (const int cell : *cells) check(cell);
+    return;
+  }
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) check(cell);
+}
+
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
+  require_one_value_a_point(mesh, field, cells);
   const std::size_t width = field.components.size();
   NodalField result{field.quantity, field.components, std::vector<double>(mesh.nodes.size() * width, 0.0)};
   std::vector<int> counts(result.values.size(), 0);

@@ -26,8 +26,11 @@ ElementField to_element_nodes(const Model& model, const ElementField& field);
 ElementField to_element_nodes(const Model& model, const NodalField& field);
 
 /// The arithmetic mean at each node over the cells that give it a value (ELNO to NOEU, U4.81.04); NaN where none does.
-/// `cells` restricts the cells that count; none given: all.
+/// `cells` restricts the cells that count; none given: all. Throws what require_one_value_a_point does.
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
+
+/// Throws Error `layered-field` naming a cell among `cells` (none given: of all) where a point has several values.
+void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
 
 /// The components `names` of a field, on the cells that carry at least one of them.
 ElementField select_components(const ElementField& field, std::span<const std::string_view> names);

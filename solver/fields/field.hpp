@@ -29,15 +29,19 @@ struct NodalField {
 enum class Support : std::uint8_t { cell, element_node, gauss_point };
 
 /// values[(starts[cell] + point) * components.size() + component]; starts has cell_count()+1 entries, and a cell that does not
-/// carry the field has no points; NaN where the cell does not carry the component.
+/// carry the field has no points; NaN where the cell does not carry the component. Where plates have several values a point, one for each place in
+/// their thickness, the values of a point follow each other, `starts` counts them all, and sub_points says how many they are.
 struct ElementField {
   std::string quantity;
   Support support = Support::cell;
   std::vector<std::string> components;
   std::vector<int> starts;
   std::vector<double> values;
+  std::vector<int> sub_points = {};  ///< values a point, by cell; empty: one everywhere
 
+  /// Values of the cell: its points, times the values of each.
   int points(int cell) const { return starts[cell + 1] - starts[cell]; }
+  int values_a_point(int cell) const { return sub_points.empty() ? 1 : sub_points[cell]; }
   double at(int cell, int point, int component) const {
     return values[static_cast<std::size_t>(starts[cell] + point) * components.size() + component];
   }

@@ -218,6 +218,8 @@ ElementField on_cells(const ElementField& field, std::span<const int> cells) {
     }
     part.starts.push_back(static_cast<int>(static_cast<std::ptrdiff_t>(part.values.size()) / width));
   }
+  const auto has_several = [&](int cell) { return part.points(cell) > 0 && field.values_a_point(cell) > 1; };
+  if (std::ranges::any_of(cells, has_several)) part.sub_points = field.sub_points;
   return part;
 }
 
@@ -235,6 +237,7 @@ ElementField side_by_side(const ElementField& first, const ElementField& second)
   ElementField both{first.quantity, first.support, first.components, {0}, {}};
   for (const std::string& name : second.components)
     if (both.component(name) < 0) both.components.push_back(name);
+  const bool is_layered = !first.sub_points.empty() || !second.sub_points.empty();
   for (int cell = 0; cell + 1 < static_cast<int>(first.starts.size()); ++cell) {
     const ElementField& part = first.points(cell) > 0 ? first : second;
     for (int point = 0; point < part.points(cell); ++point) {
@@ -244,6 +247,7 @@ ElementField side_by_side(const ElementField& first, const ElementField& second)
       }
     }
     both.starts.push_back(both.starts.back() + part.points(cell));
+    if (is_layered) both.sub_points.push_back(part.values_a_point(cell));
   }
   return both;
 }

@@ -17,6 +17,7 @@
 #include "solver/fields/loading_indicators.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/plate_forces.hpp"
+#include "solver/fields/plate_stresses.hpp"
 #include "solver/fields/strains.hpp"
 #include "solver/fields/surface_stresses.hpp"
 #include "solver/fields/variable_fields.hpp"
@@ -44,8 +45,9 @@ std::vector<int> skin_cells(const Model& model) {
   return cells;
 }
 
-// What plates have: forces and strains in their own axes, energies, forces on nodes. Their other fields lie in layers.
-constexpr std::array<std::string_view, 9> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+// What plates have: forces and strains in their own axes, stresses in layers (of which one may be taken to the nodes), energies, forces on nodes.
+constexpr std::array<std::string_view, 15> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU", "SIEQ_ELGA",
+                                                           "SIEQ_ELNO", "SIEQ_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
 std::vector<int> all_cells(const Model& model) {
   std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
@@ -61,7 +63,7 @@ void check_plates(const Model& model, std::string_view name, std::optional<std::
   // Over the whole model the elements that have such a field get it.
   const auto has_other_elements = [&](int cell) { return model.formulations[cell] != Formulation::none && !is_plate(model.formulations[cell]) && !model.is_skin(cell); };
   if (!cells && std::ranges::any_of(all, has_other_elements)) return;
-  throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)), "name the cells without plates, or take EFGE_ELNO");
+  throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)), "name the cells without plates, or take EFGE_ELNO or SIGM_ELNO");
 }
 
 std::vector<int> plate_cells(const Model& model) {
@@ -69,6 +71,11 @@ std::vector<int> plate_cells(const Model& model) {
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
     if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) cells.push_back(cell);
   return cells;
+}
+
+/// Both, of which each may be empty.
+ElementField beside(const ElementField& of_continua, const ElementField& of_plates) {
+  return of_continua.values.empty() ? of_plates : side_by_side(of_continua, of_plates);
 }
 
 bool ends(std::string_view name, std::string_view place) {
@@ -87,7 +94,8 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
   using F = FieldComputation;
   static const std::map<std::string, Rule, std::less<>> table = {
       {"SIEF_ELGA", &F::stresses},
-      {"SIGM_ELGA", &F::continuum_stress_field},
+      {"SIGM_ELGA", &F::stress_field_at_points},
+      {"SIGM_ELNO", &F::stress_field_at_nodes},
       {"EFGE_ELGA", &F::section_force_field},
       {"EFGE_ELNO", &F::end_forces},
       {"SIPO_ELNO", &F::fibre_stresses},
@@ -226,8 +234,23 @@ Field FieldComputation::internal_variables(std::size_t step) {
   return field;
 }
 
-Field FieldComputation::continuum_stress_field(std::size_t step) {
-  return continuum_stresses(element_field("SIEF_ELGA", step));
+Field FieldComputation::stress_field_at_points(std::size_t step) {
+  const ElementField of_continua = continuum_stresses(element_field("SIEF_ELGA", step));
+  if (!has_plates()) return of_continua;
+  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+}
+
+Field FieldComputation::stress_field_at_nodes(std::size_t step) {
+  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
+  const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(element_field("SIEF_ELGA", step)));
+  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces_at_corners(result_.mesh(), plate_forces(step))));
+}
+
+bool FieldComputation::has_plates() const { return !plate_cells(*problem_.model).empty(); }
+
+ElementField FieldComputation::plate_forces(std::size_t step) {
+  if (assembler_.imposes_strains()) throw Error("unsupported", "stresses of plates are not known beside initial strains (PRE_EPSI)", "take EFGE_ELNO");
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_));
 }
 
 Field FieldComputation::section_force_field(std::size_t step) {
@@ -397,9 +420,9 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
 }
 
 Field FieldComputation::unloading(std::size_t step) {
-  const ElementField now = element_field("SIGM_ELGA", step);
+  const ElementField now = continuum_stresses(element_field("SIEF_ELGA", step));
   const bool is_last = step + 1 == result_.steps.size();
-  ElementField indicators = local_indicators(now, is_last ? now : element_field("SIGM_ELGA", step + 1));
+  ElementField indicators = local_indicators(now, is_last ? now : continuum_stresses(element_field("SIEF_ELGA", step + 1)));
   move_to(step);
   if (is_last) std::ranges::fill(indicators.values, absent);
   return indicators;

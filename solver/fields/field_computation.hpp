@@ -19,7 +19,7 @@ namespace comma::solver {
 /// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL, EPSP, EPVC, DEGE; criteria
 /// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC;
 /// energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
-/// the nodes of each cell (by local smoothing, see extrapolation.hpp), _NOEU at nodes (the mean over the cells around
+/// the nodes of each cell (by local smoothing, see extrapolation.hpp; SIGM and SIEQ of plates at places in their thickness, see plate_stresses.hpp), _NOEU at nodes (the mean over the cells around
 /// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
 ///
 /// Keeps references to its arguments.
@@ -50,7 +50,10 @@ class FieldComputation {
   FieldInput input() const;
 
   Field stresses(std::size_t step);
-  Field continuum_stress_field(std::size_t step);
+  Field stress_field_at_points(std::size_t step);
+  Field stress_field_at_nodes(std::size_t step);
+  bool has_plates() const;
+  ElementField plate_forces(std::size_t step);
   Field section_force_field(std::size_t step);
   Field end_forces(std::size_t step);
   Field fibre_stresses(std::size_t step);

@@ -46,7 +46,7 @@ ElementField plate_data(const Mesh& mesh, const PlateSections& plates) {
 
 ElementField layer_counts(const Mesh& mesh, const PlateSections& plates) {
   ElementField field = empty_cell_field(mesh, "NBSP_R", {"COQ_NCOU"});
-  for (const auto& entry : plates) put(field, entry.first, std::array{1.0});
+  for (const auto& [cell, plate] : plates) put(field, cell, std::array{static_cast<double>(plate.layers)});
   drop_empty_cells(field);
   return field;
 }

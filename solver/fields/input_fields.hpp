@@ -13,7 +13,7 @@ using PlateSections = std::unordered_map<int, PlateSection>;  ///< by cell
 /// EXCENT (offset), KAPPA (shear factor).
 ElementField plate_data(const Mesh& mesh, const PlateSections& plates);
 
-/// COQ_NCOU: the number of layers in the thickness of a plate, which is 1.
+/// COQ_NCOU: the number of layers in the thickness of a plate.
 ElementField layer_counts(const Mesh& mesh, const PlateSections& plates);
 
 /// FX FY FZ of the distributed forces on the cells of one dimension, summed where several act. Throws Error `unsupported` for a

@@ -10,24 +10,18 @@
 
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
 constexpr std::array<std::array<std::string_view, 2>, 3> pairs = {{{"NXX", "MXX"}, {"NYY", "MYY"}, {"NXY", "MXY"}}};
 
 int column_of(const ElementField& field, std::string_view name) {
   const int column = field.component(name);
   if (column < 0) throw Error("unknown-component", fmt::format("the field has no component {}, as forces of plates have", name));
   return column;
-}
-
-double offset_of(const Model& model, const ElementProperties& properties, int cell) {
-  const auto found = properties.plates.find(cell);
-  if (found != properties.plates.end()) return found->second.offset;
-  throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", model.mesh->cell_name(cell)));
 }
 
 // Command variables count by their mean over the corners.
@@ -52,20 +46,17 @@ struct PlateInUse {
 };
 
 PlateInUse plate_in_use(const FieldInput& input, int cell) {
-  const auto section = input.properties.plates.find(cell);
-  if (section == input.properties.plates.end()) throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", input.model.mesh->cell_name(cell)));
+  const PlateSection& section = plate_section(input.model, input.properties, cell);
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
   if (material == nullptr) throw Error("unsupported", fmt::format("the plate on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
   const MaterialPoint at = middle_of_plate(input, cell);
-  return {section->second, moduli(*material, at), inelastic_axial_strain(*material, at), input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
+  return {section, moduli(*material, at), inelastic_axial_strain(*material, at), input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
 }
 
 /// xx, yy and half the angle xy that plane forces, or moments, of a resistance 1 / compliance cause.
 Eigen::Vector3d plane_strain_of(const Eigen::Vector3d& forces, double compliance, double poisson) {
   return compliance * Eigen::Vector3d(forces[0] - poisson * forces[1], forces[1] - poisson * forces[0], (1.0 + poisson) * forces[2]);
 }
-
-using PlateForces = Eigen::Matrix<double, 8, 1>;
 
 PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
   const double h = plate.section.thickness, offset = plate.section.offset;
@@ -82,9 +73,24 @@ PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
 
 }  // namespace
 
+PlateForceReader::PlateForceReader(const ElementField& field) : field_(field) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c] = column_of(field, plate_force_names[c]);
+}
+
+PlateForces PlateForceReader::at(int cell, int point) const {
+  PlateForces forces;
+  for (std::size_t c = 0; c < columns_.size(); ++c) forces[static_cast<Eigen::Index>(c)] = field_.at(cell, point, columns_[c]);
+  return forces;
+}
+
+const PlateSection& plate_section(const Model& model, const ElementProperties& properties, int cell) {
+  const auto found = properties.plates.find(cell);
+  if (found != properties.plates.end()) return found->second;
+  throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", model.mesh->cell_name(cell)));
+}
+
 ElementField plate_strains(const FieldInput& input, const ElementField& forces) {
-  std::array<int, 8> columns;
-  for (std::size_t c = 0; c < 8; ++c) columns[c] = column_of(forces, force_names[c]);
+  const PlateForceReader reader(forces);
   ElementField result{"EPSI_R", forces.support, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY", "GAX", "GAY"}, {0}, {}};
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
     const bool is_one = is_plate(input.model.formulations[static_cast<std::size_t>(cell)]) && !input.model.is_skin(cell);
@@ -93,9 +99,7 @@ ElementField plate_strains(const FieldInput& input, const ElementField& forces) 
     if (points == 0) continue;
     const PlateInUse plate = plate_in_use(input, cell);
     for (int point = 0; point < points; ++point) {
-      PlateForces acting;
-      for (std::size_t c = 0; c < 8; ++c) acting[static_cast<Eigen::Index>(c)] = forces.at(cell, point, columns[c]);
-      const PlateForces strains = strains_of(plate, acting);
+      const PlateForces strains = strains_of(plate, reader.at(cell, point));
       result.values.insert(result.values.end(), strains.begin(), strains.end());
     }
   }
@@ -115,7 +119,7 @@ ElementField forces_about_middle(const Model& model, const ElementProperties& pr
     const auto force = static_cast<std::size_t>(column_of(result, force_name));
     const auto moment = static_cast<std::size_t>(column_of(result, moment_name));
     for (const int cell : plates) {
-      const double offset = offset_of(model, properties, cell);
+      const double offset = plate_section(model, properties, cell).offset;
       for (int point = result.starts[cell]; point < result.starts[cell + 1]; ++point) {
         double* row = result.values.data() + static_cast<std::size_t>(point) * width;
         row[moment] -= offset * row[force];

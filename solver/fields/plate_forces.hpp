@@ -1,13 +1,35 @@
 // Forces and moments of plates about their own middle (POST_CHAMP, COQU_EXCENT; U4.81.05, R3.07.06), and the strains that go with them (R3.07.03).
 #pragma once
 
+#include <array>
 #include <span>
+
+#include <Eigen/Dense>
 
 #include "solver/elements/section.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 
 namespace comma::solver {
+
+/// NXX ... QY.
+using PlateForces = Eigen::Matrix<double, 8, 1>;
+
+/// Reads them out of a field that outlives it.
+class PlateForceReader {
+ public:
+  /// Throws Error `unknown-component` for a field without them.
+  explicit PlateForceReader(const ElementField& field);
+
+  PlateForces at(int cell, int point) const;
+
+ private:
+  const ElementField& field_;
+  std::array<int, 8> columns_;
+};
+
+/// Throws Error `missing-properties` for a plate without thickness.
+const PlateSection& plate_section(const Model& model, const ElementProperties& properties, int cell);
 
 /// NXX ... QY of the plates among `cells`, whose moments are given about the surface of the mesh: about the mid-surface, from which
 /// the offset e separates it, they are M - e N. Throws Error `unknown-component` for a field without these components,

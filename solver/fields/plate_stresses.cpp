@@ -1,0 +1,85 @@
+#include "solver/fields/plate_stresses.hpp"
+
+#include <array>
+
+#include <Eigen/Dense>
+
+#include "solver/elements/quadrature.hpp"
+#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/plate_forces.hpp"
+#include "solver/model/stress_names.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr int places_a_layer = 3;
+
+/// At a share of half the thickness (-1 below, 1 above) over the middle of the plate.
+std::array<double, 6> stress_at(double share, const PlateSection& section, const PlateForces& forces) {
+  const double h = section.thickness;
+  const Eigen::Vector3d normal = forces.head<3>(), moment = forces.segment<3>(3) - section.offset * normal;
+  const Eigen::Vector3d plane = normal / h + share * 6.0 / (h * h) * moment;
+  const Eigen::Vector2d shear = 1.5 * (1.0 - share * share) / h * forces.tail<2>();
+  return {plane[0], plane[1], 0.0, plane[2], shear[0], shear[1]};
+}
+
+}  // namespace
+
+ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces) {
+  const PlateForceReader reader(forces);
+  const int cells = model.mesh->cell_count();
+  ElementField field{"SIEF_R", forces.support, {solid_stress_names.begin(), solid_stress_names.end()}, {0}, {}, std::vector<int>(static_cast<std::size_t>(cells), 1)};
+  for (int cell = 0; cell < cells; ++cell) {
+    if (forces.points(cell) == 0) {
+      field.starts.push_back(field.starts.back());
+      continue;
+    }
+    const PlateSection& section = plate_section(model, properties, cell);
+    const int places = places_a_layer * section.layers;
+    for (int point = 0; point < forces.points(cell); ++point) {
+      const PlateForces acting = reader.at(cell, point);
+      for (int place = 0; place < places; ++place) {
+        const int layer = place / places_a_layer, half = place % places_a_layer;
+        const auto stress = stress_at((2.0 * layer + half) / section.layers - 1.0, section, acting);
+        field.values.insert(field.values.end(), stress.begin(), stress.end());
+      }
+    }
+    field.sub_points[static_cast<std::size_t>(cell)] = places;
+    field.starts.push_back(field.starts.back() + forces.points(cell) * places);
+  }
+  return field;
+}
+
+ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto width = static_cast<Eigen::Index>(forces.components.size());
+  ElementField result{forces.quantity, Support::element_node, forces.components, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const int points = forces.points(cell);
+    if (points > 0) {
+      const CellType type = mesh.cell_types[static_cast<std::size_t>(cell)];
+      const Eigen::Map<const Rows> given(forces.values.data() + forces.starts[cell] * width, points, width);
+      const Rows corners = gauss_to_nodes(type, plate_family(type)) * given;
+      result.values.insert(result.values.end(), corners.data(), corners.data() + corners.size());
+    }
+    result.starts.push_back(static_cast<int>(static_cast<Eigen::Index>(result.values.size()) / width));
+  }
+  return result;
+}
+
+ElementField values_in_layer(const ElementField& field, int layer, LayerSide side) {
+  const int place = places_a_layer * (layer - 1) + static_cast<int>(side);
+  ElementField result{field.quantity, field.support, field.components, {0}, {}};
+  for (int cell = 0; cell + 1 < static_cast<int>(field.starts.size()); ++cell) {
+    const int each = field.values_a_point(cell);
+    const int points = each > 1 && place < each ? field.points(cell) / each : 0;
+    for (int point = 0; point < points; ++point) {
+      for (int c = 0; c < static_cast<int>(field.components.size()); ++c) result.values.push_back(field.at(cell, point * each + place, c));
+    }
+    result.starts.push_back(result.starts.back() + points);
+  }
+  return result;
+}
+
+}  // namespace comma::solver
