@@ -9,6 +9,7 @@
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/foreign_commands.hpp"
 
 namespace comma::interpreter {
 namespace {
@@ -210,9 +211,10 @@ std::string explain_all(const Catalogue& catalogue) {
 std::string explain(const Catalogue& catalogue, std::string_view path) {
   const std::size_t slash = path.find('/');
   const std::string command(path.substr(0, slash));
-  if (!catalogue.has(command))
-    throw DiagnosticError("unknown-command", fmt::format("there is no command {}", command), {},
-                          hint_for(command, catalogue.names()));
+  if (!catalogue.has(command)) {
+    const MissingCommand missing = missing_command(command, catalogue.names());
+    throw DiagnosticError(missing.code, missing.message, {}, missing.hint);
+  }
   const CommandPage& page = catalogue.page(command);
   Writer writer(catalogue);
   if (slash == std::string_view::npos)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/expression_keywords.hpp"
+#include "interpreter/foreign_commands.hpp"
 
 namespace comma::interpreter {
 
@@ -11,7 +12,7 @@ Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagn
     : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
 
 bool Session::is_command(std::string_view name) const {
-  return catalogue_.has(name);
+  return catalogue_.has(name) || is_foreign_command(name);
 }
 
 std::vector<std::string> Session::command_names() const {
@@ -19,14 +20,14 @@ std::vector<std::string> Session::command_names() const {
 }
 
 Value Session::call(const CommandCall& written, bool eager) {
+  const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
   if (!catalogue_.has(written.name)) {
-    const std::string near = nearest(written.name, catalogue_.names());
-    diagnostics_.error("unknown-command", fmt::format("there is no command {}", written.name), written.name_span,
-                       near.empty() ? "" : fmt::format("did you mean {}?", near));
+    MissingCommand missing = missing_command(written.name, catalogue_.names());
+    const Severity severity = is_foreign_command(written.name) ? unsupported : Severity::error;
+    diagnostics_.add({severity, std::move(missing.code), std::move(missing.message), std::move(missing.hint), written.name_span});
     return Value::unknown();
   }
   const CommandPage& page = catalogue_.page(written.name);
-  const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
   CommandCall bound = written;
   const bool readable = bind_expressions(bound, page, diagnostics_);
   CheckedCall checked = check_call(bound, page, catalogue_, diagnostics_, unsupported);

@@ -65,6 +65,7 @@ TEST_CASE("A name that is not there is told with the nearest one") {
     return std::string();
   };
   CHECK(hint("LAOD") == "unknown-command: did you mean LOAD?");
+  CHECK(hint("THER_LINEAIRE") == "unsupported: 'comma explain' lists the commands that it has");
   CHECK(hint("LOAD/PRESS") == "unknown-keyword: did you mean PRES?");
   CHECK(hint("LOAD/SPOT/GROUPE") == "unknown-keyword: did you mean GROUP?");
 }
