@@ -38,9 +38,20 @@ bool looks_like_command(std::string_view text) {
   return !name.empty() && name != "_F" && at < text.size() && text[at] == '(';
 }
 
-/// Behind NAME or NAME, NAME ...
+/// Behind NAME, NAME[...] or NAME.NAME on one line.
+std::size_t skip_target(std::string_view text) {
+  std::size_t at = skip_word(text, 0);
+  while (at < text.size() && (text[at] == '[' || text[at] == '.')) {
+    const std::size_t end = text[at] == '.' ? skip_word(text, at + 1) : text.find_first_of("]\n", at);
+    if (end == std::string_view::npos || text[end] == '\n') return at;
+    at = text[at] == '.' ? end : end + 1;
+  }
+  return skip_blanks(text, at);
+}
+
+/// Behind such a target or NAME, NAME ...
 std::size_t skip_targets(std::string_view text) {
-  std::size_t at = skip_blanks(text, skip_word(text, 0));
+  std::size_t at = skip_target(text);
   while (at < text.size() && text[at] == ',') {
     const std::size_t name = skip_blanks(text, at + 1);
     if (skip_word(text, name) == name) break;

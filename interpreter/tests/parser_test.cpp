@@ -75,6 +75,8 @@ TEST_CASE("One mistake makes one error, at its place", "[parser]") {
       {"F(A='B, C='2D', E=('G'))\nx = 1\n", "unterminated-string 1:22"},
       {"M = F(A=1,\n      B='C)\nN = G(D=M)\n", "unterminated-string 2:9"},
       {"M = F(A='B'\na, b = 1, 2\n", "unclosed-bracket 1:6"},
+      {"M = F(A='B'\nd['x'] = F(1)\n", "unclosed-bracket 1:6"},
+      {"M = F(A='B'\nd.update(x=1)\n", "unclosed-bracket 1:6"},
       {"M = F(A='B'\nfor i in M:\n    x = i\n", "unclosed-bracket 1:6"},
       {"def f(x):\nreturn x\n", "missing-block 1:1"},
       {"for i in (1, 2):\n    x = i\n  y = 2\nz = 3\n", "bad-indentation 3:3"},
