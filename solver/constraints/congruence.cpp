@@ -1,6 +1,7 @@
 #include "solver/constraints/congruence.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace comma::solver {
@@ -8,6 +9,9 @@ namespace comma::solver {
 namespace {
 
 using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// What is left of contributions that cancel, as those of a body that relations make rigid do, is nothing: a pivot of it would hold the body.
+constexpr double nothing_left = 1e-13;
 
 struct WeightedRow {
   int row;
@@ -94,11 +98,19 @@ SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
   SymmetricMatrix result = product_;
   const double* from = matrix.valuePtr();
   double* to = result.valuePtr();
-  if (weights_.empty()) {
-    for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] += from[sources_[k]];
+  const auto weight = [&](std::size_t k) { return weights_.empty() ? 1.0 : weights_[k]; };
+  if (targets_.size() == static_cast<std::size_t>(result.nonZeros())) {
+    for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] = weight(k) * from[sources_[k]];
     return result;
   }
-  for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] += weights_[k] * from[sources_[k]];
+  std::vector<double> sizes(static_cast<std::size_t>(result.nonZeros()), 0.0);
+  for (std::size_t k = 0; k < sources_.size(); ++k) {
+    const double part = weight(k) * from[sources_[k]];
+    to[targets_[k]] += part;
+    sizes[static_cast<std::size_t>(targets_[k])] += std::abs(part);
+  }
+  for (std::size_t entry = 0; entry < sizes.size(); ++entry)
+    if (std::abs(to[entry]) <= nothing_left * sizes[entry]) to[entry] = 0.0;
   return result;
 }
 

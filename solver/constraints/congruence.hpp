@@ -16,13 +16,14 @@ class Congruence {
 
   /// Whether a matrix has the pattern that the constructor saw.
   bool fits(const SymmetricMatrix& matrix) const;
-  /// T^T K T, lower triangle (m x m).
+  /// T^T K T, lower triangle (m x m). What contributions that cancel leave of an entry, 1e-13 of their size or less, is zero: the rounding of a body that relations
+  /// make rigid holds nothing.
   SymmetricMatrix apply(const SymmetricMatrix& matrix) const;
 
  private:
   std::vector<int> outer_, inner_;  ///< the pattern seen
   std::vector<int> sources_, targets_;
-  std::vector<double> weights_;  ///< empty when all are 1: T selects unknowns
+  std::vector<double> weights_;  ///< empty when all are 1
   SymmetricMatrix product_;      ///< the product's pattern, with zeros
 };
 

@@ -250,6 +250,26 @@ TEST_CASE("imposing every unknown leaves an empty system") {
   CHECK(scene.elimination.offset(0.0) == Eigen::Vector2d(1.0, 2.0));
 }
 
+TEST_CASE("nothing is left of the stiffness of a body that relations make rigid, and all of what holds it") {
+  const auto stiffness_of = [](const Scene& scene, const Eigen::Vector3d& strain, double support) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i)
+        entries.emplace_back(std::max(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)), std::min(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)), strain[i] * strain[j]);
+    entries.emplace_back(scene.dofs.dof(0, dx), scene.dofs.dof(0, dx), support);
+    SymmetricMatrix stiffness(scene.elimination.full_size(), scene.elimination.full_size());
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    return scene.elimination.reduce(stiffness);
+  };
+  // The motions (1, 1, 1) and (1, 2, 3) strain nothing but by rounding.
+  const Scene moved(3, {relation({{0, dx, 1.0}, {1, dx, -1.0}}, 0.0), relation({{0, dx, 1.0}, {2, dx, -1.0}}, 0.0)});
+  const Scene turned(3, {relation({{0, dx, 2.0}, {1, dx, -1.0}}, 0.0), relation({{0, dx, 3.0}, {2, dx, -1.0}}, 0.0)});
+  const Eigen::Vector3d of_motion(0.1, 0.2, -0.3), of_turn(0.3, 0.3, -0.3);
+  CHECK(stiffness_of(moved, of_motion, 0.0).norm() == 0.0);
+  CHECK(stiffness_of(turned, of_turn, 0.0).norm() == 0.0);
+  CHECK(stiffness_of(moved, of_motion, 1e-9).norm() == Approx(1e-9).epsilon(1e-6));
+}
+
 TEST_CASE("the skew part of a stiffness is reduced like the symmetric one") {
   const Scene scene(4, {relation({{0, dx, 2.0}, {1, dx, -1.0}, {3, dy, 0.5}}, 3.0), relation({{2, dy}}, -1.0)});
   const int n = scene.elimination.full_size();
