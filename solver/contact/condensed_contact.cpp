@@ -213,7 +213,15 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
                                   .attempt = by(&CondensedSearch::attempt),
                                   .smooth = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_law); }),
                                   .stand_in = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_pressures); })});
-  return CondensedSearch(schur, problem, state).run();
+  const CondensedState start = state;
+  CondensedSolution found = CondensedSearch(schur, problem, state).run();
+  if (found.verdict == CondensedVerdict::solved) return found;
+  CondensedState afloat = start;
+  if (auto solution = solve_afloat(schur, problem, afloat)) {
+    state = afloat;
+    return *std::move(solution);
+  }
+  return found;
 }
 
 }  // namespace comma::solver
