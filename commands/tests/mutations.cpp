@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "interpreter/ast.hpp"
@@ -294,11 +296,12 @@ class Planter {
   void plant_out_of_bounds(const Item& item, const KeywordPage& page) {
     if (!all_of_kind(page, is_numeric) || page.max_count != 1) return;
     const bool whole = page.types.front().kind == Kind::integer;
-    std::string value;
-    if (page.bounds.above || page.bounds.at_least) value = fmt::format("{}", std::min(page.bounds.above.value_or(0.0), page.bounds.at_least.value_or(0.0)) - 7.0);
-    if (page.bounds.below || page.bounds.at_most) value = fmt::format("{}", 2.0 * std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0);
-    if (value.empty() || !page.words.empty()) return;
-    if (whole) value = value.substr(0, value.find('.'));
+    std::optional<double> outside;
+    if (page.bounds.above || page.bounds.at_least) outside = std::min(page.bounds.above.value_or(0.0), page.bounds.at_least.value_or(0.0)) - 7.0;
+    if (page.bounds.below || page.bounds.at_most) outside = 2.0 * std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0;
+    constexpr double largest_integer = 9.0e18;
+    if (!outside || !page.words.empty() || (whole && std::abs(*outside) > largest_integer)) return;
+    const std::string value = whole ? fmt::format("{:.0f}", *outside) : fmt::format("{}", *outside);
     add("out of bounds", item.value->begin, item.value->end, value, "out-of-bounds", line_of(item.value->begin));
   }
 
