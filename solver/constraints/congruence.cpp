@@ -103,14 +103,20 @@ SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
     for (std::size_t k = 0; k < sources_.size(); ++k) to[targets_[k]] = weight(k) * from[sources_[k]];
     return result;
   }
-  std::vector<double> sizes(static_cast<std::size_t>(result.nonZeros()), 0.0);
+  struct Sum {
+    long double value = 0.0L;
+    double size = 0.0;
+  };
+  // In extended precision translations, over which rows add up to exactly zero, leave nothing beside what really holds a rigid body.
+  std::vector<Sum> sums(static_cast<std::size_t>(result.nonZeros()));
   for (std::size_t k = 0; k < sources_.size(); ++k) {
-    const double part = weight(k) * from[sources_[k]];
-    to[targets_[k]] += part;
-    sizes[static_cast<std::size_t>(targets_[k])] += std::abs(part);
+    Sum& sum = sums[static_cast<std::size_t>(targets_[k])];
+    const long double part = static_cast<long double>(weight(k)) * from[sources_[k]];
+    sum.value += part;
+    sum.size += std::abs(static_cast<double>(part));
   }
-  for (std::size_t entry = 0; entry < sizes.size(); ++entry)
-    if (std::abs(to[entry]) <= nothing_left * sizes[entry]) to[entry] = 0.0;
+  for (std::size_t entry = 0; entry < sums.size(); ++entry)
+    if (std::abs(sums[entry].value) > nothing_left * sums[entry].size) to[entry] = static_cast<double>(sums[entry].value);
   return result;
 }
 
