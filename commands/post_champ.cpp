@@ -28,17 +28,14 @@ std::vector<int> chosen_cells(const Call& call, const solver::Mesh& mesh) {
 
 solver::ElementField layer_of(const Keywords& occurrence, const std::string& name, const solver::ResultStep& step, const std::vector<int>& cells) {
   static const std::map<std::string, solver::LayerSide, std::less<>> sides = {{"INF", solver::LayerSide::lower}, {"MOY", solver::LayerSide::middle}, {"SUP", solver::LayerSide::upper}};
-  const auto found = step.fields.find(name);
-  if (found == step.fields.end())
-    throw DiagnosticError("unknown-field", fmt::format("step INST={} of the result holds no {}", step.instant, name), occurrence.span_of("NOM_CHAM"), "compute it by CALC_CHAMP before");
-  if (!is_layered(found->second))
+  const solver::Field& field = layered_field_of(occurrence, step, name);
+  if (!is_layered(field))
     throw DiagnosticError("wrong-field", fmt::format("EXTR_COQUE: {} has one value a point", name), occurrence.span_of("NOM_CHAM"), "take SIGM_ELGA, SIGM_ELNO, SIEQ_ELGA or SIEQ_ELNO of plates");
-  const auto& layered = std::get<solver::ElementField>(found->second);
+  const auto& layered = std::get<solver::ElementField>(field);
   solver::ElementField taken = solver::values_in_layer(solver::on_cells(layered, cells), static_cast<int>(occurrence.integer("NUME_COUCHE")), sides.at(occurrence.text("NIVE_COUCHE")));
   if (!taken.values.empty()) return taken;
-  const int most = *std::ranges::max_element(layered.sub_points) / 3;
   throw DiagnosticError("out-of-bounds", fmt::format("EXTR_COQUE: none of these cells has a layer {}", occurrence.integer("NUME_COUCHE")), occurrence.span_of("NUME_COUCHE"),
-                        fmt::format("layers count from 1 to {} (COQUE_NCOU of AFFE_CARA_ELEM)", most));
+                        fmt::format("layers count from 1 to {} (COQUE_NCOU of AFFE_CARA_ELEM)", solver::most_layers(layered)));
 }
 
 }  // namespace

@@ -89,8 +89,7 @@ Value field_handle(const ResultConcept& data, const MethodArguments& given) {
   const solver::ResultStep& step = step_at(data.result, given);
   const auto found = step.fields.find(name);
   if (found == step.fields.end()) throw DiagnosticError("unknown-field", fmt::format("the step INST={} of the result holds no {}", step.instant, name), {}, "compute it by CALC_CHAMP before");
-  if (is_layered(found->second))
-    throw DiagnosticError("layered-field", fmt::format("{} has several values a point on plates, one for each place in their thickness", name), {}, "POST_CHAMP with EXTR_COQUE takes one of them");
+  require_one_value_a_point(name, found->second, {});
   auto field = std::make_shared<FieldConcept>();
   field->field = found->second;
   field->model = data.result.model;

@@ -124,15 +124,20 @@ bool is_layered(const solver::Field& field) {
   return on_cells != nullptr && !on_cells->sub_points.empty();
 }
 
-const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
-  const solver::Field& field = layered_field_of(keywords, step);
-  if (!is_layered(field)) return field;
-  throw DiagnosticError("layered-field", fmt::format("{} has several values a point on plates, one for each place in their thickness", keywords.text("NOM_CHAM")), keywords.span_of("NOM_CHAM"),
+void require_one_value_a_point(const std::string& name, const solver::Field& field, const interpreter::Span& span) {
+  if (!is_layered(field)) return;
+  throw DiagnosticError("layered-field", fmt::format("{} has several values a point on plates, one for each place in their thickness", name), span,
                         "POST_CHAMP with EXTR_COQUE takes one of them");
 }
 
-const solver::Field& layered_field_of(const Keywords& keywords, const ResultStep& step) {
+const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
   const std::string& name = keywords.text("NOM_CHAM");
+  const solver::Field& field = layered_field_of(keywords, step, name);
+  require_one_value_a_point(name, field, keywords.span_of("NOM_CHAM"));
+  return field;
+}
+
+const solver::Field& layered_field_of(const Keywords& keywords, const ResultStep& step, const std::string& name) {
   const auto found = step.fields.find(name);
   if (found != step.fields.end()) return found->second;
   std::vector<std::string> known;

@@ -48,10 +48,12 @@ std::vector<const solver::ResultStep*> steps_with_field(const interpreter::Keywo
 /// The field of a step. Throws DiagnosticError `unknown-field` at NOM_CHAM listing the fields there are, `layered-field` where plates have several values a
 /// point.
 const solver::Field& field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
-/// The same, whatever number of values its points have.
-const solver::Field& layered_field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step);
+/// The same, whatever number of values its points have; `name`: one of those that NOM_CHAM gives.
+const solver::Field& layered_field_of(const interpreter::Keywords& keywords, const solver::ResultStep& step, const std::string& name);
 /// Whether some points have several values, one for each place in the thickness of a plate.
 bool is_layered(const solver::Field& field);
+/// Throws DiagnosticError `layered-field` where they have.
+void require_one_value_a_point(const std::string& name, const solver::Field& field, const interpreter::Span& span);
 
 /// The multipliers of AFFE_CHAR_MECA that stand among the values of DEPL (ssnp140a); none without a computation behind the result.
 std::vector<double> multipliers_of(const ResultConcept& data, const solver::ResultStep& step);

@@ -213,12 +213,11 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
                                   .attempt = by(&CondensedSearch::attempt),
                                   .smooth = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_law); }),
                                   .stand_in = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_pressures); })});
-  const CondensedState start = state;
+  CondensedState start = state;
   CondensedSolution found = CondensedSearch(schur, problem, state).run();
   if (found.verdict == CondensedVerdict::solved) return found;
-  CondensedState afloat = start;
-  if (auto solution = solve_afloat(schur, problem, afloat)) {
-    state = afloat;
+  if (auto solution = solve_afloat(schur, problem, start)) {
+    state = std::move(start);
     return *std::move(solution);
   }
   return found;

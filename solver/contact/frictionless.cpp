@@ -76,9 +76,10 @@ Eigen::VectorXd change_to_rest(SchurComplement& schur, const CondensedProblem& p
   std::vector<int> rows = active;
   for (const CondensedSpring& spring : problem.springs) rows.push_back(spring.row);
   const auto count = static_cast<Index>(rows.size()), touching = static_cast<Index>(active.size()), springs = count - touching;
-  Eigen::MatrixXd compliance(count, count);
-  for (Index column = 0; column < count; ++column)
-    compliance.col(column) = schur.times(Eigen::VectorXd::Unit(change.size(), rows[static_cast<std::size_t>(column)]))(rows);
+  Eigen::SparseMatrix<double> one_each(count, count);
+  one_each.setIdentity();
+  schur.require(rows);
+  const Eigen::MatrixXd compliance = schur.responses(rows, one_each);
   const Eigen::MatrixXd between = compliance.topRightCorner(touching, springs);
   Eigen::MatrixXd held = compliance.bottomRightCorner(springs, springs);
   held -= between.transpose() * compliance.topLeftCorner(touching, touching).ldlt().solve(between);

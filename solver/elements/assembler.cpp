@@ -452,6 +452,7 @@ ElementField Assembler::plate_forces(const Eigen::VectorXd& u) const {
   field.starts = starts_of(counts);
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
   for (const auto& block : blocks_->list) {
+    if (block->inner_point_count() == 0) continue;
     std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->inner_point_count()) * field.components.size());
     block->inner_stresses(u, state_, values);
     write_block(*block, field.components, values, field);

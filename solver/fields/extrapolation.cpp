@@ -97,8 +97,11 @@ Eigen::MatrixXd gauss_to_nodes(CellType type, std::string_view family) {
   return at_nodes * normal.ldlt().solve(at_points.transpose());
 }
 
-ElementField to_element_nodes(const Model& model, const ElementField& field) {
-  const Mesh& mesh = *model.mesh;
+namespace {
+
+/// `matrix_of(cell, points)`: nodes x points.
+template <typename MatrixOf>
+ElementField smoothed(const Mesh& mesh, const ElementField& field, MatrixOf&& matrix_of) {
   const auto width = static_cast<Eigen::Index>(field.components.size());
   ElementField result{field.quantity, Support::element_node, field.components, {0}, {}};
   result.starts.reserve(field.starts.size());
@@ -108,17 +111,28 @@ ElementField to_element_nodes(const Model& model, const ElementField& field) {
   }
   result.values.resize(static_cast<std::size_t>(result.starts.back()) * field.components.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Smoothing smoothing(model);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     const int points = field.points(cell);
     if (points == 0) continue;
-    const Eigen::MatrixXd& matrix = smoothing.of(cell, points);
+    const Eigen::MatrixXd& matrix = matrix_of(cell, points);
     const Eigen::Map<const Rows> given(field.values.data() + field.starts[cell] * width, points, width);
     Eigen::Map<Rows> target(result.values.data() + result.starts[cell] * width, matrix.rows(), width);
     // Without the lazy product a temporary would be allocated for each cell.
     target = matrix.lazyProduct(given);
   }
   return result;
+}
+
+}  // namespace
+
+ElementField to_element_nodes(const Model& model, const ElementField& field) {
+  Smoothing smoothing(model);
+  return smoothed(*model.mesh, field, [&](int cell, int points) -> const Eigen::MatrixXd& { return smoothing.of(cell, points); });
+}
+
+ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces) {
+  const std::array matrices = {gauss_to_nodes(CellType::tria3, plate_family(CellType::tria3)), gauss_to_nodes(CellType::quad4, plate_family(CellType::quad4))};
+  return smoothed(mesh, forces, [&](int cell, int) -> const Eigen::MatrixXd& { return matrices[mesh.cell_types[static_cast<std::size_t>(cell)] == CellType::tria3 ? 0 : 1]; });
 }
 
 ElementField to_element_nodes(const Model& model, const NodalField& field) {

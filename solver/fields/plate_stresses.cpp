@@ -1,11 +1,10 @@
 #include "solver/fields/plate_stresses.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Dense>
 
-#include "solver/elements/quadrature.hpp"
-#include "solver/fields/extrapolation.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/model/stress_names.hpp"
 
@@ -51,22 +50,7 @@ ElementField plate_stresses(const Model& model, const ElementProperties& propert
   return field;
 }
 
-ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces) {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto width = static_cast<Eigen::Index>(forces.components.size());
-  ElementField result{forces.quantity, Support::element_node, forces.components, {0}, {}};
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const int points = forces.points(cell);
-    if (points > 0) {
-      const CellType type = mesh.cell_types[static_cast<std::size_t>(cell)];
-      const Eigen::Map<const Rows> given(forces.values.data() + forces.starts[cell] * width, points, width);
-      const Rows corners = gauss_to_nodes(type, plate_family(type)) * given;
-      result.values.insert(result.values.end(), corners.data(), corners.data() + corners.size());
-    }
-    result.starts.push_back(static_cast<int>(static_cast<Eigen::Index>(result.values.size()) / width));
-  }
-  return result;
-}
+int most_layers(const ElementField& field) { return field.sub_points.empty() ? 0 : *std::ranges::max_element(field.sub_points) / places_a_layer; }
 
 ElementField values_in_layer(const ElementField& field, int layer, LayerSide side) {
   const int place = places_a_layer * (layer - 1) + static_cast<int>(side);

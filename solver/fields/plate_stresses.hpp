@@ -13,10 +13,10 @@ namespace comma::solver {
 /// vanishes on both faces (R3.07.03). Throws Error `unknown-component`, `missing-properties`.
 ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces);
 
-/// Forces at the points of plates (Assembler::plate_forces) as those at their corners, by the linear functions through them (R3.06.03).
-ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces);
-
 enum class LayerSide : std::uint8_t { lower, middle, upper };
+
+/// Of the cell that has the most.
+int most_layers(const ElementField& field);
 
 /// One place in the thickness, of the cells that have several and at least `layer` (from 1) layers; other cells have none.
 ElementField values_in_layer(const ElementField& field, int layer, LayerSide side);
