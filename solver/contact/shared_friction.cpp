@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace comma::solver {
 namespace {
@@ -13,18 +14,60 @@ constexpr int most_turns = 20;
 constexpr int most_failures = 6;
 /// Shares of pressure that change by less are near enough to those of the solution for Newton's method.
 constexpr double near_share = 1e-2;
-/// The largest pressure counts as the same within this share of itself.
+/// The largest pressures count as the same within this share of itself.
 constexpr double same_pressure = 1e-6;
 
 /// Whether a solution is looked for near the one before alone, or anew where there is none.
 enum class Turn : std::uint8_t { near, anew };
 enum class Shears : std::uint8_t { none, as_they_are, by_shares };
 
-double largest_pressure(const CondensedProblem& problem, const CondensedState& state) {
-  double largest = 0.0;
-  for (int node = 0; node < problem.node_count; ++node) largest = std::max(largest, state.multipliers[Index{node} * problem.components]);
-  return largest;
-}
+/// The largest pressure of each surface: of the nodes that points tie together, one after the other, so that what happens elsewhere does not count.
+class SurfacePressures {
+ public:
+  explicit SurfacePressures(const CondensedProblem& problem) : components_(problem.components), surface_(static_cast<std::size_t>(problem.node_count)) {
+    std::iota(surface_.begin(), surface_.end(), 0);
+    for (const CondensedPoint& point : problem.points)
+      for (int i = 1; i < point.node_count; ++i) surface_[static_cast<std::size_t>(first_of(point.nodes[static_cast<std::size_t>(i)]))] = first_of(point.nodes.front());
+    for (int node = 0; node < problem.node_count; ++node) surface_[static_cast<std::size_t>(node)] = first_of(node);
+    values_.assign(surface_.size(), 0.0);
+  }
+
+  void measure(const CondensedState& state) {
+    std::ranges::fill(values_, 0.0);
+    largest_ = 0.0;
+    for (std::size_t node = 0; node < surface_.size(); ++node) {
+      const double pressure = state.multipliers[static_cast<Index>(node) * components_];
+      double& of_surface = values_[static_cast<std::size_t>(surface_[node])];
+      of_surface = std::max(of_surface, pressure);
+      largest_ = std::max(largest_, pressure);
+    }
+  }
+
+  bool press() const { return largest_ > 0.0; }
+
+  /// Of the surface of the node, of all where nothing presses on that; 1 where nothing presses at all.
+  double at(int node) const {
+    const double of_surface = values_[static_cast<std::size_t>(surface_[static_cast<std::size_t>(node)])];
+    return of_surface > 0.0 ? of_surface : press() ? largest_ : 1.0;
+  }
+
+  bool is_near(const SurfacePressures& other, double share) const {
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (std::abs(values_[i] - other.values_[i]) > share * other.values_[i]) return false;
+    return true;
+  }
+
+ private:
+  int first_of(int node) {
+    while (surface_[static_cast<std::size_t>(node)] != node) node = surface_[static_cast<std::size_t>(node)];
+    return node;
+  }
+
+  int components_;
+  std::vector<int> surface_;    ///< of each node: the node that stands for its surface
+  std::vector<double> values_;  ///< at the nodes that stand for surfaces
+  double largest_ = 0.0;
+};
 
 std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
   std::vector<char> result(static_cast<std::size_t>(problem.node_count), 0);
@@ -35,7 +78,7 @@ std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
 
 class SharedFriction {
  public:
-  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)), search_(problem.share_search ? *problem.share_search : own_search_) {
+  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)), pressures_(problem), search_(problem.share_search ? *problem.share_search : own_search_) {
     problem_.expected.resize(0);  // shears, not shares
   }
 
@@ -55,12 +98,12 @@ class SharedFriction {
   /// Whether there is a solution by shares; otherwise what stands in for it.
   bool find_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
     if (solve_as_expected(state, solution)) return true;
-    pressure_ = largest_pressure(given_, state);
-    if (pressure_ > 0.0 && solve_at_once(state, solution)) return true;
+    pressures_.measure(state);
+    if (pressures_.press() && solve_at_once(state, solution)) return true;
     bool searched = search_.found_last;
     if (searched && search_shares(start, state, solution)) return true;
-    if (pressure_ > 0.0 && solve_in_turns(state, solution, Turn::near)) return true;
-    if (pressure_ > 0.0 && lets_creep()) {
+    if (pressures_.press() && solve_in_turns(state, solution, Turn::near)) return true;
+    if (pressures_.press() && lets_creep()) {
       if (!searched && search_shares(start, state, solution)) return true;
       searched = true;
       if (solve_in_turns(state, solution, Turn::anew)) return true;
@@ -76,12 +119,12 @@ class SharedFriction {
     return solution.verdict == CondensedVerdict::solved && shares_follow(state, solution);
   }
 
-  /// Where points of a node are open and others closed, the law there depends on the pressure of shares: it is to be the largest of the solution, whatever that was found from.
+  /// Where points of a node are open and others closed, the law there depends on the pressure of shares: it is to be the largest of the solution on its surface, whatever that was found from.
   void take_own_pressure(CondensedState& state, CondensedSolution& solution) {
     for (int turn = 0; turn < most_turns && is_partly_open(state); ++turn) {
-      const double pressure = largest_pressure(given_, state);
-      if (!(pressure > 0.0) || std::abs(pressure - pressure_) <= same_pressure * pressure) return;
-      pressure_ = pressure;
+      const SurfacePressures before = pressures_;
+      pressures_.measure(state);
+      if (!pressures_.press() || before.is_near(pressures_, same_pressure)) return;
       CondensedSolution next;
       if (!solve_at_once(state, next)) return;
       solution = next;
@@ -110,8 +153,9 @@ class SharedFriction {
       if (!(point.share_augmentation > 0.0)) continue;
       point.law = given_.points[p].law;
       if (shears == Shears::none) point.law.friction = 0.0;
-      point.law.friction_augmentation = point.share_augmentation * (point.law.friction > 0.0 ? point.law.friction : 1.0) * (pressure_ > 0.0 ? pressure_ : 1.0);
-      point.law.share_pressure = shears == Shears::by_shares ? pressure_ : 0.0;
+      const double pressure = pressures_.at(point.nodes.front());
+      point.law.friction_augmentation = point.share_augmentation * (point.law.friction > 0.0 ? point.law.friction : 1.0) * pressure;
+      point.law.share_pressure = shears == Shears::by_shares ? pressure : 0.0;
     }
   }
 
@@ -124,17 +168,17 @@ class SharedFriction {
 
   /// That of the solution without friction, unless there is one already.
   void find_pressure(const CondensedState& start) {
-    if (pressure_ > 0.0) return;
+    if (pressures_.press()) return;
     CondensedState state = start;
     take(Shears::none);
     solve_once(state);
-    pressure_ = largest_pressure(given_, state);
+    pressures_.measure(state);
   }
 
   /// Whether shares of the limit follow from a solution by shears, which stays otherwise.
   bool shares_follow(CondensedState& state, CondensedSolution& solution) {
-    pressure_ = largest_pressure(given_, state);
-    if (!(pressure_ > 0.0)) return true;
+    pressures_.measure(state);
+    if (!pressures_.press()) return true;
     CondensedSolution shared;
     if (!solve_by_shares(state, shared)) return false;
     solution = shared;
@@ -156,7 +200,7 @@ class SharedFriction {
 
   /// By shares at once, without a solution to begin from.
   bool solve_smooth_shares(const CondensedState& start, CondensedState& state, CondensedSolution& solution) {
-    if (!(pressure_ > 0.0)) return false;
+    if (!pressures_.press()) return false;
     take(Shears::by_shares);
     CondensedState shared_state = start;
     const CondensedSolution shared = solve_once(shared_state, methods_.smooth);
@@ -186,8 +230,8 @@ class SharedFriction {
   bool solve_as_expected(CondensedState& state, CondensedSolution& solution) {
     if (given_.expected.size() != state.multipliers.size()) return false;
     CondensedState expected{given_.expected, state.statuses};
-    pressure_ = largest_pressure(given_, expected);
-    if (!(pressure_ > 0.0) || !solve_at_once(expected, solution)) return false;
+    pressures_.measure(expected);
+    if (!pressures_.press() || !solve_at_once(expected, solution)) return false;
     state = expected;
     return true;
   }
@@ -252,7 +296,7 @@ class SharedFriction {
       CondensedPoint& point = problem_.points[p];
       if (!(point.share_augmentation > 0.0)) continue;
       const bool open = state.statuses[p] == ContactStatus::open;
-      const double share = open ? least_pressure_share : std::max(least_pressure_share, multiplier_at(problem_, state, point)[0] / pressure_);
+      const double share = open ? least_pressure_share : std::max(least_pressure_share, multiplier_at(problem_, state, point)[0] / pressures_.at(point.nodes.front()));
       change = std::max(change, std::abs(share - point.law.held_share));
       point.law.held_share = share;
     }
@@ -262,11 +306,11 @@ class SharedFriction {
   /// With the laws by shares: shears for shares, and back.
   CondensedState in_shares(CondensedState state) {
     take(Shears::by_shares);
-    scale_shears(state, [this](double pressure) { return pressure_ / pressure; });
+    scale_shears(state, [](double pressure, double of_surface) { return of_surface / pressure; });
     return state;
   }
   CondensedState in_shears(CondensedState state) const {
-    scale_shears(state, [this](double pressure) { return pressure / pressure_; });
+    scale_shears(state, [](double pressure, double of_surface) { return pressure / of_surface; });
     return state;
   }
 
@@ -277,7 +321,7 @@ class SharedFriction {
       if (!shared_[static_cast<std::size_t>(node)]) continue;
       const Index first = Index{node} * given_.components;
       const double pressure = state.multipliers[first];
-      state.multipliers.segment(first + 1, given_.components - 1) *= pressure > 0.0 ? factor(pressure) : 0.0;
+      state.multipliers.segment(first + 1, given_.components - 1) *= pressure > 0.0 ? factor(pressure, pressures_.at(node)) : 0.0;
     }
   }
 
@@ -292,9 +336,9 @@ class SharedFriction {
   CondensedProblem problem_;
   const CondensedMethods& methods_;
   const std::vector<char> shared_;
+  SurfacePressures pressures_;
   ShareSearch own_search_;
   ShareSearch& search_;
-  double pressure_ = 0.0;
   int iterations_ = 0;
 };
 

@@ -51,6 +51,24 @@ TEST_CASE("A solution by shears says that it is one where none by shares of the 
   }
 }
 
+TEST_CASE("Shares of friction are weighed by the pressures of their own surface") {
+  CondensedProblem problem = between_nodes();
+  problem.points.push_back(problem.points.front());
+  problem.points.back().first_row = 2;
+  problem.points.back().nodes = {2, 3};
+  problem.node_count = 4;
+  problem.free = problem.held = Eigen::VectorXd::Zero(4);
+  CondensedState state{.multipliers = Eigen::VectorXd::Zero(8), .statuses = {ContactStatus::sticking, ContactStatus::sticking}};
+  std::vector<double> weighed_by;
+  const auto method = [&](const CondensedProblem& each, CondensedState& solved) {
+    if (by_shares(each)) weighed_by = {each.points[0].law.share_pressure, each.points[1].law.share_pressure};
+    for (const Eigen::Index node : {0, 1, 2, 3}) solved.multipliers[2 * node] = node < 2 ? 2.0 + static_cast<double>(node) : 5.0e6;
+    return CondensedSolution{};
+  };
+  REQUIRE(solve_shared_friction(problem, state, {method, method, method, method, method}).verdict == CondensedVerdict::solved);
+  CHECK(weighed_by == std::vector<double>{3.0, 5.0e6});
+}
+
 TEST_CASE("A solution with penalties is gone on from by its forces, not from gaps that no force has closed") {
   // Bodies overlap by 1 before they push; penalties are a thousand times as stiff as they are.
   Coupled bodies(8, 0.5);
