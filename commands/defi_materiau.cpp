@@ -69,32 +69,34 @@ void take_bulk_and_shear(const Keywords& law, solver::IsotropicElasticity& elast
   elasticity.poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
 }
 
+/// The expansion of ELAS_FO and its like is measured from a temperature, which must be known. Tables over the temperature are converted at their points.
+solver::Expansion varying_expansion(const Keywords& law, const std::string& keyword) {
+  if (!law.has("TEMP_DEF_ALPHA")) {
+    throw DiagnosticError("missing-keyword", "DEFI_MATERIAU: " + keyword + ", which varies, needs TEMP_DEF_ALPHA beside it", law.span,
+                          "TEMP_DEF_ALPHA is the temperature from which " + keyword + " was measured");
+  }
+  const double measured_from = law.real("TEMP_DEF_ALPHA");
+  const auto& function = interpreter::data_of<FunctionConcept>(law.concept_of(keyword), keyword);
+  const auto* table = function.table();
+  if (table == nullptr || function.parameters().front() != "TEMP") return {property(law, keyword), measured_from};
+  return solver::mean_expansion(*table, measured_from, law.real("PRECISION"));
+}
+
+/// A number, or a function; nothing where the keyword is absent.
+solver::Expansion expansion(const Keywords& law, const std::string& keyword) {
+  if (!law.has(keyword)) return {};
+  return law.at(keyword).value.is_concept() ? varying_expansion(law, keyword) : solver::Expansion(law.real(keyword));
+}
+
 solver::IsotropicElasticity isotropic(const Keywords& law) {
   solver::IsotropicElasticity elasticity;
   elasticity.young = property(law, "E");
   elasticity.poisson = property(law, "NU");
   if (law.has("K") || law.has("CELE_P")) take_bulk_and_shear(law, elasticity);
   elasticity.density = property(law, "RHO");
-  elasticity.expansion = property(law, "ALPHA");
+  elasticity.expansion = expansion(law, "ALPHA");
   elasticity.drying_shrinkage = property(law, "K_DESSIC");
   elasticity.hydration_shrinkage = property(law, "B_ENDOGE");
-  if (law.has("TEMP_DEF_ALPHA")) elasticity.definition_temperature = law.real("TEMP_DEF_ALPHA");
-  return elasticity;
-}
-
-// ELAS_FO measures ALPHA from a temperature, which must be known.
-solver::IsotropicElasticity varying_isotropic(const Keywords& law) {
-  if (law.has("ALPHA") && !law.has("TEMP_DEF_ALPHA")) {
-    throw DiagnosticError("missing-keyword", "DEFI_MATERIAU/ELAS_FO needs TEMP_DEF_ALPHA beside ALPHA", law.span,
-                          "TEMP_DEF_ALPHA is the temperature from which ALPHA was measured");
-  }
-  solver::IsotropicElasticity elasticity = isotropic(law);
-  if (!law.has("ALPHA")) return elasticity;
-  const auto& function = interpreter::data_of<FunctionConcept>(law.concept_of("ALPHA"), "ALPHA");
-  const auto* table = function.table();
-  if (table == nullptr || function.parameters().front() != "TEMP") return elasticity;
-  elasticity.expansion = solver::mean_expansion(*table, elasticity.definition_temperature, law.real("PRECISION"));
-  elasticity.definition_temperature = solver::from_reference;
   return elasticity;
 }
 
@@ -104,7 +106,7 @@ solver::OrthotropicElasticity orthotropic(const Keywords& law) {
   elasticity.poisson = {property(law, "NU_LT"), property(law, "NU_LN"), property(law, "NU_TN")};
   elasticity.shear = {property(law, "G_LT"), property(law, "G_LN"), property(law, "G_TN")};
   elasticity.density = property(law, "RHO");
-  elasticity.expansion = {property(law, "ALPHA_L"), property(law, "ALPHA_T"), property(law, "ALPHA_N")};
+  elasticity.expansion = {expansion(law, "ALPHA_L"), expansion(law, "ALPHA_T"), expansion(law, "ALPHA_N")};
   return elasticity;
 }
 
@@ -116,8 +118,8 @@ solver::OrthotropicElasticity transverse(const Keywords& law) {
   elasticity.poisson_normal = property(law, "NU_LN");
   elasticity.shear_normal = property(law, "G_LN");
   elasticity.density = property(law, "RHO");
-  elasticity.expansion = property(law, "ALPHA_L");
-  elasticity.expansion_normal = property(law, "ALPHA_N");
+  elasticity.expansion = expansion(law, "ALPHA_L");
+  elasticity.expansion_normal = expansion(law, "ALPHA_N");
   return solver::as_orthotropic(elasticity);
 }
 
@@ -230,10 +232,12 @@ Product defi_materiau(const Call& call, Context&) {
     throw DiagnosticError("missing-one-of", "DEFI_MATERIAU gives the material nothing", call.span, "give it a law, such as ELAS=_F(E=..., NU=...)");
   }
   auto material = call.has("MATER") ? std::make_shared<solver::Material>(*call.data<MaterialConcept>("MATER").material) : std::make_shared<solver::Material>();
-  if (call.has("ELAS")) material->elasticity = isotropic(call.factor("ELAS"));
-  if (call.has("ELAS_FO")) material->elasticity = varying_isotropic(call.factor("ELAS_FO"));
-  if (call.has("ELAS_ORTH")) material->elasticity = orthotropic(call.factor("ELAS_ORTH"));
-  if (call.has("ELAS_ISTR")) material->elasticity = transverse(call.factor("ELAS_ISTR"));
+  for (const char* keyword : {"ELAS", "ELAS_FO"})
+    if (call.has(keyword)) material->elasticity = isotropic(call.factor(keyword));
+  for (const char* keyword : {"ELAS_ORTH", "ELAS_ORTH_FO"})
+    if (call.has(keyword)) material->elasticity = orthotropic(call.factor(keyword));
+  for (const char* keyword : {"ELAS_ISTR", "ELAS_ISTR_FO"})
+    if (call.has(keyword)) material->elasticity = transverse(call.factor(keyword));
   if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
   add_plasticity(call, material->plasticity);
   if (call.has("DIS_CONTACT")) material->contact_spring = contact_spring(call.factor("DIS_CONTACT"));

@@ -45,13 +45,13 @@ double hydration_strain(const IsotropicElasticity& material, const MaterialPoint
 }
 
 void write_strains(const IsotropicElasticity& material, const MaterialPoint& at, double* target) {
-  std::fill_n(target, 3, thermal_strain(material.expansion, material.definition_temperature, at));
+  std::fill_n(target, 3, thermal_strain(material.expansion, at));
   target[3] = drying_strain(material, at);
   target[4] = hydration_strain(material, at);
 }
 
 void write_strains(const OrthotropicElasticity& material, const MaterialPoint& at, double* target) {
-  for (std::size_t i = 0; i < 3; ++i) target[i] = thermal_strain(material.expansion[i], material.definition_temperature, at);
+  for (std::size_t i = 0; i < 3; ++i) target[i] = thermal_strain(material.expansion[i], at);
   target[3] = target[4] = 0.0;
 }
 

@@ -26,6 +26,10 @@ bool is_zero(const Property& property) {
   return property.is_constant() && property(MaterialPoint()) == 0.0;
 }
 
+bool is_zero(const Expansion& expansion) {
+  return is_zero(expansion.coefficient);
+}
+
 double positive(double modulus, const char* name) {
   if (modulus > 0.0) return modulus;
   throw Error("invalid-material", fmt::format("an orthotropic material has {} = {}, but it must be positive", name, modulus),
@@ -66,7 +70,7 @@ Matrix6d own_stiffness(const OrthotropicElasticity& material, const MaterialPoin
 
 Eigen::Vector3d own_expansion(const OrthotropicElasticity& material, const MaterialPoint& at) {
   Eigen::Vector3d strain;
-  for (int i = 0; i < 3; ++i) strain[i] = thermal_strain(material.expansion[i], material.definition_temperature, at);
+  for (int i = 0; i < 3; ++i) strain[i] = thermal_strain(material.expansion[i], at);
   return strain;
 }
 
@@ -97,7 +101,7 @@ double shrinkage(const IsotropicElasticity& material, const MaterialPoint& at) {
 
 /// The same along every direction.
 double expansion(const IsotropicElasticity& material, const MaterialPoint& at) {
-  return thermal_strain(material.expansion, material.definition_temperature, at) + shrinkage(material, at);
+  return thermal_strain(material.expansion, at) + shrinkage(material, at);
 }
 
 }  // namespace
@@ -114,7 +118,6 @@ OrthotropicElasticity as_orthotropic(const TransverseElasticity& material) {
                   material.shear_normal};
   result.density = material.density;
   result.expansion = {material.expansion, material.expansion, material.expansion_normal};
-  result.definition_temperature = material.definition_temperature;
   return result;
 }
 
@@ -238,16 +241,16 @@ Matrix6d strain_rotation(const Eigen::Matrix3d& axes) {
   return rotation;
 }
 
-double thermal_strain(const Property& expansion, double definition_temperature, const MaterialPoint& at) {
+double thermal_strain(const Expansion& expansion, const MaterialPoint& at) {
   const double temperature = at[Parameter::temperature];
   if (std::isnan(temperature) || is_zero(expansion)) return 0.0;
   const double reference = at.reference(Parameter::temperature);
   if (std::isnan(reference)) throw Error("missing-reference", "a temperature is given without its reference value");
-  if (std::isnan(definition_temperature)) return expansion(at) * (temperature - reference);
+  const auto& [coefficient, measured_from] = expansion;
+  if (std::isnan(measured_from)) return coefficient(at) * (temperature - reference);
   MaterialPoint at_reference = at;
   at_reference[Parameter::temperature] = reference;
-  const double shift = expansion(at_reference) * (reference - definition_temperature);
-  return expansion(at) * (temperature - definition_temperature) - shift;
+  return coefficient(at) * (temperature - measured_from) - coefficient(at_reference) * (reference - measured_from);
 }
 
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at) {

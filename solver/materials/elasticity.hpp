@@ -72,7 +72,7 @@ Matrix6d strain_rotation(const Eigen::Matrix3d& axes);
 ///
 /// and alpha(T) (T - T_r) without a definition temperature. 0 where no temperature is given. Throws Error
 /// `missing-reference` where a temperature is given without its reference.
-double thermal_strain(const Property& expansion, double definition_temperature, const MaterialPoint& at);
+double thermal_strain(const Expansion& expansion, const MaterialPoint& at);
 
 /// The strain that command variables cause in the unloaded material, in global axes (with shear angles): thermal
 /// expansion, drying K (C - C_r), hydration -B h (R7.01.12), and the strain that is known beforehand (U4.43.03, EPSA).

@@ -19,15 +19,23 @@ namespace comma::solver {
 /// No temperature of definition: expansion is measured from the reference temperature.
 inline constexpr double from_reference = std::numeric_limits<double>::quiet_NaN();
 
+/// Mean thermal expansion, and the temperature from which it was measured.
+struct Expansion {
+  Expansion(double constant = 0.0) : coefficient(constant) {}  // NOLINT(google-explicit-constructor): a number is an expansion
+  Expansion(Property measured, double from = from_reference)   // NOLINT(google-explicit-constructor)
+      : coefficient(std::move(measured)), definition_temperature(from) {}
+  Property coefficient;
+  double definition_temperature = from_reference;
+};
+
 /// Isotropic linear elasticity. Stresses in the unit of `young`.
 struct IsotropicElasticity {
   Property young{};    ///< Young's modulus, > 0
   Property poisson{};  ///< in (-1, 0.5)
   Property density{};
-  Property expansion{};                            ///< mean coefficient of thermal expansion
-  double definition_temperature = from_reference;  ///< temperature from which `expansion` was measured
-  Property drying_shrinkage{};                     ///< K_DESSIC: strain for a unit of water content
-  Property hydration_shrinkage{};                  ///< B_ENDOGE: shrinkage at full hydration
+  Expansion expansion{};
+  Property drying_shrinkage{};     ///< K_DESSIC: strain for a unit of water content
+  Property hydration_shrinkage{};  ///< B_ENDOGE: shrinkage at full hydration
 };
 
 /// Orthotropic linear elasticity in the axes L, T, N of each cell. Pairs are in the order LT, LN, TN; a stress along L
@@ -37,8 +45,7 @@ struct OrthotropicElasticity {
   std::array<Property, 3> poisson{};
   std::array<Property, 3> shear{};
   Property density{};
-  std::array<Property, 3> expansion{};  ///< L, T, N
-  double definition_temperature = from_reference;
+  std::array<Expansion, 3> expansion{};  ///< L, T, N
 };
 
 /// Isotropic in the plane (L, T), with the axis N: an orthotropic law whose shear modulus in the plane follows from the
@@ -50,9 +57,8 @@ struct TransverseElasticity {
   Property poisson_normal{};  ///< LN: a stress along L shrinks N by poisson_normal / young
   Property shear_normal{};    ///< G_LN
   Property density{};
-  Property expansion{};
-  Property expansion_normal{};
-  double definition_temperature = from_reference;
+  Expansion expansion{};
+  Expansion expansion_normal{};
 };
 OrthotropicElasticity as_orthotropic(const TransverseElasticity& material);
 

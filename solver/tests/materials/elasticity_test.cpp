@@ -150,12 +150,12 @@ TEST_CASE("thermal strain vanishes at the reference, and is measured on the leng
   at.reference(Parameter::temperature) = 100.0;
   for (const double t : {-50.0, 20.0, 100.0, 100.001, 700.0}) {
     at[Parameter::temperature] = t;
-    CHECK(thermal_strain(mean, 20.0, at) == Approx(stretch(t) - stretch(100.0)).margin(1e-15));
+    CHECK(thermal_strain({mean, 20.0}, at) == Approx(stretch(t) - stretch(100.0)).margin(1e-15));
   }
   at[Parameter::temperature] = 700.0;
-  CHECK(thermal_strain(2e-5, from_reference, at) == exactly(2e-5 * 600));
+  CHECK(thermal_strain(2e-5, at) == exactly(2e-5 * 600));
   at.reference(Parameter::temperature) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(thermal_strain(2e-5, from_reference, at), Catch::Contains("reference"));
+  CHECK_THROWS_WITH(thermal_strain(2e-5, at), Catch::Contains("reference"));
 }
 
 TEST_CASE("concrete shrinks as it dries and as it hydrates", "[materials]") {
