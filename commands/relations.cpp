@@ -90,7 +90,7 @@ struct Side {
 Side side_of(const Keywords& keywords, const LoadedModel& target, const std::string& number) {
   const PlaceKeywords names = {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number};
   Side side;
-  side.nodes = remaining_nodes(keywords, target.mesh, names);
+  side.nodes = selected_nodes(keywords, target.mesh, names);
   side.cells = selected_cells(keywords, target.mesh, names);
   if (keywords.given("SOMMET")) {
     // Of nodes that are named themselves those are corners that are corners of any cell.
@@ -125,10 +125,24 @@ solver::Placement placement(const Keywords& keywords) {
   return placement;
 }
 
+// What is left out (SANS_GROUP_NO ...) takes whole pairs with it (U4.44.01). Where it alone makes the sides match, it is left out before nodes are paired.
+std::vector<solver::NodePair> pairs_left(const Keywords& keywords, const solver::Mesh& mesh, std::vector<int> first, std::vector<int> second) {
+  const double farthest = keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
+  const std::vector<int> excluded = excluded_nodes(keywords, mesh);
+  const std::set<int> left_out(excluded.begin(), excluded.end());
+  const auto is_left_out = [&](int node) { return left_out.contains(node); };
+  if (first.size() != second.size()) {
+    std::erase_if(first, is_left_out);
+    std::erase_if(second, is_left_out);
+  }
+  auto pairs = solver::facing_nodes(mesh, first, second, placement(keywords), farthest);
+  std::erase_if(pairs, [&](const solver::NodePair& pair) { return is_left_out(pair.first) || is_left_out(pair.second); });
+  return pairs;
+}
+
 Relations between_facing_nodes(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const Side first = side_of(keywords, target, "1"), second = side_of(keywords, target, "2");
-  const double farthest = keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
-  const auto pairs = solver::facing_nodes(target.mesh, first.nodes, second.nodes, placement(keywords), farthest);
+  const auto pairs = pairs_left(keywords, target.mesh, first.nodes, second.nodes);
   const Amount amount = amount_of(keywords, "COEF_IMPO");
   return solver::facing_relations(target.mesh, pairs, first.terms, second.terms, first.normals, second.normals, amount.value,
                                   amount.function, origin);

@@ -76,10 +76,14 @@ std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& me
   return nodes.take();
 }
 
-std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
+std::vector<int> excluded_nodes(const Keywords& keywords, const solver::Mesh& mesh) {
   static const PlaceKeywords without = {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"};
+  return selected_nodes(keywords, mesh, without);
+}
+
+std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
   auto nodes = selected_nodes(keywords, mesh, names);
-  const auto excluded = selected_nodes(keywords, mesh, without);
+  const auto excluded = excluded_nodes(keywords, mesh);
   const std::set<int> left_out(excluded.begin(), excluded.end());
   std::erase_if(nodes, [&](int node) { return left_out.contains(node); });
   return nodes;

@@ -28,7 +28,10 @@ inline const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
 std::vector<int> selected_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});
 
-/// The same less those that SANS_GROUP_NO, SANS_NOEUD, SANS_GROUP_MA and SANS_MAILLE name.
+/// Those that SANS_GROUP_NO, SANS_NOEUD, SANS_GROUP_MA and SANS_MAILLE name.
+std::vector<int> excluded_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh);
+
+/// selected_nodes() less excluded_nodes().
 std::vector<int> remaining_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                  const PlaceKeywords& names = {});
 
