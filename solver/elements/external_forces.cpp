@@ -106,9 +106,11 @@ class CellIntegrator {
   void add(const DistributedForce& load, double factor) {
     check_distributed_force(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
-    // Forces in a body are integrated where its stresses are (ssnv263c); gravity and centrifugal forces with the mass.
+    // Forces in a body are integrated where its stresses are (ssnv263c), those on a plate as its pressure; gravity and centrifugal forces with the mass.
     const CellType type = mesh_.cell_types[load.cell];
-    const auto& samples = input_.model.is_skin(load.cell) ? of_skin(load.cell) : samples_.of_stiffness(type, input_.model.formulations[load.cell]);
+    const Formulation formulation = input_.model.formulations[load.cell];
+    const bool on_surface = input_.model.is_skin(load.cell) || is_plate(formulation);
+    const auto& samples = on_surface ? of_skin(load.cell) : samples_.of_stiffness(type, formulation);
     integrate(load.cell, samples, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
       Eigen::Vector3d density = values_at(load.force, load.functions, to_point(point.at), time_);
       for (int c = 0; c < 3; ++c)
