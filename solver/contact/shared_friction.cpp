@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "solver/mesh/disjoint_sets.hpp"
 
 namespace comma::solver {
 namespace {
@@ -24,12 +25,11 @@ enum class Shears : std::uint8_t { none, as_they_are, by_shares };
 /// The largest pressure of each surface: of the nodes that points tie together, one after the other, so that what happens elsewhere does not count.
 class SurfacePressures {
  public:
-  explicit SurfacePressures(const CondensedProblem& problem) : components_(problem.components), surface_(static_cast<std::size_t>(problem.node_count)) {
-    std::iota(surface_.begin(), surface_.end(), 0);
+  explicit SurfacePressures(const CondensedProblem& problem) : components_(problem.components), values_(static_cast<std::size_t>(problem.node_count), 0.0) {
+    DisjointSets surfaces(problem.node_count);
     for (const CondensedPoint& point : problem.points)
-      for (int i = 1; i < point.node_count; ++i) surface_[static_cast<std::size_t>(first_of(point.nodes[static_cast<std::size_t>(i)]))] = first_of(point.nodes.front());
-    for (int node = 0; node < problem.node_count; ++node) surface_[static_cast<std::size_t>(node)] = first_of(node);
-    values_.assign(surface_.size(), 0.0);
+      for (int i = 1; i < point.node_count; ++i) surfaces.join(point.nodes.front(), point.nodes[static_cast<std::size_t>(i)]);
+    for (int node = 0; node < problem.node_count; ++node) surface_.push_back(surfaces.root(node));
   }
 
   void measure(const CondensedState& state) {
@@ -58,11 +58,6 @@ class SurfacePressures {
   }
 
  private:
-  int first_of(int node) {
-    while (surface_[static_cast<std::size_t>(node)] != node) node = surface_[static_cast<std::size_t>(node)];
-    return node;
-  }
-
   int components_;
   std::vector<int> surface_;    ///< of each node: the node that stands for its surface
   std::vector<double> values_;  ///< at the nodes that stand for surfaces
