@@ -241,10 +241,6 @@ const solver::Elasticity* elasticity_of(const solver::StaticProblem& problem, in
 
 bool is_missing(const solver::Property& property) { return property.is_constant() && property(solver::MaterialPoint()) == 0.0; }
 
-const solver::Property& coefficient_of(const solver::IsotropicElasticity& elasticity, solver::Parameter variable) {
-  return variable == solver::Parameter::temperature ? elasticity.expansion.coefficient : elasticity.drying_shrinkage;
-}
-
 bool lacks_density(const solver::StaticProblem& problem, int cell) {
   const solver::Elasticity* elasticity = has_mass(*problem.model, cell) ? elasticity_of(problem, cell) : nullptr;
   return elasticity != nullptr && std::visit([](const auto& each) { return is_missing(each.density); }, *elasticity);
@@ -272,16 +268,18 @@ void warn_of_missing_density(const interpreter::Call& call, const solver::Static
 struct StrainingVariable {
   solver::Parameter parameter;
   const char* name;
+  const solver::Property& (*coefficient)(const solver::IsotropicElasticity&);
   const char* keyword;
 };
 
 constexpr std::array<StrainingVariable, 2> straining_variables = {
-    {{solver::Parameter::temperature, "TEMP", "ALPHA"}, {solver::Parameter::drying, "SECH", "K_DESSIC"}}};
+    {{solver::Parameter::temperature, "TEMP", [](const solver::IsotropicElasticity& elasticity) -> const solver::Property& { return elasticity.expansion.coefficient; }, "ALPHA"},
+     {solver::Parameter::drying, "SECH", [](const solver::IsotropicElasticity& elasticity) -> const solver::Property& { return elasticity.drying_shrinkage; }, "K_DESSIC"}}};
 
 bool ignores(const solver::StaticProblem& problem, int cell, const StrainingVariable& variable) {
   const solver::Elasticity* elasticity = has_mass(*problem.model, cell) ? elasticity_of(problem, cell) : nullptr;
   const auto* isotropic = elasticity != nullptr ? std::get_if<solver::IsotropicElasticity>(elasticity) : nullptr;
-  if (isotropic == nullptr || !is_missing(coefficient_of(*isotropic, variable.parameter))) return false;
+  if (isotropic == nullptr || !is_missing(variable.coefficient(*isotropic))) return false;
   const solver::Relation relation = problem.behaviours && !problem.behaviours->empty() ? (*problem.behaviours)[static_cast<std::size_t>(cell)].relation : solver::Relation::elastic;
   return solver::is_constant(*isotropic, problem.materials->by_cell[static_cast<std::size_t>(cell)]->plasticity, relation);
 }
