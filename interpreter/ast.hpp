@@ -347,12 +347,21 @@ struct Parameter {
   bool positional_only = false;
 };
 
+/// A name that a function uses and does not bind itself. A local one of a function around it lies `name->hops - level`
+/// frames further out than the frame in which the function was made.
+struct OuterUse {
+  const NameNode* name = nullptr;
+  int level = 0;
+};
+
 /// A def or a lambda: it lives as long as a function value refers to it, whatever becomes of its file's tree.
 struct FunctionCode {
   std::string name;
   std::shared_ptr<const SourceFile> file;
   std::vector<Parameter> parameters;
   std::vector<std::string> slots;  ///< names of the local variables; parameters first
+  std::vector<OuterUse> outer_uses;
+  bool changes_outer = false;  ///< it binds variables of the file or of a function around it
   Block body;
   NodePtr result;  ///< of a lambda
 };

@@ -210,13 +210,17 @@ void Evaluator::store(const NameNode& name, Value value) {
     if (handle->name.empty() || handle->name[0] == '_') handle->name = name.id;
   }
   if (name.global) {
+    if (globals_.contains(name.id)) host_.before_binding(name.id);
     globals_[name.id] = std::move(value);
   } else {
-    frame_of(name).slots[static_cast<std::size_t>(name.slot)] = std::move(value);
+    auto& slot = frame_of(name).slots[static_cast<std::size_t>(name.slot)];
+    if (slot) host_.before_binding(name.id);
+    slot = std::move(value);
   }
 }
 
 void Evaluator::erase(const NameNode& name) {
+  host_.before_binding(name.id);
   const bool existed =
       name.global ? globals_.erase(name.id) > 0 : frame_of(name).slots[static_cast<std::size_t>(name.slot)].has_value();
   if (!name.global) frame_of(name).slots[static_cast<std::size_t>(name.slot)].reset();

@@ -165,6 +165,7 @@ class Evaluator {
   std::vector<std::weak_ptr<Frame>>
       closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
   Value returned_;
+  std::string target_;  ///< the variable that takes the value of the call evaluated next
   std::vector<std::shared_ptr<ExceptionObject>> handled_;  ///< for a bare `raise`
   std::set<std::string> reported_names_;
   std::set<std::pair<const SourceFile*, std::uint64_t>> reported_places_;

@@ -55,6 +55,7 @@ bool is_tolerant_callee(const Value& callee) {
 }  // namespace
 
 Value Evaluator::evaluate_call(const CallNode& node) {
+  std::string target = std::exchange(target_, {});
   meter_.step();
   Value callee;
   if (node.callee->kind == NodeKind::name) {
@@ -68,6 +69,7 @@ Value Evaluator::evaluate_call(const CallNode& node) {
   CallArguments arguments = evaluate_arguments(node, recovering() && is_tolerant_callee(callee));
   arguments.callee_span = span_of(*node.callee);
   arguments.span = span_of(node);
+  arguments.target = std::move(target);
   return call(callee, arguments);
 }
 
@@ -240,6 +242,7 @@ Value Evaluator::call_command(const std::string& name, const CallArguments& argu
   command.span = arguments.span;
   command.arguments = named_arguments(arguments, name);
   command.open = arguments.open;
+  command.target = arguments.target;
   command.scope = [this](std::string_view word) { return visible(word); };
   return with_host([&] { return host_.call(command, !recovering()); });
 }

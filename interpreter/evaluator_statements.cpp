@@ -146,6 +146,8 @@ Evaluator::Flow Evaluator::skip_unknown(const Statement& statement) {
 
 void Evaluator::execute_assign(const AssignStatement& statement) {
   if (!statement.value) return;
+  const bool names_product = statement.value->kind == NodeKind::call && statement.targets.size() == 1 && statement.targets[0]->kind == NodeKind::name;
+  if (names_product) target_ = static_cast<const NameNode&>(*statement.targets[0]).id;
   const Value value = evaluate(*statement.value);
   for (const NodePtr& target : statement.targets) assign(*target, value);
 }

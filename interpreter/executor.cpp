@@ -70,10 +70,21 @@ void Executor::run_all(Need least) {
     if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
     if (wanted && can_run(node))
-      report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
+      run_reporting(node);
     else
       node.state = NodeState::skipped;
   }
+}
+
+void Executor::run_now(int id) {
+  for (const int required : graph_.required_by(id)) {
+    CommandNode& node = graph_.nodes()[static_cast<std::size_t>(required)];
+    if (node.state == NodeState::waiting && can_run(node)) run_reporting(node);
+  }
+}
+
+void Executor::run_reporting(CommandNode& node) {
+  report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
 }
 
 void Executor::force(int id) {

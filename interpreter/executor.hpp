@@ -43,6 +43,9 @@ class Executor {
   /// Runs a node and what it depends on, each once. Throws DiagnosticError of the first that fails.
   void force(int id);
 
+  /// The same for a node that the file has not asked for: a failure is reported, as by run_all.
+  void run_now(int id);
+
   /// Whether all that `id` still waits for is cheap.
   bool is_cheap(int id) const;
 
@@ -52,6 +55,8 @@ class Executor {
  private:
   /// Marks the node done, or failed and throws.
   void run(CommandNode& node);
+  /// Reports what `run` throws.
+  void run_reporting(CommandNode& node);
   /// `unsupported`: how grave it is that comma cannot do what a node asks.
   template <typename Act>
   void report_errors(const Act& act, Severity unsupported);

@@ -19,6 +19,7 @@ struct CommandCall {
   Span span;
   std::vector<Argument> arguments;
   bool open = false;  ///< there are further arguments that are not known (those of an unknown **mapping)
+  std::string target = {};  ///< the variable that takes the product, where the call is all that is assigned to one
   /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be empty.
   std::function<std::optional<Value>(std::string_view)> scope = {};
 };
@@ -48,6 +49,9 @@ class CommandHost {
 
   /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
   virtual void force(const ConceptPtr& handle) = 0;
+
+  /// A variable that has a value is about to get another, or none. A call that waits may read it through a function.
+  virtual void before_binding(std::string_view /*name*/) {}
 
   /// Whether a call that is made at once, as within `try`, is really run: else nobody knows whether it would have failed.
   virtual bool runs_calls() const { return true; }

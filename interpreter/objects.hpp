@@ -33,6 +33,7 @@ struct CallArguments {
   std::vector<Named> named;
   bool open = false;  ///< there are further ones that are not known (those of an unknown **mapping)
   Span callee_span, span;
+  std::string target;  ///< the variable that takes the value
 
   CallArguments() = default;
   explicit CallArguments(std::vector<Value> values) : positional(std::move(values)) {}

@@ -150,6 +150,8 @@ class Parser {
   void bind_target(Node& target);
   void bind_targets(std::vector<NodePtr>& targets, const Node& whole);
   void skip_annotation();
+  /// Takes from the scope that ends here what the function keeps of it.
+  void close_scope(FunctionCode& code);
 
   void deepen(Node& node, const Node* child);
 

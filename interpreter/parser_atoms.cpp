@@ -207,7 +207,7 @@ NodePtr Parser::parse_comprehension(ComprehensionNode::Kind kind, NodePtr elemen
     deepen(*node, clause.iterable.get());
     node->clauses.push_back(std::move(clause));
   }
-  node->slots = scopes_->close();
+  node->slots = scopes_->close().slots;
   deepen(*node, element.get());
   deepen(*node, value.get());
   node->element = std::move(element);

@@ -129,6 +129,13 @@ Parser::Signature Parser::parse_parameters(std::string_view closing, bool annota
   return signature;
 }
 
+void Parser::close_scope(FunctionCode& code) {
+  ScopeStack::Closed closed = scopes_->close();
+  code.slots = std::move(closed.slots);
+  code.outer_uses = std::move(closed.outer_uses);
+  code.changes_outer = closed.changes_outer;
+}
+
 StatementPtr Parser::parse_function() {
   const std::uint32_t begin = now_.begin;
   auto statement = std::make_unique<FunctionStatement>(StatementKind::function, begin, now_.end);
@@ -149,7 +156,7 @@ StatementPtr Parser::parse_function() {
   const int loops = std::exchange(loops_, 0);
   code->body = parse_block("'def'", begin);
   loops_ = loops;
-  code->slots = scopes_->close();
+  close_scope(*code);
   code->parameters = std::move(signature.parameters);
   statement->defaults = std::move(signature.defaults);
   statement->code = std::move(code);
@@ -169,7 +176,7 @@ NodePtr Parser::parse_lambda() {
   code->name = "<lambda>";
   code->file = file_;
   code->result = parse_expression();
-  code->slots = scopes_->close();
+  close_scope(*code);
   code->parameters = std::move(signature.parameters);
   deepen(*node, code->result.get());
   for (const NodePtr& value : signature.defaults) deepen(*node, value.get());

@@ -17,11 +17,16 @@ void ScopeStack::open(bool comprehension) {
   scopes_.emplace_back().comprehension = comprehension;
 }
 
-std::vector<std::string> ScopeStack::close() {
+ScopeStack::Closed ScopeStack::close() {
   Scope scope = take_innermost();
   Scope& around = scopes_.back();
+  Closed closed;
+  closed.changes_outer = !scope.globals.empty() || !scope.outer.empty();
   for (NameNode* name : scope.uses) {
-    if (scope.globals.contains(name->id)) continue;  // stays global
+    if (scope.globals.contains(name->id)) {
+      closed.outer_uses.push_back({name, 0});
+      continue;  // stays global
+    }
     const int slot = scope.slot_of(name->id);
     if (slot >= 0) {
       name->global = false;
@@ -29,12 +34,14 @@ std::vector<std::string> ScopeStack::close() {
     } else {
       ++name->hops;
       around.uses.push_back(name);
+      closed.outer_uses.push_back({name, name->hops});
     }
   }
   for (OuterName& name : scope.required) {
     if (scope.slot_of(name.name) < 0) around.required.push_back(std::move(name));
   }
-  return std::move(scope.slots);
+  closed.slots = std::move(scope.slots);
+  return closed;
 }
 
 void ScopeStack::bind(const NameNode& name) {

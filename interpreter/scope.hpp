@@ -37,8 +37,13 @@ class ScopeStack {
   ScopeStack() { scopes_.emplace_back().function = false; }
 
   void open(bool comprehension = false);
-  /// Resolves what the innermost scope binds; returns the names of its slots.
-  std::vector<std::string> close();
+  struct Closed {
+    std::vector<std::string> slots;    ///< the names that the scope binds
+    std::vector<OuterUse> outer_uses;  ///< those that it leaves to the scopes around it
+    bool changes_outer = false;        ///< it declares some of them global or nonlocal
+  };
+  /// Resolves what the innermost scope binds.
+  Closed close();
 
   void use(NameNode* name) { scopes_.back().uses.push_back(name); }
   /// The name is bound in the innermost scope.

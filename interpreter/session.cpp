@@ -38,11 +38,12 @@ Value Session::call(const CommandCall& written, bool eager) {
   }
 
   ConceptPtr product = checked.call.result;
-  if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.name_span);
+  if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.target, written.name_span);
   checked.call.result = product;
   CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
   node.caught = eager;
   const int id = node.id;
+  if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
   if (eager && may_run(id)) {
     try {
       executor_.force(id);
@@ -59,6 +60,12 @@ void Session::force(const ConceptPtr& handle) {
   if (writer >= 0 && may_run(writer)) executor_.force(writer);
 }
 
+void Session::before_binding(std::string_view name) {
+  for (const int id : late_calls_.take_before_binding(name)) {
+    if (may_run(id)) executor_.run_now(id);
+  }
+}
+
 void Session::judge(const Assertion& assertion) {
   if (assertion_sink_) assertion_sink_(assertion);
 }
@@ -70,10 +77,10 @@ void Session::finish() {
   executor_.run_all(least);
 }
 
-ConceptPtr Session::make_concept(const std::string& type, const Span& span) {
+ConceptPtr Session::make_concept(const std::string& type, const std::string& name, const Span& span) {
   auto handle = std::make_shared<Concept>();
   handle->id = next_concept_++;
-  handle->name = fmt::format("_{}", handle->id);
+  handle->name = name.empty() ? fmt::format("_{}", handle->id) : name;
   handle->type = type;
   handle->defined_at = span;
   return handle;

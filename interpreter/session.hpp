@@ -12,6 +12,7 @@
 #include "interpreter/command_graph.hpp"
 #include "interpreter/executor.hpp"
 #include "interpreter/host.hpp"
+#include "interpreter/late_values.hpp"
 
 namespace comma::interpreter {
 
@@ -38,6 +39,8 @@ class Session : public CommandHost {
   /// While the file has errors, or is only being checked, what would have to be solved is left alone: the concept's
   /// data stays null, and the evaluator goes on with an unknown value.
   void force(const ConceptPtr& handle) override;
+  /// Runs the calls that read the variable through a function of the file.
+  void before_binding(std::string_view name) override;
   bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
   void judge(const Assertion& assertion) override;
 
@@ -59,7 +62,7 @@ class Session : public CommandHost {
   const CommandGraph& graph() const { return graph_; }
 
  private:
-  ConceptPtr make_concept(const std::string& type, const Span& span);
+  ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
   bool may_run(int node) const;
 
   const Catalogue& catalogue_;
@@ -70,6 +73,7 @@ class Session : public CommandHost {
   std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
   AssertionSink assertion_sink_;
   CallCheck call_check_;
+  LateCalls late_calls_;
   int next_concept_ = 0;
 };
 
