@@ -203,9 +203,8 @@ Value rename(TableRows& table, Evaluator&, const MethodArguments& given) {
 /// Of a formula, where the file does not name the columns that its function takes.
 std::vector<std::string> parameters_of(const Value& function, Evaluator& evaluator) {
   if (function.is_concept()) {
-    evaluator.host().force(function.as_concept());
     const auto& data = function.as_concept()->data;
-    if (data && data->real_function() != nullptr) return data->real_function()->parameters();
+    if (evaluator.host().force(function.as_concept()) && data->real_function() != nullptr) return data->real_function()->parameters();
   }
   raise(ErrorKind::type, "fromfunction() needs the names of the columns that the function takes", "give them as third argument");
 }

@@ -52,10 +52,12 @@ void Evaluator::run(const Ast& ast) {
   try {
     execute(ast.statements);
   } catch (const RaisedError& error) {
-    // sys.exit() ends everything, without error.
     const bool ends = error.object()->kind == ErrorKind::system_exit;
     if (!outermost && (ends || !recovering())) throw;
-    if (!ends) report(error.object()->diagnostic());
+    if (ends)
+      failed_exit_ = failure_of_exit(*error.object());
+    else
+      report(error.object()->diagnostic());
   } catch (const LimitReached& limit) {
     if (!outermost) throw;
     report(limit.diagnostic());

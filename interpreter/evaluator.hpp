@@ -40,6 +40,10 @@ class Evaluator {
   /// names of `math`. Throws DiagnosticError.
   Value evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup);
 
+  /// What is wrong where the file ends itself with a status other than 0 or a text (sys.exit), since it started: what stands
+  /// before it counts, what stands after it has not been read.
+  const std::optional<Diagnostic>& failed_exit() const { return failed_exit_; }
+
   /// A global variable, or null.
   const Value* global(std::string_view name) const;
   void set_global(const std::string& name, Value value);
@@ -165,6 +169,7 @@ class Evaluator {
   std::vector<std::weak_ptr<Frame>>
       closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
   Value returned_;
+  std::optional<Diagnostic> failed_exit_;
   std::string target_;  ///< the variable that takes the value of the call evaluated next
   std::vector<std::shared_ptr<ExceptionObject>> handled_;  ///< for a bare `raise`
   std::set<std::string> reported_names_;

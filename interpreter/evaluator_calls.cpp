@@ -179,8 +179,7 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (arguments.size() == 0 && arguments.named.empty())
       if (ConceptPtr source = source_behind(*method->handle, method->name)) return Value(std::move(source));
     return with_host([&]() -> Value {
-      host_.force(method->handle);
-      if (!method->handle->data) return Value::unknown();
+      if (!host_.force(method->handle)) return Value::unknown();
       return method->handle->data->method(method->name, arguments.positional, keyword_map(arguments));
     });
   }
@@ -204,8 +203,7 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (arguments.any_unknown()) return Value::unknown();
     const ConceptPtr& handle = callee.as_concept();
     return with_host([&]() -> Value {
-      host_.force(handle);
-      return handle->data ? handle->data->call(arguments.positional) : Value::unknown();
+      return host_.force(handle) ? handle->data->call(arguments.positional) : Value::unknown();
     });
   }
   raise(ErrorKind::type, fmt::format("'{}' object is not callable", callee.type_name()),

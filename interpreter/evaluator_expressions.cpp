@@ -175,9 +175,7 @@ Value Evaluator::concept_operation(Operator op, const Value& left, const Value& 
   const ConceptPtr own = (reversed ? right : left).as_concept();
   return with_host([&]() -> Value {
     for (const Value& operand : {left, right}) {
-      if (!operand.is_concept()) continue;
-      host_.force(operand.as_concept());
-      if (!operand.as_concept()->data) return Value::unknown();
+      if (operand.is_concept() && !host_.force(operand.as_concept())) return Value::unknown();
     }
     auto made = own->data->combined(op, reversed ? left : right, reversed);
     if (!made) return binary_operation(op, left, right, meter_);
@@ -216,8 +214,7 @@ Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   if (index.is_unknown()) return index;
   const ConceptPtr& handle = object.as_concept();
   return with_host([&]() -> Value {
-    host_.force(handle);
-    return handle->data ? handle->data->subscript(index) : Value::unknown();
+    return host_.force(handle) ? handle->data->subscript(index) : Value::unknown();
   });
 }
 

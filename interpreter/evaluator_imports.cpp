@@ -94,8 +94,7 @@ Value type_attribute_owner(const TypeObject& type) {
 Value Evaluator::has_attribute(const ConceptPtr& handle, const std::string& name) {
   if (is_common_attribute(name) || source_behind(*handle, name)) return Value(true);
   return with_host([&]() -> Value {
-    host_.force(handle);
-    if (!handle->data) return Value::unknown();
+    if (!host_.force(handle)) return Value::unknown();
     const std::vector<std::string> names = handle->data->method_names();
     return Value(std::find(names.begin(), names.end(), name) != names.end());
   });

@@ -125,6 +125,15 @@ Diagnostic ExceptionObject::diagnostic() const {
   return {Severity::error, std::string(row.code), std::move(message), hint, span};
 }
 
+std::optional<Diagnostic> failure_of_exit(const ExceptionObject& exit) {
+  const Value status = exit.arguments.empty() ? Value() : exit.arguments[0];
+  if (status.is_none() || (status.is_bool() && !status.as_bool()) || (status.is_integer() && status.as_integer() == 0)) return std::nullopt;
+  const bool is_text = status.is_text();
+  return Diagnostic{Severity::error, std::string(class_of(exit.kind).code),
+                    is_text ? "the file ends itself: " + status.as_text() : fmt::format("the file ends itself with status {}", status.repr()),
+                    "what stands after this has not been run", exit.span};
+}
+
 bool catches(const Value& classes, const ExceptionObject& error) {
   const std::vector<Value> each = classes.is_tuple() ? std::vector<Value>(classes.items().begin(), classes.items().end()) : std::vector<Value>{classes};
   return std::any_of(each.begin(), each.end(), [&](const Value& candidate) {

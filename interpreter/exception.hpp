@@ -107,6 +107,9 @@ class RaisedError : public std::exception {
   std::shared_ptr<ExceptionObject> object_;
 };
 
+/// What a SystemExit says that nothing catches: nothing where its status is 0, None or left out.
+std::optional<Diagnostic> failure_of_exit(const ExceptionObject& exit);
+
 /// Whether `except` with this class, or tuple of classes, catches the exception. Raises TypeError for anything else.
 bool catches(const Value& classes, const ExceptionObject& error);
 

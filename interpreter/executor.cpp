@@ -87,16 +87,25 @@ void Executor::run_reporting(CommandNode& node) {
   report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
 }
 
-void Executor::force(int id) {
+bool Executor::force(int id) {
   for (const int required : graph_.required_by(id)) {
     CommandNode& node = graph_.nodes()[static_cast<std::size_t>(required)];
     if (node.state != NodeState::waiting) continue;
-    if (const CommandNode* source = missing_source(node)) throw not_computed(*source);
+    if (const CommandNode* source = missing_source(node)) {
+      if (is_reported(*source)) return false;
+      throw not_computed(*source);
+    }
     if (!node.complete) throw not_computed(node);
-    run(node);
+    if (node.caught)
+      run(node);
+    else
+      run_reporting(node);
+    if (is_reported(node)) return false;
   }
   const CommandNode& last = graph_.nodes()[static_cast<std::size_t>(id)];
+  if (is_reported(last)) return false;
   if (!is_readable(last)) throw not_computed(last);
+  return true;
 }
 
 bool Executor::is_cheap(int id) const {

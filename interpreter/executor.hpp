@@ -40,8 +40,9 @@ class Executor {
   /// others still run.
   void run_all(Need least);
 
-  /// Runs a node and what it depends on, each once. Throws DiagnosticError of the first that fails.
-  void force(int id);
+  /// Runs a node and what it depends on, each once. The first failure ends it: inside of `try` it is thrown as a
+  /// DiagnosticError, that of another call is reported, now or before, and gives false.
+  bool force(int id);
 
   /// The same for a node that the file has not asked for: a failure is reported, as by run_all.
   void run_now(int id);
@@ -57,6 +58,8 @@ class Executor {
   void run(CommandNode& node);
   /// Reports what `run` throws.
   void run_reporting(CommandNode& node);
+  /// Whether its failure has been reported, and is none that the file deals with.
+  static bool is_reported(const CommandNode& node) { return node.state == NodeState::failed && !node.caught; }
   /// `unsupported`: how grave it is that comma cannot do what a node asks.
   template <typename Act>
   void report_errors(const Act& act, Severity unsupported);

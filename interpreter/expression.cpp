@@ -19,7 +19,7 @@ class NoCommands : public CommandHost {
   Value call(const CommandCall& call, bool) override {
     throw DiagnosticError("not-supported", "an expression calls no commands", call.name_span);
   }
-  void force(const ConceptPtr&) override {}
+  bool force(const ConceptPtr& handle) override { return handle->data != nullptr; }
 };
 
 }  // namespace

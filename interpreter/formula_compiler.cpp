@@ -156,7 +156,7 @@ class Compiler {
       bool is_command(std::string_view) const override { return false; }
       std::vector<std::string> command_names() const override { return {}; }
       Value call(const CommandCall&, bool) override { throw Unsuitable(); }
-      void force(const ConceptPtr&) override {}
+      bool force(const ConceptPtr& handle) override { return handle->data != nullptr; }
     } host;
     Diagnostics diagnostics;
     Evaluator evaluator(host, diagnostics, [](std::string_view) {});

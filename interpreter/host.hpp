@@ -47,8 +47,9 @@ class CommandHost {
   /// to the diagnostics and gives Value::unknown(), so that one mistake makes one error. `eager` (inside try) runs it at once.
   virtual Value call(const CommandCall& call, bool eager) = 0;
 
-  /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails.
-  virtual void force(const ConceptPtr& handle) = 0;
+  /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails as the file may
+  /// have expected. False where there is no data to go on with, for reasons that have been told or since nothing is run.
+  virtual bool force(const ConceptPtr& handle) = 0;
 
   /// A variable that has a value is about to get another, or none. A call that waits may read it through a function.
   virtual void before_binding(std::string_view /*name*/) {}

@@ -46,7 +46,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
   if (eager && may_run(id)) {
     try {
-      executor_.force(id);
+      if (!executor_.force(id)) return Value::unknown();
     } catch (const DiagnosticError&) {
       executor_.forgive(id);
       throw;
@@ -55,9 +55,10 @@ Value Session::call(const CommandCall& written, bool eager) {
   return product ? Value(product) : Value();
 }
 
-void Session::force(const ConceptPtr& handle) {
+bool Session::force(const ConceptPtr& handle) {
   const int writer = graph_.last_writer(*handle);
-  if (writer >= 0 && may_run(writer)) executor_.force(writer);
+  if (writer >= 0 && may_run(writer) && !executor_.force(writer)) return false;
+  return handle->data != nullptr;
 }
 
 void Session::before_binding(std::string_view name) {

@@ -26,10 +26,10 @@ namespace {
 
 // Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any other
 // error says that the file is wrong.
-constexpr std::array<std::string_view, 16> computation_codes = {
+constexpr std::array<std::string_view, 17> computation_codes = {
     "no-convergence",      "singular-matrix",     "contradictory-conditions", "contact-cycling",  "not-finite",      "instability",
     "integration-failure", "inaccurate-solution", "contact-interpenetration", "contact-too-deep", "contact-changes", "residual-diverges",
-    "residual-too-large",  "increment-too-large", "too-many-steps",           "command-failed"};
+    "residual-too-large",  "increment-too-large", "too-many-steps",           "command-failed",   "exit"};
 constexpr std::array<std::string_view, 4> machine_codes = {"internal-error", "out-of-memory", "unwritable-file", "missing-library"};
 
 template <class Codes>
@@ -82,8 +82,10 @@ void StudyRun::run() {
   for (const fs::path& file : study_.command_files) {
     ++files_begun_;
     evaluator_->run(read(file));
+    if (evaluator_->failed_exit()) break;
   }
   session_.finish();
+  if (evaluator_->failed_exit()) diagnostics_.add(*evaluator_->failed_exit());
   if (!diagnostics_.has_errors()) warn_of_unused_loads();
 }
 

@@ -284,6 +284,16 @@ TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
   CHECK(diagnostics.items().empty());
 }
 
+TEST_CASE("sys.exit with a status or a text ends the file with an error", "[evaluator]") {
+  const auto [text, message] = GENERATE(table<std::string, std::string>({{"3", "the file ends itself with status 3"}, {"'too stiff'", "the file ends itself: too stiff"}}));
+  for (const std::string& way : {"import sys\nsys.exit(" + text + ")\n", "def f():\n  raise SystemExit(" + text + ")\ntry:\n  f()\nexcept Exception:\n  pass\n"}) {
+    const Run run(way + "print(2)\n");
+    REQUIRE(run.evaluator->failed_exit());
+    CHECK(run.evaluator->failed_exit()->message == message);
+    CHECK(run.output.empty());
+  }
+}
+
 TEST_CASE("sys.exit ends the file without error", "[evaluator]") {
   const Run run("import sys\nprint(1)\ndef f(): sys.exit(0)\nf()\nprint(2)\n");
   CHECK(run.output == "1\n");

@@ -43,9 +43,10 @@ class RecordingHost : public CommandHost {
     return Value(handle);
   }
 
-  void force(const ConceptPtr& handle) override {
+  bool force(const ConceptPtr& handle) override {
     forced.push_back(handle->name);
     handle->data = data;
+    return data != nullptr;
   }
 };
 
