@@ -266,17 +266,21 @@ class NameCheck {
       right_ = false;
       // A single value that stands in brackets is one without them here.
       const Span place = item_span(site.keyword.value_span, name.index, name.count);
-      if (is_reported(place)) continue;
-      diagnostics_.error(std::string(code), fmt::format("{}: {} {}", site.label, finding, name.text), place, hint(name.text));
+      std::string message = fmt::format("{}: {} {}", site.label, finding, name.text);
+      if (is_reported(message, place)) continue;
+      diagnostics_.error(std::string(code), std::move(message), place, hint(name.text));
     }
   }
 
-  /// A value in a loop is one mistake however often it is met.
-  bool is_reported(const Span& span) const {
-    return std::ranges::any_of(diagnostics_.items(), [&](const Diagnostic& item) {
-      return item.severity == Severity::error && item.span && span && item.span.file == span.file && item.span.begin == span.begin &&
-             item.span.end == span.end;
-    });
+  /// A value in a loop is one mistake however often it is met, and names that a loop puts together are a few at most.
+  bool is_reported(const std::string& message, const Span& span) const {
+    constexpr int most_at_a_place = 3;
+    int here = 0;
+    for (const Diagnostic& item : diagnostics_.items()) {
+      const bool is_here = item.severity == Severity::error && item.span && span && item.span.file == span.file && item.span.begin == span.begin && item.span.end == span.end;
+      if (is_here && (item.message == message || ++here == most_at_a_place)) return true;
+    }
+    return false;
   }
 
   bool reads_a(const Reach& reach, std::initializer_list<std::string_view> types) const {

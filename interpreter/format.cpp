@@ -49,11 +49,13 @@ Spec parse_spec(std::string_view text, const Value& value) {
   Spec spec;
   std::size_t at = 0;
   std::size_t fill_length = 1;
+  bool has_fill = false;
   if (!text.empty()) code_point_at(text, 0, fill_length);
   if (text.size() > fill_length && is_align(text[fill_length])) {
     spec.fill = std::string(text.substr(0, fill_length));
     spec.align = text[fill_length];
     at = fill_length + 1;
+    has_fill = true;
   } else if (!text.empty() && is_align(text[0])) {
     spec.align = text[at++];
   }
@@ -61,10 +63,8 @@ Spec parse_spec(std::string_view text, const Value& value) {
   if (at < text.size() && text[at] == '#') spec.alternate = ++at > 0;
   if (at < text.size() && text[at] == '0') {
     ++at;
-    if (spec.align == 0) {
-      spec.fill = "0";
-      spec.align = value.is_text() ? '<' : '=';
-    }
+    if (!has_fill) spec.fill = "0";
+    if (spec.align == 0) spec.align = value.is_text() ? '<' : '=';
   }
   spec.width = std::max(read_number(text, at), 0);
   if (at < text.size() && (text[at] == ',' || text[at] == '_')) spec.grouping = text[at++];

@@ -128,3 +128,5 @@ for code in (-1, 0x110000):
         print('%c' % code)
     except OverflowError as error:
         print(error)
+# ----
+print(f"N{5:>03}", f"{5:<03}|", f"{-5:^06}", f"{5:*>03}", "{:>04d}".format(5), format(2.5, ">08.2f"), f"{'ab':05}|", f"{'ab':>05}", f"{7:=+05}")
