@@ -119,20 +119,25 @@ std::vector<int> Line::walk(std::optional<int> start, std::optional<int> end, st
   return path;
 }
 
-/// Whether an edge of a cell of the type on `nodes` holds both nodes.
-bool has_edge(CellType type, std::span<const int> nodes, int a, int b) {
-  if (std::ranges::find(nodes, a) == nodes.end() || std::ranges::find(nodes, b) == nodes.end()) return false;
-  if (dimension(type) == 1) return true;
+bool contains(std::span<const int> nodes, int node) { return std::ranges::find(nodes, node) != nodes.end(); }
+
+/// Whether an edge of a cell of the type on `nodes` holds both nodes, and no node of the line lies between them on it.
+bool has_edge(CellType type, std::span<const int> nodes, std::span<const int> line, int a, int b) {
+  if (!contains(nodes, a) || !contains(nodes, b)) return false;
+  if (dimension(type) == 1) {
+    const auto inner = nodes.subspan(2);
+    return contains(inner, a) || contains(inner, b) || std::ranges::none_of(inner, [&](int node) { return contains(line, node); });
+  }
   return std::ranges::any_of(boundary_facets(type), [&](const BoundaryFacet& facet) {
     std::vector<int> own;
     for (int i = 0; i < node_count(facet.type); ++i) own.push_back(nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
-    return has_edge(facet.type, own, a, b);
+    return has_edge(facet.type, own, line, a, b);
   });
 }
 
-bool joined_by_edge(const Mesh& mesh, int a, int b) {
+bool joined_by_edge(const Mesh& mesh, std::span<const int> line, int a, int b) {
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    if (has_edge(mesh.cell_types[cell], mesh.cell(cell), a, b)) return true;
+    if (has_edge(mesh.cell_types[cell], mesh.cell(cell), line, a, b)) return true;
   }
   return false;
 }
@@ -152,7 +157,7 @@ std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, 
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes) {
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     if (!turns_back(mesh, nodes[i - 1], nodes[i], nodes[i + 1])) continue;
-    if (!joined_by_edge(mesh, nodes[i - 1], nodes[i]) || !joined_by_edge(mesh, nodes[i], nodes[i + 1])) return nodes[i];
+    if (!joined_by_edge(mesh, nodes, nodes[i - 1], nodes[i]) || !joined_by_edge(mesh, nodes, nodes[i], nodes[i + 1])) return nodes[i];
   }
   return std::nullopt;
 }

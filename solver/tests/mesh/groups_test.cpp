@@ -165,6 +165,12 @@ TEST_CASE("nodes that follow each other along a line are told from nodes that do
   CHECK_FALSE(node_out_of_order(mesh, along));
   CHECK_FALSE(node_out_of_order(mesh, Group{along[0], along[2], along[4]}));
   CHECK(node_out_of_order(mesh, Group{along[0], along[4], along[2], along[6]}) == along[4]);
+  // The middle of an edge lies between its corners, however sharply it is bent.
+  Mesh edge;
+  edge.nodes = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}};
+  edge.add_cell(CellType::seg3, Group{0, 1, 2});
+  CHECK_FALSE(node_out_of_order(edge, Group{0, 2, 1}));
+  CHECK(node_out_of_order(edge, Group{0, 1, 2}) == 1);
   Mesh crack;
   crack.nodes = {{1, 0.1, 0}, {0, 0, 0}, {1, -0.1, 0}};
   crack.add_cell(CellType::seg2, Group{0, 1});
