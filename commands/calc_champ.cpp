@@ -81,24 +81,39 @@ void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, const
   step.fields.insert_or_assign(own_name(occurrence), std::move(made));
 }
 
-void add_fields(const Call& call, ResultConcept& data) {
+// Whether the step has the field of every cell, with the same values on each: there is nothing to compute.
+bool holds_more(const solver::ResultStep& step, const std::string& name) {
+  const auto held = step.fields.find(name);
+  return held != step.fields.end() && !step.limited.contains(name) && std::holds_alternative<solver::ElementField>(held->second);
+}
+
+void add_field(const std::string& name, FieldsOfSteps& computation, const ChosenCells& cells, solver::ResultStep& step, std::size_t index) {
+  solver::Field field = cells ? computation.compute(name, index, *cells) : computation.compute(name, index);
+  step.fields.insert_or_assign(name, std::move(field));
+  if (cells)
+    step.limited.insert(name);
+  else
+    step.limited.erase(name);
+}
+
+void add_fields(const Call& call, Context& context, ResultConcept& data) {
   FieldsOfSteps computation(call, data);
   ChosenCells cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
     for (const std::string& name : wanted_fields(call)) {
-      solver::Field field = cells ? computation.compute(name, index, *cells) : computation.compute(name, index);
-      data.result.steps[index].fields.insert_or_assign(name, std::move(field));
+      if (!cells || !holds_more(data.result.steps[index], name)) add_field(name, computation, cells, data.result.steps[index], index);
     }
     for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
   }
+  if (!cells) computation.warn_of_limited_sources(context.diagnostics);
 }
 
 }  // namespace
 
-Product calc_champ(const Call& call, Context&) {
-  return result_with(call, [&](ResultConcept& result) { add_fields(call, result); });
+Product calc_champ(const Call& call, Context& context) {
+  return result_with(call, [&](ResultConcept& result) { add_fields(call, context, result); });
 }
 
 }  // namespace comma::commands

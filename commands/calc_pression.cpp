@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3d> positions_at(const Call& call, const solver::Mesh& 
   return positions;
 }
 
-void add_pressures(const Call& call, ResultConcept& data) {
+void add_pressures(const Call& call, Context& context, ResultConcept& data) {
   FieldsOfSteps computation(call, data);
   const solver::Mesh& mesh = data.result.mesh();
   require_mesh(call, "MAILLAGE", call.data<MeshConcept>("MAILLAGE").mesh.get(), mesh);
@@ -44,12 +44,13 @@ void add_pressures(const Call& call, ResultConcept& data) {
     step.fields.insert_or_assign("PRES_NOEU", solver::boundary_pressure(mesh, std::get<solver::NodalField>(stresses), cells,
                                                                         positions_at(call, mesh, step)));
   }
+  computation.warn_of_limited_sources(context.diagnostics);
 }
 
 }  // namespace
 
-Product calc_pression(const Call& call, Context&) {
-  return result_with(call, [&](ResultConcept& result) { add_pressures(call, result); });
+Product calc_pression(const Call& call, Context& context) {
+  return result_with(call, [&](ResultConcept& result) { add_pressures(call, context, result); });
 }
 
 }  // namespace comma::commands

@@ -50,7 +50,7 @@ Product post_champ(const Call& call, Context&) {
   product->problem = source.problem;
   product->result.model = source.result.model;
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
-    solver::ResultStep step{chosen->order, chosen->instant, {}, chosen->parameters};
+    solver::ResultStep step{chosen->order, chosen->instant, {}, {}, chosen->parameters};
     for (const Keywords& occurrence : call.factors("EXTR_COQUE"))
       for (const std::string& name : occurrence.texts("NOM_CHAM")) step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));
     for (const Keywords& occurrence : call.factors("COQU_EXCENT")) {

@@ -47,7 +47,7 @@ ResultConcept energy_source(const Call& call) {
 }
 
 // Totals over parts, and what percentage of the whole model's energy each has.
-void list_energies(Table& table, const Call& call, const char* keyword, const char* field) {
+void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword, const char* field) {
   const ResultConcept source = energy_source(call);
   FieldsOfSteps computation(call, source);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
@@ -65,6 +65,7 @@ void list_energies(Table& table, const Call& call, const char* keyword, const ch
       }
     }
   }
+  computation.warn_of_limited_sources(diagnostics);
 }
 
 // --- indicators of the loading ---------------------------------------------------------------------------------------------
@@ -260,9 +261,10 @@ void list_extremes(Table& table, const Call& call) {
 
 // --- work -------------------------------------------------------------------------------------------------------------------
 
-void list_work(Table& table, const Call& call) {
+void list_work(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto& result = call.data<ResultConcept>("RESULTAT").result;
   const auto works = solver::external_work(result);
+  if (std::ranges::any_of(result.steps, [](const solver::ResultStep& step) { return step.limited.contains("FORC_NODA"); })) warn_of_limited_fields(call, {"FORC_NODA"}, diagnostics);
   for (const solver::ResultStep* step : selected_steps(call, result)) {
     const solver::ExternalWork& work = works[static_cast<std::size_t>(step - result.steps.data())];
     table.add_row({{"NUME_ORDRE", std::int64_t{step->order}}, {"INST", step->instant}, {"TRAV_ELAS", work.elastic}, {"TRAV_REEL", work.real}});
@@ -282,12 +284,12 @@ void list_areas(Table& table, const Call& call) {
 
 }  // namespace
 
-Product post_elem(const Call& call, Context&) {
+Product post_elem(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   Table& table = product->table;
-  if (call.has("ENER_ELAS")) list_energies(table, call, "ENER_ELAS", "ENEL_ELEM");
-  if (call.has("ENER_POT")) list_energies(table, call, "ENER_POT", "EPOT_ELEM");
-  if (call.has("ENER_TOTALE")) list_energies(table, call, "ENER_TOTALE", "ETOT_ELEM");
+  if (call.has("ENER_ELAS")) list_energies(table, call, context.diagnostics, "ENER_ELAS", "ENEL_ELEM");
+  if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "EPOT_ELEM");
+  if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ETOT_ELEM");
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
     if (call.has(keyword)) list_indicators(table, call, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
@@ -295,7 +297,7 @@ Product post_elem(const Call& call, Context&) {
   if (call.has("NORME")) list_norms(table, call);
   if (call.has("VOLUMOGRAMME")) list_distributions(table, call);
   if (call.has("MINMAX")) list_extremes(table, call);
-  if (call.has("TRAV_EXT")) list_work(table, call);
+  if (call.has("TRAV_EXT")) list_work(table, call, context.diagnostics);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);
   return product;
 }

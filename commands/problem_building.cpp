@@ -169,7 +169,7 @@ std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int
   return product;
 }
 
-FieldsOfSteps::FieldsOfSteps(const Call& call, const ResultConcept& source) : source_(source) {
+FieldsOfSteps::FieldsOfSteps(const Call& call, const ResultConcept& source) : call_(call), source_(source) {
   const auto& steps = source.result.steps;
   for (const EarlierPhase& phase : source.earlier) {
     const auto after = std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order > phase.last_order; });
@@ -183,6 +183,22 @@ solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step, st
   Phase& own = phase == phases_.end() ? phases_.back() : *phase;
   if (!own.computation) own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result);
   return own.computation->compute(name, step, cells);
+}
+
+void FieldsOfSteps::warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const {
+  std::set<std::string> limited;
+  for (const Phase& phase : phases_)
+    if (phase.computation) limited.insert(phase.computation->limited_sources().begin(), phase.computation->limited_sources().end());
+  warn_of_limited_fields(call_, limited, diagnostics);
+}
+
+void warn_of_limited_fields(const Call& call, const std::set<std::string>& fields, interpreter::Diagnostics& diagnostics) {
+  if (fields.empty()) return;
+  const bool many = fields.size() > 1;
+  diagnostics.alarm("limited-field",
+                    fmt::format("{}: CALC_CHAMP computed {} of {} on some cells only, and what follows from {} lacks the others", call.command, fmt::join(fields, ", "),
+                                call.concept_of("RESULTAT")->name, many ? "them" : "it"),
+                    call.span, fmt::format("compute {} on the whole model first", many ? "them" : "it"));
 }
 
 SolverChoice solver_choice(const Call& call) {

@@ -29,6 +29,9 @@ solver::StaticProblem problem_of_result(const interpreter::Call& call, const Res
 /// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept as an earlier phase.
 std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});
 
+/// Raises an alarm where fields of the RESULTAT that CALC_CHAMP computed on some cells only have been taken for those of the whole model.
+void warn_of_limited_fields(const interpreter::Call& call, const std::set<std::string>& fields, interpreter::Diagnostics& diagnostics);
+
 /// Fields of a result's steps, each computed from what its step was computed from, as problem_of_result() has it. Keeps references to its arguments.
 class FieldsOfSteps {
  public:
@@ -38,6 +41,8 @@ class FieldsOfSteps {
   const solver::StaticProblem& problem() const { return phases_.back().problem; }
   /// See FieldComputation.
   solver::Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+  /// For the fields of the result that have been used since.
+  void warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const;
 
  private:
   struct Phase {
@@ -46,6 +51,7 @@ class FieldsOfSteps {
     std::unique_ptr<solver::FieldComputation> computation;
   };
 
+  const interpreter::Call& call_;
   const ResultConcept& source_;
   std::vector<Phase> phases_;
 };

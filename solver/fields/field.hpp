@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -64,6 +65,7 @@ struct ResultStep {
   int order = 0;
   double instant = 0.0;
   std::map<std::string, Field, std::less<>> fields;       ///< "DEPL", "SIEF_ELGA", "FORC_NODA" ...
+  std::set<std::string, std::less<>> limited = {};        ///< those that were computed on some cells only
   std::map<std::string, double, std::less<>> parameters;  ///< "ITER_GLOB" ...
   std::shared_ptr<const ContactMemory> contact = {};      ///< null: none, or one that remembers nothing
 };

@@ -169,7 +169,10 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
 
 const Field& FieldComputation::needed(const std::string& name, std::size_t step) {
   const auto& held = result_.steps[step].fields;
-  if (const auto found = held.find(name); found != held.end()) return found->second;
+  if (const auto found = held.find(name); found != held.end()) {
+    if (result_.steps[step].limited.contains(name)) limited_sources_.insert(name);
+    return found->second;
+  }
   const Key key(step, name);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
   if (!knows(name)) {

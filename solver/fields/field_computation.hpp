@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,6 +37,9 @@ class FieldComputation {
   /// comma, `unknown-field` naming one that the step lacks,
   /// and what the functions of solver/fields throw.
   Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+
+  /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them lacks the rest.
+  const std::set<std::string>& limited_sources() const { return limited_sources_; }
 
  private:
   using Key = std::pair<std::size_t, std::string>;
@@ -96,6 +100,7 @@ class FieldComputation {
   Assembler assembler_;
   std::optional<std::size_t> step_;
   std::map<Key, Field> known_;
+  std::set<std::string> limited_sources_;
 };
 
 }  // namespace comma::solver
