@@ -17,11 +17,11 @@ Value TableConcept::subscript(const Value& key) const {
   const int column = table.column(name);
   if (column < 0) {
     const std::string near = interpreter::nearest(name, table.columns);
-    throw interpreter::DiagnosticError("unknown-column", "the table has no column " + name, {},
+    throw interpreter::DiagnosticError("key-error", "the table has no column " + name, {},
                                        near.empty() ? "" : "did you mean " + near + "?");
   }
   if (row < 1 || row > static_cast<std::int64_t>(table.rows.size())) {
-    throw interpreter::DiagnosticError("index-error", "the table has no row " + std::to_string(row) + "; it has " +
+    throw interpreter::DiagnosticError("key-error", "the table has no row " + std::to_string(row) + "; it has " +
                                                           std::to_string(table.rows.size()));
   }
   return std::visit(

@@ -356,10 +356,11 @@ bool is_instance(const Value& value, const Value& type) {
     const auto* object = value.as_object<ExceptionObject>();
     return object != nullptr && is_subclass(object->kind, error->kind);
   }
+  if (const auto* builtin = type.as_object<BuiltinObject>(); builtin != nullptr && builtin->name == "_F") return value.is_factor();
   const auto* wanted = type.as_object<TypeObject>();
   if (wanted == nullptr) raise(ErrorKind::type, "isinstance() arg 2 must be a type, a tuple of types, or a union");
   const std::string name = value.type_name();
-  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool");
+  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool") || (wanted->name == "dict" && value.is_dict());
 }
 
 std::string_view refusal_of(std::string_view name) {

@@ -69,22 +69,14 @@ struct Occurrence {
   bool open = false;
 };
 
-/// A dict with text keys stands for _F(...) too.
-std::optional<Occurrence> occurrence_of_dict(const Dict& dict, const Span& span) {
-  Occurrence occurrence{{}, span, false};
-  for (const Dict::Entry& entry : dict.entries()) {
-    if (!entry.live) continue;
-    if (!entry.key.is_text()) return std::nullopt;
-    occurrence.arguments.push_back({entry.key.as_text(), span, std::make_shared<const Value>(entry.value), span});
-  }
-  return occurrence;
-}
-
+/// Of _F(...), or of a dict with text keys, which stands for it.
 std::optional<Occurrence> occurrence_of(const Value& value, const Span& otherwise) {
-  if (value.is_dict()) return occurrence_of_dict(value.as_dict(), otherwise);
-  if (!value.is_factor()) return std::nullopt;
-  const Factor& factor = value.as_factor();
-  return Occurrence{factor.arguments, factor.span ? factor.span : otherwise, factor.open};
+  if (!value.is_dict()) return std::nullopt;
+  const FactorPlaces* written = value.as_dict().factor.get();
+  const Span span = written != nullptr && written->span ? written->span : otherwise;
+  auto keywords = keywords_of(value.as_dict(), span);
+  if (!keywords) return std::nullopt;
+  return Occurrence{std::move(*keywords), span, written != nullptr && written->open};
 }
 
 /// A single _F(...) or dict, or a tuple or list of them; unknown ones are left out.
@@ -129,7 +121,7 @@ class LevelCheck {
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
   static Value seen_by_conditions(const Value& value) {
-    return value.is_factor() || value.is_dict() ? Value(true) : value;
+    return value.is_dict() ? Value(true) : value;
   }
 
   void resolve(const std::vector<Argument>& arguments) {

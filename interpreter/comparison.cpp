@@ -152,11 +152,6 @@ bool contains(const Value& container, const Value& item) {
   if (container.is_text()) return contains_text(container, item);
   if (container.is_dict()) return container.as_dict().find(item) != nullptr;
   if (container.is_set()) return container.as_set().find(item) != nullptr;
-  if (container.is_factor()) {
-    const auto& arguments = container.as_factor().arguments;
-    return item.is_text() &&
-           std::any_of(arguments.begin(), arguments.end(), [&](const Argument& a) { return a.name == item.as_text(); });
-  }
   if (const auto* view = container.as_object<DictView>(); view != nullptr && view->kind == DictView::Kind::keys) {
     return view->dict->find(item) != nullptr;
   }

@@ -139,8 +139,6 @@ Value make_dict(Evaluator& evaluator, const CallArguments& arguments) {
   auto dict = std::make_shared<Dict>();
   if (arguments.size() == 1 && arguments[0].is_dict()) {
     for (const Value& key : arguments[0].as_dict().keys()) dict->set(key, *arguments[0].as_dict().find(key));
-  } else if (arguments.size() == 1 && arguments[0].is_factor()) {
-    for (const Argument& item : arguments[0].as_factor().arguments) dict->set(Value(item.name), *item.value);
   } else if (arguments.size() == 1) {
     std::size_t index = 0;
     for (const Value& pair : list_of(arguments[0], evaluator.meter())) {

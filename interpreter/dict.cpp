@@ -86,4 +86,19 @@ std::vector<Value> Dict::values() const {
   return values;
 }
 
+std::optional<std::vector<Argument>> keywords_of(const Dict& dict, const Span& otherwise) {
+  std::vector<Argument> keywords;
+  for (const Dict::Entry& entry : dict.entries()) {
+    if (!entry.live) continue;
+    if (!entry.key.is_text()) return std::nullopt;
+    Argument& keyword = keywords.emplace_back(Argument{entry.key.as_text(), otherwise, std::make_shared<const Value>(entry.value), otherwise});
+    if (!dict.factor) continue;
+    const auto place = dict.factor->of_keywords.find(keyword.name);
+    if (place == dict.factor->of_keywords.end()) continue;
+    keyword.name_span = place->second.name;
+    keyword.value_span = place->second.value;
+  }
+  return keywords;
+}
+
 }  // namespace comma::interpreter

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -41,6 +42,8 @@ class Dict {
   std::vector<Value> keys() const;
   std::vector<Value> values() const;
 
+  /// Of _F(...); else null.
+  std::shared_ptr<const FactorPlaces> factor = nullptr;
   /// Of a defaultdict: what makes the value of a key that is read and missing; else null.
   std::shared_ptr<const Value> factory = nullptr;
 
@@ -52,5 +55,8 @@ class Dict {
   std::unordered_multimap<std::size_t, std::size_t> places_;
   std::size_t live_ = 0;
 };
+
+/// A mapping of texts as keywords, each at its place in the file; what has none stands at `otherwise`. Nothing where a key is no text.
+std::optional<std::vector<Argument>> keywords_of(const Dict& dict, const Span& otherwise);
 
 }  // namespace comma::interpreter

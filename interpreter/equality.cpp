@@ -76,7 +76,6 @@ bool equal_at(const Value& a, const Value& b, int depth) {
   if (a.is_dict()) return &a.as_dict() == &b.as_dict() || equal_dicts(a.as_dict(), b.as_dict(), depth);
   if (a.is_set()) return equal_dicts(a.as_set(), b.as_set(), depth);
   if (a.is_concept()) return a.as_concept() == b.as_concept();
-  if (a.is_factor()) return &a.as_factor() == &b.as_factor();
   return equal_objects(a, b);
 }
 

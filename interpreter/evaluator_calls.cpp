@@ -112,27 +112,19 @@ CallArguments Evaluator::evaluate_arguments(const CallNode& node, bool tolerant)
 }
 
 void Evaluator::spread_mapping(CallArguments& arguments, const Value& mapping, const Span& span) {
-  const auto add = [&](const std::string& name, const Value& value, const Span& name_span, const Span& value_span) {
-    if (arguments.find(name) != nullptr)
-      raise(ErrorKind::type, fmt::format("got multiple values for keyword argument '{}'", name));
-    arguments.named.push_back({name, value, name_span, value_span});
-  };
   if (mapping.is_unknown()) {
     arguments.open = true;
     return;
   }
-  if (mapping.is_factor()) {
-    arguments.open = arguments.open || mapping.as_factor().open;
-    for (const Argument& item : mapping.as_factor().arguments)
-      add(item.name, *item.value, item.name_span, item.value_span);
-    return;
-  }
   if (!mapping.is_dict())
     raise(ErrorKind::type, fmt::format("argument after ** must be a mapping, not {}", mapping.type_name()));
-  for (const Dict::Entry& entry : mapping.as_dict().entries()) {
-    if (!entry.live) continue;
-    if (!entry.key.is_text()) raise(ErrorKind::type, "keywords must be strings");
-    add(entry.key.as_text(), entry.value, span, span);
+  const auto keywords = keywords_of(mapping.as_dict(), span);
+  if (!keywords) raise(ErrorKind::type, "keywords must be strings");
+  if (mapping.is_factor()) arguments.open = arguments.open || mapping.as_dict().factor->open;
+  for (const Argument& item : *keywords) {
+    if (arguments.find(item.name) != nullptr)
+      raise(ErrorKind::type, fmt::format("got multiple values for keyword argument '{}'", item.name));
+    arguments.named.push_back({item.name, *item.value, item.name_span, item.value_span});
   }
 }
 
@@ -224,12 +216,25 @@ std::vector<Argument> Evaluator::named_arguments(const CallArguments& arguments,
   return named;
 }
 
+/// Like dict(...), with the places of what is written: _F(A=1, B=2), _F({"A": 1}, B=2).
 Value Evaluator::make_factor(const CallArguments& arguments) {
-  auto factor = std::make_shared<Factor>();
-  factor->arguments = named_arguments(arguments, "_F");
-  factor->span = arguments.span;
-  factor->open = arguments.open;
-  return Value(std::shared_ptr<const Factor>(std::move(factor)));
+  CallArguments written = arguments;
+  const bool extends = written.positional.size() == 1 && written.positional[0].is_dict();
+  const Value base = extends ? written.positional[0] : Value();
+  if (extends) written.positional.clear();
+  auto places = std::make_shared<FactorPlaces>();
+  if (extends && base.is_factor()) *places = *base.as_dict().factor;
+  places->span = arguments.span;
+  places->open = places->open || arguments.open;
+  auto factor = std::make_shared<Dict>();
+  if (extends)
+    for (const Value& key : base.as_dict().keys()) factor->set(key, *base.as_dict().find(key));
+  for (const Argument& item : named_arguments(written, "_F")) {
+    factor->set(Value(item.name), *item.value);
+    places->of_keywords.insert_or_assign(item.name, FactorPlaces::Place{item.name_span, item.value_span});
+  }
+  factor->factor = std::move(places);
+  return Value(std::move(factor));
 }
 
 Value Evaluator::call_command(const std::string& name, const CallArguments& arguments) {

@@ -127,10 +127,6 @@ Value Evaluator::evaluate_dict(const DictNode& node) {
     }
     const Value spread = evaluate(*value);
     if (spread.is_unknown()) return spread;
-    if (spread.is_factor()) {
-      for (const Argument& argument : spread.as_factor().arguments) dict->set(Value(argument.name), *argument.value);
-      continue;
-    }
     if (!spread.is_dict()) raise(ErrorKind::type, fmt::format("'{}' object is not a mapping", spread.type_name()));
     for (const Value& name : spread.as_dict().keys()) dict->set(name, *spread.as_dict().find(name));
   }

@@ -87,6 +87,7 @@ ErrorKind kind_of_failure(std::string_view code) {
   if (code.substr(0, 8) == "contact-") return ErrorKind::contact;
   if (code == "singular-matrix") return ErrorKind::solver;
   if (code == "time-limit") return ErrorKind::time_limit;
+  if (code == class_of(ErrorKind::key).code) return ErrorKind::key;
   if (code == "integration-failure") return ErrorKind::integration;
   return ErrorKind::aster;
 }

@@ -24,7 +24,6 @@ class Copying {
     if (value.is_dict()) return copy_dict(value);
     if (value.is_set()) return make_set(value.as_set().keys(), value.type_name() == "frozenset");
     if (value.is_tuple()) return deep_ ? Value::tuple(inner(value.items())) : value;
-    if (value.is_factor()) return deep_ ? copy_factor(value.as_factor()) : value;
     if (value.is_concept()) raise(ErrorKind::type, "a concept cannot be copied", "make another one by a command, or put the concept itself into a new list");
     if (const auto* array = value.as_object<ArrayObject>()) return make_value(array->numbers());
     if (value.as_object<Iterator>() != nullptr || value.as_object<HostObject>() != nullptr)
@@ -69,16 +68,11 @@ class Copying {
   Value copy_dict(const Value& value) {
     auto own = std::make_shared<Dict>();
     own->factory = value.as_dict().factory;
+    own->factor = value.as_dict().factor;
     if (deep_) made_.emplace(&value.as_dict(), Value(own));
     meter_.allocate_items(2 * value.as_dict().size());
     for (const Value& key : value.as_dict().keys()) own->set(part(key), part(*value.as_dict().find(key)));
     return Value(std::move(own));
-  }
-
-  Value copy_factor(const Factor& factor) {
-    auto own = std::make_shared<Factor>(factor);
-    for (Argument& argument : own->arguments) argument.value = std::make_shared<const Value>(part(*argument.value));
-    return Value(std::shared_ptr<const Factor>(std::move(own)));
   }
 
   Meter& meter_;

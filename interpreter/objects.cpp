@@ -185,9 +185,9 @@ std::shared_ptr<Iterator> iterate(const Value& value) {
     return std::dynamic_pointer_cast<Iterator>(std::get<std::shared_ptr<Object>>(value.storage()));
   }
   raise(ErrorKind::type, "'" + value.type_name() + "' object is not iterable",
-        value.is_integer()                        ? "loop over range(...)"
-        : value.is_factor() || value.is_concept() ? "write a tuple, with a comma: (a,)"
-                                                  : "");
+        value.is_integer()   ? "loop over range(...)"
+        : value.is_concept() ? "write a tuple, with a comma: (a,)"
+                             : "");
 }
 
 }  // namespace comma::interpreter

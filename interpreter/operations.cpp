@@ -160,7 +160,6 @@ std::optional<std::int64_t> length_of(const Value& value) {
   if (value.is_sequence()) return static_cast<std::int64_t>(value.items().size());
   if (value.is_dict()) return static_cast<std::int64_t>(value.as_dict().size());
   if (value.is_set()) return static_cast<std::int64_t>(value.as_set().size());
-  if (value.is_factor()) return static_cast<std::int64_t>(value.as_factor().arguments.size());
   if (const auto* range = value.as_object<RangeObject>()) return range->size();
   if (const auto* view = value.as_object<DictView>()) return static_cast<std::int64_t>(view->dict->size());
   if (const auto* array = value.as_object<ArrayObject>()) return static_cast<std::int64_t>(array->shape[0]);

@@ -71,12 +71,14 @@ void write_set(const Value& value, std::string& out, Path& path) {
   out += frozen ? "})" : "}";
 }
 
-void write_factor(const Factor& factor, std::string& out, Path& path) {
+void write_factor(const Dict& factor, std::string& out, Path& path) {
   out += "_F(";
-  for (std::size_t i = 0; i < factor.arguments.size(); ++i) {
-    if (i > 0) out += ", ";
-    out += factor.arguments[i].name + "=";
-    write(*factor.arguments[i].value, out, path);
+  bool first = true;
+  for (const Dict::Entry& entry : factor.entries()) {
+    if (!entry.live) continue;
+    if (!std::exchange(first, false)) out += ", ";
+    out += (entry.key.is_text() ? entry.key.as_text() : entry.key.repr()) + "=";
+    write(entry.value, out, path);
   }
   out += ')';
 }
@@ -112,7 +114,6 @@ const void* identity_of(const Value& value) {
   if (value.is_tuple()) return std::get<std::shared_ptr<Tuple>>(value.storage()).get();
   if (value.is_dict()) return &value.as_dict();
   if (value.is_set()) return &value.as_set();
-  if (value.is_factor()) return &value.as_factor();
   return value.as_object<ExceptionObject>();
 }
 
@@ -128,6 +129,8 @@ void write_container(const Value& value, const void* identity, std::string& out,
     write_items(value.items(), out, path);
     if (value.is_tuple() && value.items().size() == 1) out += ',';
     out += brackets[1];
+  } else if (value.is_factor()) {
+    write_factor(value.as_dict(), out, path);
   } else if (value.is_dict()) {
     write_dict(value.as_dict(), out, path);
   } else if (value.is_set()) {
@@ -137,8 +140,6 @@ void write_container(const Value& value, const void* identity, std::string& out,
     out += '(';
     write_items(error->arguments, out, path);
     out += ')';
-  } else {
-    write_factor(value.as_factor(), out, path);
   }
   path.pop_back();
 }

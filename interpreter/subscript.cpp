@@ -79,19 +79,6 @@ Value text_item(const Value& object, const Value& index) {
   return out;
 }
 
-Value factor_item(const Factor& factor, const Value& index) {
-  std::vector<std::string> names;
-  for (const Argument& argument : factor.arguments) {
-    if (index.is_text() && argument.name == index.as_text()) return *argument.value;
-    names.push_back(argument.name);
-  }
-  auto error = make_exception(ErrorKind::key, "");
-  error->arguments = {index};
-  if (const std::string near = index.is_text() ? nearest(index.as_text(), names) : ""; !near.empty())
-    error->hint = "did you mean " + near + "?";
-  throw RaisedError(std::move(error));
-}
-
 Value dict_item(const Dict& dict, const Value& index) {
   if (const Value* value = dict.find(index)) return *value;
   auto error = make_exception(ErrorKind::key, "");
@@ -154,7 +141,6 @@ SliceRange resolve_slice(const SliceObject& slice, std::int64_t length) {
 Value subscript(const Value& object, const Value& index, Meter& meter) {
   if (object.is_unknown() || index.is_unknown()) return Value::unknown();
   if (object.is_dict()) return dict_item(object.as_dict(), index);
-  if (object.is_factor()) return factor_item(object.as_factor(), index);
   const auto* slice = index.as_object<SliceObject>();
   if (object.is_sequence()) {
     if (slice != nullptr) return sequence_slice(object, *slice, meter);

@@ -85,7 +85,6 @@ Value::Value(double value) : storage_(value) {}
 Value::Value(std::complex<double> value) : storage_(value) {}
 Value::Value(std::string text) : storage_(std::make_shared<const std::string>(std::move(text))) {}
 Value::Value(ConceptPtr handle) : storage_(std::move(handle)) {}
-Value::Value(std::shared_ptr<const Factor> factor) : storage_(std::move(factor)) {}
 Value::Value(std::shared_ptr<Tuple> sequence) : storage_(std::move(sequence)) {}
 Value::Value(std::shared_ptr<List> sequence) : storage_(std::move(sequence)) {}
 Value::Value(std::shared_ptr<Dict> mapping) : storage_(std::move(mapping)) {}
@@ -157,7 +156,7 @@ bool Value::is_set() const {
   return std::holds_alternative<std::shared_ptr<Set>>(storage_);
 }
 bool Value::is_factor() const {
-  return std::holds_alternative<std::shared_ptr<const Factor>>(storage_);
+  return is_dict() && as_dict().factor != nullptr;
 }
 bool Value::is_concept() const {
   return std::holds_alternative<ConceptPtr>(storage_);
@@ -195,9 +194,6 @@ std::span<const Value> Value::items() const {
   return get<std::shared_ptr<Tuple>>(*this, "tuple")->items;
 }
 
-const Factor& Value::as_factor() const {
-  return *get<std::shared_ptr<const Factor>>(*this, "_F");
-}
 const ConceptPtr& Value::as_concept() const {
   return get<ConceptPtr>(*this, "concept");
 }
@@ -218,8 +214,9 @@ std::string Value::type_name() const {
   if (is_concept()) return as_concept()->type;
   if (const auto* object = std::get_if<std::shared_ptr<Object>>(&storage_)) return (*object)->type_name();
   if (const auto* set = std::get_if<std::shared_ptr<Set>>(&storage_)) return (*set)->frozen ? "frozenset" : "set";
+  if (is_factor()) return "_F";
   static constexpr const char* names[] = {"NoneType", "unknown", "bool", "int",  "float", "complex", "str",
-                                          "int",      "tuple",   "list", "dict", "set",   "concept", "_F"};
+                                          "int",      "tuple",   "list", "dict", "set",   "concept"};
   return names[storage_.index()];
 }
 

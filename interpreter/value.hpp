@@ -1,11 +1,12 @@
 // The values of the command language: Python's None, bool, int, float, complex, str, tuple, list, dict, functions, and
-// the two things of its own: _F(...) occurrences and handles on concepts. Copying a Value is cheap.
+// the two things of its own: _F(...) occurrences, which are dicts, and handles on concepts. Copying a Value is cheap.
 // Sixteen bytes and a tag: small kinds lie inside, heavy ones are shared (see objects.hpp).
 #pragma once
 
 #include <complex>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,11 +41,14 @@ struct Argument {
   Span value_span;
 };
 
-/// _F(A=1, B=2): the arguments in the order of the file. Two arguments never share a name.
-struct Factor {
-  std::vector<Argument> arguments;
+/// What _F(A=1, B=2), which is a dict, knows of its place in the file.
+struct FactorPlaces {
+  struct Place {
+    Span name, value;
+  };
+  std::map<std::string, Place, std::less<>> of_keywords;  ///< those written in the brackets
   Span span;
-  bool open = false;  ///< there are further arguments that are not known
+  bool open = false;  ///< there are further keywords that are not known
 };
 
 /// The items of a tuple or of a list.
@@ -76,7 +80,7 @@ class Value {
       std::variant<std::monostate, Unknown, bool, std::int64_t, double, std::complex<double>,
                    std::shared_ptr<const std::string>, std::shared_ptr<const BigInteger>, std::shared_ptr<Tuple>,
                    std::shared_ptr<List>, std::shared_ptr<Dict>, std::shared_ptr<Set>, ConceptPtr,
-                   std::shared_ptr<const Factor>, std::shared_ptr<Object>>;
+                   std::shared_ptr<Object>>;
 
   Value();  ///< None
   Value(bool value);
@@ -87,7 +91,6 @@ class Value {
   Value(std::string text);
   Value(const char* text) : Value(std::string(text)) {}
   Value(ConceptPtr handle);
-  Value(std::shared_ptr<const Factor> factor);
   Value(std::shared_ptr<Tuple> sequence);
   Value(std::shared_ptr<List> sequence);
   Value(std::shared_ptr<Dict> mapping);
@@ -117,7 +120,7 @@ class Value {
   bool is_sequence() const;  ///< tuple or list
   bool is_dict() const;
   bool is_set() const;
-  bool is_factor() const;
+  bool is_factor() const;  ///< a dict that was written as _F(...)
   bool is_concept() const;
   bool is_callable() const;
 
@@ -128,7 +131,6 @@ class Value {
   std::complex<double> as_complex() const;  ///< also of an int or a float
   const std::string& as_text() const;
   std::span<const Value> items() const;  ///< of a tuple or a list
-  const Factor& as_factor() const;
   const ConceptPtr& as_concept() const;
   const BigInteger& as_big_integer() const;
   Dict& as_dict() const;

@@ -1,3 +1,4 @@
+#include "interpreter/dict.hpp"
 #include "interpreter/evaluator.hpp"
 
 #include <catch2/catch.hpp>
@@ -115,8 +116,9 @@ TEST_CASE("A command call reaches the host with its keywords and their places", 
   CHECK(part(call.name_span) == "LIRE_MAILLAGE");
   CHECK(part(call.arguments[0].name_span) == "FORMAT");
   CHECK(part(call.arguments[0].value_span) == "'MED'");
-  CHECK(part(call.arguments[1].value->as_factor().span) == "_F(A=(1, 2.5))");
-  CHECK(call.arguments[1].value->as_factor().arguments[0].value->repr() == "(1, 2.5)");
+  REQUIRE(call.arguments[1].value->is_factor());
+  CHECK(part(call.arguments[1].value->as_dict().factor->span) == "_F(A=(1, 2.5))");
+  CHECK(call.arguments[1].value->as_dict().find("A")->repr() == "(1, 2.5)");
   CHECK(call.arguments[2].name == "UNITE");
   CHECK(call.arguments[2].value->as_integer() == 20);
 }
@@ -282,6 +284,22 @@ TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
   // The generator's text is gone with the first file.
   CHECK(output == "3 []\n");
   CHECK(diagnostics.items().empty());
+}
+
+TEST_CASE("_F(...) is a dict: it can be looked through, changed and extended before a command reads it", "[evaluator]") {
+  const Run run(
+      "f = _F(GROUP_MA='TOP', PRES=1.0)\n"
+      "f['PRES'] = 2.0\n"
+      "f.update(NIVE=3)\n"
+      "print(isinstance(f, dict), isinstance(f, _F), isinstance({}, _F), f.get('PRES'), list(f), len(f), 'NIVE' in f, f == {'GROUP_MA': 'TOP', 'PRES': 2.0, 'NIVE': 3})\n"
+      "g = _F(f, PRES=4.0)\n"
+      "del g['NIVE']\n"
+      "print(f, g, dict(g), {**g, 'X': 1}, [k for k, v in g.items() if v == 4.0])\n"
+      "AFFE_MODELE(AFFE=g)\n");
+  CHECK(run.output ==
+        "True True False 2.0 ['GROUP_MA', 'PRES', 'NIVE'] 3 True True\n"
+        "_F(GROUP_MA='TOP', PRES=2.0, NIVE=3) _F(GROUP_MA='TOP', PRES=4.0) {'GROUP_MA': 'TOP', 'PRES': 4.0} {'GROUP_MA': 'TOP', 'PRES': 4.0, 'X': 1} ['PRES']\n");
+  CHECK(run.host->calls.back().arguments[0].value->repr() == "_F(GROUP_MA='TOP', PRES=4.0)");
 }
 
 TEST_CASE("sys.exit with a status or a text ends the file with an error", "[evaluator]") {

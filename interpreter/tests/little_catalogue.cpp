@@ -1,5 +1,7 @@
 #include "interpreter/tests/little_catalogue.hpp"
 
+#include "interpreter/dict.hpp"
+
 namespace comma::interpreter::tests {
 namespace {
 
@@ -177,7 +179,15 @@ CommandCall written_call(const std::string& name, const Arguments& arguments) {
 
 Value factor(const Arguments& arguments) {
   const CommandCall call = written_call("_F", arguments);
-  return Value(std::make_shared<const Factor>(Factor{call.arguments, call.span, false}));
+  auto places = std::make_shared<FactorPlaces>();
+  places->span = call.span;
+  auto made = std::make_shared<Dict>();
+  for (const Argument& argument : call.arguments) {
+    made->set(Value(argument.name), *argument.value);
+    places->of_keywords.emplace(argument.name, FactorPlaces::Place{argument.name_span, argument.value_span});
+  }
+  made->factor = std::move(places);
+  return Value(std::move(made));
 }
 
 ConceptPtr new_concept(const std::string& name, const std::string& type, int id) {

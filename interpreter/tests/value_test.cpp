@@ -58,10 +58,11 @@ TEST_CASE("Type names are Python's, and a concept's own", "[value]") {
   handle->type = "maillage_sdaster";
   CHECK(Value(handle).type_name() == "maillage_sdaster");
   CHECK(Value(handle).repr() == "MA");
-  auto factor = std::make_shared<Factor>();
-  factor->arguments.push_back({"TOUT", {}, std::make_shared<const Value>("OUI"), {}});
-  CHECK(Value(std::shared_ptr<const Factor>(factor)).repr() == "_F(TOUT='OUI')");
-  CHECK(Value(std::shared_ptr<const Factor>(factor)).type_name() == "_F");
+  auto factor = std::make_shared<Dict>();
+  factor->set("TOUT", "OUI");
+  factor->factor = std::make_shared<const FactorPlaces>();
+  CHECK(Value(factor).repr() == "_F(TOUT='OUI')");
+  CHECK(Value(factor).type_name() == "_F");
 }
 
 TEST_CASE("A tower of lists is released without a tower of calls", "[value]") {
