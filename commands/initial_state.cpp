@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "commands/result_reading.hpp"
 #include "commands/same_mesh.hpp"
@@ -96,6 +98,26 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
   if (keywords.has("INST_ETAT_INIT")) choice.instant = keywords.real("INST_ETAT_INIT");
   choice.state = std::move(state);
   return choice;
+}
+
+void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem) {
+  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial || !problem.initial->stresses) return;
+  const Keywords& keywords = call.factor("ETAT_INIT");
+  const solver::ElementField& stresses = *problem.initial->stresses;
+  for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
+    const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
+    const bool by_displacement = law.relation == solver::Relation::hyperelastic && !problem.initial->displacement;
+    const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !problem.initial->variables;
+    if (!by_displacement && !by_variables) continue;
+    const auto width = static_cast<std::size_t>(stresses.components.size());
+    const auto first = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell)]) * width, end = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell) + 1]) * width;
+    const auto values = std::span(stresses.values).subspan(first, end - first);
+    if (std::ranges::none_of(values, [](double value) { return std::abs(value) > 0.0; })) continue;
+    throw DiagnosticError("unsupported",
+                          fmt::format("ETAT_INIT: cell {} does not start from stresses: those of {} follow from the {}", problem.model->mesh->cell_name(cell),
+                                      by_displacement ? "ELAS_HYPER" : "SIMO_MIEHE", by_displacement ? "displacement" : "internal variables"),
+                          keywords.span_of("SIGM"), by_displacement ? "give DEPL, or another RELATION" : "give VARI too, or take DEFORMATION='GDEF_LOG'");
+  }
 }
 
 }  // namespace comma::commands

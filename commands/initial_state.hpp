@@ -20,4 +20,8 @@ struct InitialStateChoice {
 /// DiagnosticError `unknown-step`, `wrong-type` for a field of another kind.
 InitialStateChoice initial_state(const interpreter::Call& call);
 
+/// Throws DiagnosticError `unsupported` where SIGM stands for a law that does not start from stresses: those of hyperelasticity follow from the
+/// displacement, those of SIMO_MIEHE from the internal variables (R5.03.21), which then must be given too.
+void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem);
+
 }  // namespace comma::commands
