@@ -73,7 +73,12 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
       // A node that another zone holds keeps what that zone says.
       if (row[cont] == row[cont]) continue;
       row[cont] = not_paired;
-      for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r}) row[force] = 0.0;
+      for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r})
+        if (std::isnan(row[force])) row[force] = 0.0;
+      continue;
+    }
+    if (!contact.has_point) {
+      add_forces(contact, row);
       continue;
     }
     const bool is_shared = row[jeu] == row[jeu];

@@ -17,6 +17,7 @@ struct NodeContact {
   double normal_force = 0.0;  ///< positive in compression
   bool closed = false;        ///< whether contact holds it, be it by a pull (MixedZone::bilateral)
   bool sticking = false;
+  bool has_point = true;  ///< false: the node has forces alone, its shares of those between nodes
   Eigen::Vector3d shear_force = Eigen::Vector3d::Zero();  ///< on the slave
   Eigen::Vector2d slip = Eigen::Vector2d::Constant(absent);  ///< along two tangents; absent without friction
 };
@@ -27,7 +28,7 @@ struct NodeContact {
 /// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and PROJ_X.. its
 /// foot on the master surface. GLIX GLIY GLI: slip along two
 /// tangents and its size, with friction. What is not computed here stays absent: HN, and the percussions I IX IY IZ (dynamics). A
-/// node that is not paired, or excluded, has CONT and forces, which are zero. A node without a slave role carries nothing.
+/// node that is not paired, or excluded, has CONT and forces, which are zero; one without a point of its own has forces alone. A node without a slave role carries nothing.
 NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions);
 
 /// The same without friction. `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the node is not paired.

@@ -143,7 +143,7 @@ class MixedContact {
   double share_of_limit(const CondensedPoint& point, double slip, double limit) const;
   Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;
   Eigen::Vector3d shear_force(std::size_t p, const Eigen::VectorXd& jumps) const;
-  void add_forces_between_nodes(const Eigen::VectorXd& jumps, const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
+  void add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
   void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);

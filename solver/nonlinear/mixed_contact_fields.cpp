@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
@@ -137,15 +138,24 @@ Vector3d MixedContact::shear_force(std::size_t p, const Eigen::VectorXd& jumps) 
   return force;
 }
 
-/// Nodes bear their shares of what points between them do, so that all together bear the whole force.
-void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, const std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
+/// Nodes bear their shares of what points between them do, so that all together bear the whole force. Those without a point of their own do
+/// so in zones where others have one: a zone without points at nodes says nothing of them.
+void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
+  std::set<int> zones_with_nodes;
+  for (const auto& [key, _] : by_node) zones_with_nodes.insert(key.first);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
-    if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0) continue;
+    if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0 || !zones_with_nodes.contains(point.zone)) continue;
     const Vector3d normal = forces_[problem_.points[p].first_row] * point.normal, shear = shear_force(p, jumps);
     const auto nodes = mesh_.cell(point.cell);
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      if (const auto known = by_node.find(Key(point.zone, nodes[a])); known != by_node.end()) add_forces(point.shape[a] * normal, point.shape[a] * shear, contacts[known->second]);
+    const bool sticks = state_.statuses[p] == ContactStatus::sticking;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto [known, is_first] = by_node.emplace(Key(point.zone, nodes[a]), contacts.size());
+      if (is_first) contacts.push_back({.pair = {.zone = point.zone, .slave = nodes[a], .status = PairingStatus::paired, .normal = point.normal}, .sticking = true, .has_point = false});
+      NodeContact& contact = contacts[known->second];
+      if (!contact.has_point) contact.sticking &= sticks || state_.statuses[p] == ContactStatus::open;
+      add_forces(point.shape[a] * normal, point.shape[a] * shear, contact);
+    }
   }
 }
 
