@@ -41,6 +41,9 @@ int node_at(const solver::Field& field, const solver::Mesh& mesh, int place, int
   return element->support == solver::Support::element_node ? mesh.cell(place)[static_cast<std::size_t>(point)] : -1;
 }
 
+// False for what is absent.
+bool is_shown(double value, const ListingStyle& style) { return value >= style.least && value <= style.greatest; }
+
 // Coordinates, where they are asked for, and then the values within the bounds; nothing when there is no value.
 std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, int place, int point) {
   std::vector<double> values;
@@ -51,7 +54,7 @@ std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh
   }
   for (int c = 0; c < static_cast<int>(solver::components_of(field).size()); ++c) {
     const double value = value_at(field, place, point, c);
-    const bool shown = value >= style.least && value <= style.greatest;  // false for what is absent
+    const bool shown = is_shown(value, style);
     values.push_back(shown ? value : solver::absent);
     any |= shown;
   }
@@ -86,8 +89,11 @@ std::string listing(const solver::Field& field, const solver::Mesh& mesh, const 
   return text;
 }
 
-std::string extreme_listing(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, std::span<const Extremum> wanted) {
+std::string extreme_listing(const solver::Field& whole, const solver::Mesh& mesh, const ListingStyle& style, std::span<const Extremum> wanted) {
   std::string text;
+  solver::Field field = whole;
+  for (double& value : solver::values_of(field))
+    if (!is_shown(value, style)) value = solver::absent;
   for (std::size_t c = 0; c < solver::components_of(field).size(); ++c) {
     const auto found = solver::extremes(field, static_cast<int>(c));
     if (!found) continue;
