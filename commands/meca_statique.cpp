@@ -51,7 +51,7 @@ void warn_of_scene(const Call& call, const solver::StaticProblem& problem, Conte
 
 Product prepare_meca_statique(const Call& call, Context& context) {
   const solver::StaticProblem problem = static_problem(call);
-  instants(call);
+  check_multipliers(call, instants(call));
   solver::require_solvable(problem, options_of(call));
   if (context.only_checks) warn_of_scene(call, problem, context);
   return nullptr;

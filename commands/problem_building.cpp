@@ -126,6 +126,20 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
   }
 }
 
+void check_multipliers(const Call& call, std::span<const double> instants) {
+  for (const Keywords& excitation : call.factors("EXCIT")) {
+    if (!excitation.has("FONC_MULT")) continue;
+    const auto& handle = excitation.concept_of("FONC_MULT");
+    const auto* function = dynamic_cast<const FunctionConcept*>(handle->data.get());
+    if (function == nullptr || function->table() == nullptr) continue;
+    try {
+      for (const double instant : instants) function->evaluate({&instant, 1});
+    } catch (const solver::Error& error) {
+      throw DiagnosticError(error.code(), fmt::format("{}: the multiplier {} of a load: {}", call.command, handle->name, error.what()), excitation.span_of("FONC_MULT"), error.hint());
+    }
+  }
+}
+
 solver::StaticProblem static_problem(const Call& call) {
   solver::StaticProblem problem;
   problem.model = call.data<ModelConcept>("MODELE").model;

@@ -29,6 +29,9 @@ solver::StaticProblem problem_of_result(const interpreter::Call& call, const Res
 /// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept as an earlier phase.
 std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});
 
+/// Throws DiagnosticError `out-of-function` where a tabulated FONC_MULT has no value at one of the instants.
+void check_multipliers(const interpreter::Call& call, std::span<const double> instants);
+
 /// Raises an alarm where fields of the RESULTAT that CALC_CHAMP computed on some cells only have been taken for those of the whole model.
 void warn_of_limited_fields(const interpreter::Call& call, const std::set<std::string>& fields, interpreter::Diagnostics& diagnostics);
 

@@ -260,6 +260,7 @@ Product prepare_stat_non_line(const Call& call, Context& context) {
   const Observer observer(call, *scene.product);
   const Archive archive(call);
   solver::require_solvable(scene.product->problem, scene.steps, scene.options);
+  if (!call.has("PILOTAGE")) check_multipliers(call, std::span(scene.steps.instants).subspan(1));
   if (context.only_checks) warn_of_scene(call, scene, context);
   return nullptr;
 }
