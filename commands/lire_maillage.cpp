@@ -93,13 +93,30 @@ void warn_of_double_cells(const Call& call, const solver::Mesh& mesh, Context& c
                             call.span, "leave doubles out of the mesh file; VERI_MAIL=_F(VERIF='NON') where they are meant");
 }
 
+// A quadrangle with two corners at one node is a triangle, and a segment nothing.
+void warn_of_collapsed_cells(const Call& call, const solver::Mesh& mesh, Context& context) {
+  const std::vector<int> collapsed = solver::collapsed_cells(mesh);
+  if (collapsed.empty()) return;
+  const std::string others = collapsed.size() > 1 ? fmt::format(", the first of {} such cells", collapsed.size()) : "";
+  context.diagnostics.alarm("collapsed-cells",
+                            fmt::format("LIRE_MAILLAGE: {} {} has a node more than once{}: its element is a collapsed one", solver::name_of(mesh.cell_types[collapsed.front()]),
+                                        mesh.cell_name(collapsed.front()), others),
+                            call.span, "look for a misprint among its nodes; VERI_MAIL=_F(VERIF='NON') where it is meant");
+}
+
+void verify(const Call& call, const solver::Mesh& mesh, Context& context) {
+  if (call.factors("VERI_MAIL").front().text("VERIF") != "OUI") return;
+  warn_of_double_cells(call, mesh, context);
+  warn_of_collapsed_cells(call, mesh, context);
+}
+
 }  // namespace
 
 Product lire_maillage(const Call& call, Context& context) {
   auto product = std::make_shared<MeshConcept>();
   product->mesh = std::make_shared<solver::Mesh>(read(call, context));
   const solver::Mesh& mesh = *product->mesh;
-  if (call.factors("VERI_MAIL").front().text("VERIF") == "OUI") warn_of_double_cells(call, mesh, context);
+  verify(call, mesh, context);
   context.console.detail("  " + std::to_string(mesh.node_count()) + " nodes, " + std::to_string(mesh.cell_count()) +
                          " cells, " + std::to_string(mesh.cell_groups.size()) + " cell groups, " +
                          std::to_string(mesh.node_groups.size()) + " node groups");

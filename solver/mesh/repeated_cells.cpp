@@ -49,4 +49,15 @@ std::vector<RepeatedCell> repeated_cells(const Mesh& mesh) {
   return result;
 }
 
+std::vector<int> collapsed_cells(const Mesh& mesh) {
+  std::vector<int> collapsed;
+  std::vector<int> nodes;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    nodes.assign(mesh.cell(cell).begin(), mesh.cell(cell).end());
+    std::ranges::sort(nodes);
+    if (std::ranges::adjacent_find(nodes) != nodes.end()) collapsed.push_back(cell);
+  }
+  return collapsed;
+}
+
 }  // namespace comma::solver

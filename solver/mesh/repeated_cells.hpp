@@ -1,4 +1,4 @@
-// Cells that a mesh holds twice, as two bodies saved on each other leave them.
+// Cells of which a mesh has more than one, and cells that have a node more than once.
 #pragma once
 
 #include <vector>
@@ -14,5 +14,8 @@ struct RepeatedCell {
 
 /// All cells that repeat an earlier one, rising (U4.21.01, VERI_MAIL). Points do not count: discrete elements beside each other are made of them.
 std::vector<RepeatedCell> repeated_cells(const Mesh& mesh);
+
+/// Cells that have one of their nodes more than once, rising.
+std::vector<int> collapsed_cells(const Mesh& mesh);
 
 }  // namespace comma::solver
