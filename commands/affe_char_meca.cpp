@@ -47,6 +47,20 @@ void check_normals(const Call& call, const LoadedModel& target, Context& context
   }
 }
 
+// A plane body does not move out of its plane.
+void warn_of_weight_out_of_plane(const Call& call, const LoadedModel& target, Context& context) {
+  if (!call.has("PESANTEUR")) return;
+  const auto& formulations = target.model.formulations;
+  const bool has_plane = std::ranges::any_of(formulations, [](solver::Formulation each) { return solver::continuum_dimension(each) == 2; });
+  const bool in_space = std::ranges::any_of(formulations, [](solver::Formulation each) { return each != solver::Formulation::none && solver::continuum_dimension(each) != 2; });
+  if (!has_plane || in_space) return;
+  for (const Keywords& weight : call.factors("PESANTEUR")) {
+    const auto direction = weight.reals("DIRECTION");
+    if (direction.size() < 3 || direction[2] == 0.0) continue;
+    context.diagnostics.alarm("lost-force", "PESANTEUR: what acts along Z, out of the plane of the model, is lost", weight.span_of("DIRECTION"), "in a plane model weight acts along X and Y (Y alone with AXIS)");
+  }
+}
+
 // Nodes of no element are passed over, unless they all are.
 void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& context) {
   for (const Keywords& force : call.factors("FORCE_NODALE")) {
@@ -109,6 +123,7 @@ Product affe_char_meca(const Call& call, Context& context) {
   add_forces(call, target, *load);
   check_normals(call, target, context);
   warn_of_lost_forces(call, target, context);
+  warn_of_weight_out_of_plane(call, target, context);
   return load_concept(call, std::move(load));
 }
 

@@ -84,18 +84,19 @@ struct DistributedKeyword {
   const char* name;
   const char* what;
   int cell_dimension;  ///< 0: that of the body
+  int foreign_body = 0;  ///< the dimension of continua on whose skin it does not act
 };
 
 constexpr DistributedKeyword distributed_keywords[] = {{"FORCE_FACE", "a face on the skin of a solid", 2},
-                                                       {"FORCE_ARETE", "an edge of a solid", 1},
-                                                       {"FORCE_CONTOUR", "an edge on the boundary of a plane body", 1},
+                                                       {"FORCE_ARETE", "an edge of a solid or of a plate", 1, 2},
+                                                       {"FORCE_CONTOUR", "an edge on the boundary of a plane body or of a plate", 1, 3},
                                                        {"FORCE_INTERNE", "a cell of a solid or plane body", 0}};
 
 bool bears(const LoadedModel& target, const DistributedKeyword& keyword, int cell) {
   const int body = solver::continuum_dimension(target.model.formulations[cell]);
   const int own = solver::dimension(target.mesh.cell_types[cell]);
   if (keyword.cell_dimension == 0) return body > 0 && own == body;
-  return target.model.is_skin(cell) && own == keyword.cell_dimension;
+  return target.model.is_skin(cell) && own == keyword.cell_dimension && (body == 0 || body != keyword.foreign_body);
 }
 
 void append_moments(const LoadedModel& target, const ByCell<solver::PlateMoment>& moments, solver::Load& load) {
