@@ -85,7 +85,8 @@ void StaticRun::resume() {
 }
 
 const ElementField* StaticRun::of_memory(const ElementField* variables) {
-  return variables != nullptr && variables->components.size() > 1 ? variables : nullptr;
+  if (variables == nullptr || variables->components.size() > 1) return variables;
+  return std::ranges::any_of(variables->values, [](double value) { return std::abs(value) > 0.0; }) ? variables : nullptr;
 }
 
 ElementField StaticRun::initial_stresses() const {
