@@ -41,16 +41,30 @@ class ZonePoints {
       if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); })) continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
-        points[known->second].weight += point.weight;
+        add(point, known->second, points[known->second.index]);
         continue;
       }
       face_master(at, before_.of(points.size()), point);
-      if (point.node >= 0) at_nodes_.emplace(point.node, points.size());
+      if (point.node >= 0) at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, mesh_, cell, point.shape)});
       points.push_back(point);
     }
   }
 
  private:
+  struct AtNode {
+    std::size_t index;      ///< of the point
+    double half_thickness;  ///< of the slave faces around it, each by its weight
+  };
+
+  /// Faces of different thickness share the multiplier of the node, which sees the mean of their gaps.
+  void add(const ContactPoint& further, AtNode& known, ContactPoint& point) const {
+    const double weight = point.weight + further.weight;
+    const double mean = (point.weight * known.half_thickness + further.weight * half_thickness(zone_, mesh_, further.cell, further.shape)) / weight;
+    if (point.facet >= 0) point.thickness += mean - known.half_thickness;
+    known.half_thickness = mean;
+    point.weight = weight;
+  }
+
   ContactPoint place(int cell, CellType type, const FacePoint& at) const {
     ContactPoint point;
     point.zone = index_;
@@ -119,7 +133,7 @@ class ZonePoints {
   FacetSearch search_;
   std::unordered_set<int> excluded_;
   bool merges_;
-  std::map<int, std::size_t> at_nodes_;
+  std::map<int, AtNode> at_nodes_;
 };
 
 /// Slave nodes as points of weight one, whose tractions are forces.

@@ -39,8 +39,8 @@ struct ContactPoint {
   double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master
 };
 
-/// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights, which
-/// is the same discrete problem. Neither excluded nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the points are the slave nodes that may make
+/// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights and the
+/// weighted mean of their faces' thicknesses, which is the same discrete problem. Neither excluded nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the points are the slave nodes that may make
 /// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
 /// Zones of local average contact have a point a patch.
 /// `before`: what each faced at the last pairing, if anything is to be kept of it (averages over patches keep nothing).

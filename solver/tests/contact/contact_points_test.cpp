@@ -50,3 +50,21 @@ TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either,
     CHECK(point.status == PairingStatus::paired);
   }
 }
+
+TEST_CASE("A node between faces of different thickness sees the mean of both, weighted by their areas, in any order of the faces") {
+  const bool turned = GENERATE(false, true);
+  Scene scene;
+  const auto segment = [&](const std::string& name, int first, int last) { return scene.cell(name, CellType::seg2, {first, last}, Formulation::plane_strain); };
+  const int master = segment("master", scene.node("ma", 4.0, 0.0), scene.node("mb", -1.0, 0.0));
+  const int left = scene.node("a", 0.0, 0.1), shared = scene.node("b", 1.0, 0.1), right = scene.node("c", 3.0, 0.1);
+  const int thick = segment("thick", left, shared), thin = segment("thin", shared, right);
+  scene.zone({master}, turned ? std::vector{thin, thick} : std::vector{thick, thin});
+  scene.problem.contact->formulation = ContactFormulation::mixed;
+  scene.problem.contact->zones[0].half_thickness = {{thick, {0.02, 0.02}}, {thin, {0.01, 0.01}}};
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
+  const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);
+  REQUIRE(points.size() == 3);
+  for (const ContactPoint& point : points)
+    CHECK(point.thickness == Approx(point.node == left ? 0.02 : point.node == right ? 0.01 : (0.02 * 1.0 + 0.01 * 2.0) / 3.0));
+}
