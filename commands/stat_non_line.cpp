@@ -87,7 +87,7 @@ solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initi
   return plan;
 }
 
-// comma makes the tangent again at each iteration unless REAC_ITER is written.
+// comma makes the tangent again at each iteration unless REAC_ITER is written, or REAC_INCR=0 says that it is never made again.
 solver::TangentPolicy tangent_policy(const Keywords& newton) {
   const auto kind_named = [](const std::string& word) {
     return word == "ELASTIQUE" ? solver::TangentKind::elastic : solver::TangentKind::tangent;
@@ -99,7 +99,8 @@ solver::TangentPolicy tangent_policy(const Keywords& newton) {
   policy.steps = static_cast<int>(newton.integer("REAC_INCR"));
   policy.elastic_below = newton.real("PAS_MINI_ELAS");
   policy.elastic_iterations = static_cast<int>(newton.integer("REAC_ITER_ELAS"));
-  if (newton.given("REAC_ITER")) policy.iterations = static_cast<int>(newton.integer("REAC_ITER"));
+  const bool never = policy.steps == 0;  // also not within a step
+  if (newton.given("REAC_ITER") || never) policy.iterations = static_cast<int>(newton.integer("REAC_ITER"));
   return policy;
 }
 
