@@ -56,6 +56,22 @@ void take_path(const solver::Result& result, const solver::ResultStep& step, sol
   if (&step != &result.steps.front()) take_held(*(&step - 1), "DEPL", state.earlier);
 }
 
+bool has_surfaces_of(const solver::ContactDefinition& a, const solver::ContactDefinition& b) {
+  return a.formulation == b.formulation && a.has_friction == b.has_friction &&
+         std::ranges::equal(a.zones, b.zones, [](const solver::ContactZone& one, const solver::ContactZone& other) {
+           return one.master_cells == other.master_cells && one.slave_cells == other.slave_cells;
+         });
+}
+
+// Of contact between the same surfaces the step says how it is.
+void take_contact_fields(const interpreter::Call& call, const solver::StaticProblem& before, const solver::ResultStep& step, solver::InitialState& state) {
+  if (!before.contact || !call.has("CONTACT")) return;
+  const auto* now = std::get_if<solver::ContactDefinition>(&call.data<ContactConcept>("CONTACT").conditions);
+  if (now == nullptr || !has_surfaces_of(*before.contact, *now)) return;
+  for (const char* name : {"CONT_NOEU", "CONT_ELEM"})
+    if (const auto held = step.fields.find(name); held != step.fields.end()) state.contact_fields.emplace(name, held->second);
+}
+
 // Stresses and variables live at Gauss points.
 void bring_to_points(const interpreter::Call& call, std::optional<solver::ElementField>& field) {
   if (!field || field->support == solver::Support::gauss_point) return;
@@ -86,6 +102,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     choice.behaviours = problem.behaviours;
     take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
     state->contact = step.contact;
+    take_contact_fields(call, problem, step, *state);
     choice.instant = step.instant;
     choice.order = step.order;
   }

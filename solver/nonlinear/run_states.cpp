@@ -12,6 +12,35 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Those of cells with the same points, component by component.
+void take_values(const ElementField& from, ElementField& to) {
+  for (std::size_t cell = 0; cell + 1 < to.starts.size(); ++cell) {
+    const int index = static_cast<int>(cell);
+    if (from.points(index) != to.points(index)) continue;
+    for (int c = 0; c < static_cast<int>(to.components.size()); ++c) {
+      const int column = from.component(to.components[static_cast<std::size_t>(c)]);
+      for (int point = 0; column >= 0 && point < to.points(index); ++point) {
+        double& target = to.values[static_cast<std::size_t>(to.starts[cell] + point) * to.components.size() + static_cast<std::size_t>(c)];
+        const double value = from.at(index, point, column);
+        if (!std::isnan(target) && !std::isnan(value)) target = value;
+      }
+    }
+  }
+}
+
+/// The components of DEPL that are no displacements.
+void take_multipliers(const NodalField& from, NodalField& to) {
+  for (std::size_t c = 0; c < to.components.size(); ++c) {
+    if (!to.components[c].starts_with("LAGS")) continue;
+    const int column = from.component(to.components[c]);
+    for (std::size_t node = 0; column >= 0 && node < to.values.size() / to.components.size(); ++node) {
+      double& target = to.values[node * to.components.size() + c];
+      const double value = from.at(static_cast<int>(node), column);
+      if (!std::isnan(target) && !std::isnan(value)) target = value;
+    }
+  }
+}
+
 }  // namespace
 
 void StaticRun::start(double instant) {
@@ -44,7 +73,18 @@ void StaticRun::start(double instant) {
   if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
   if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
   add_patch_state(step);
+  if (problem_.initial) keep_given(*problem_.initial, step);
   append(std::move(step));
+}
+
+/// What is given is the state itself, not what the laws would make of it now.
+void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
+  if (given.stresses) take_values(*given.stresses, std::get<ElementField>(step.fields.at("SIEF_ELGA")));
+  if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr) take_values(*variables, std::get<ElementField>(step.fields.at("VARI_ELGA")));
+  if (given.contact_fields.empty()) return;
+  for (const auto& [name, field] : given.contact_fields) step.fields.insert_or_assign(name, field);
+  step.contact = given.contact;
+  if (given.displacement) take_multipliers(*given.displacement, std::get<NodalField>(step.fields.at("DEPL")));
 }
 
 Eigen::VectorXd StaticRun::differential_reference() const {

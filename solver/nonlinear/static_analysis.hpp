@@ -45,6 +45,7 @@ struct InitialState {
   std::optional<NodalField> earlier;  ///< the displacement a step before, which gives a path its direction
   std::optional<double> intensity;    ///< of driven loads; absent: 0
   std::shared_ptr<const ContactMemory> contact = {};  ///< of the step that it is; null: contact begins anew
+  std::map<std::string, Field> contact_fields = {};   ///< that the step holds of the same surfaces: CONT_NOEU, CONT_ELEM
 };
 
 struct StaticProblem {

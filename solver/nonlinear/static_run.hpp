@@ -112,6 +112,7 @@ class StaticRun {
   static const ElementField* of_memory(const ElementField* variables);
   /// Without an initial state the body starts without stress, even where its first temperature is not that of reference.
   ElementField initial_stresses() const;
+  void keep_given(const InitialState& given, ResultStep& step) const;
   /// Null where the step has it not.
   const ElementField* field_of_last_step(std::string_view name) const;
   std::span<const AppliedLoad> loads_so_far() const;
