@@ -103,6 +103,16 @@ void check_normals(const Keywords& zone, const std::string& keyword, const std::
                         zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
+// Of surfaces that bound no body (plates, beams, rigid faces) neighbours must agree on a side.
+void check_sides_of_sheets(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells, const solver::Mesh& mesh) {
+  const auto unlike = solver::unlike_neighbours(mesh, solver::loose_skin(mesh, cells));
+  if (!unlike) return;
+  const bool lines = solver::dimension(mesh.cell_types[static_cast<std::size_t>(unlike->first)]) == 1;
+  throw DiagnosticError("unlike-normals",
+                        fmt::format("DEFI_CONTACT: the normals of the neighbours {} and {} of this surface point to different sides", mesh.cell_name(unlike->first), mesh.cell_name(unlike->second)),
+                        zone.span_of(keyword), fmt::format("turn them by MODI_MAILLAGE({}=_F(GROUP_MA=...)) before the model is made", lines ? "ORIE_LIGNE" : "ORIE_NORM_COQUE"));
+}
+
 // Surfaces are edges of plane bodies, faces of solids, plates or beams, and no cell faces itself.
 void check_surface(const Keywords& zone, const char* keyword, const std::vector<int>& cells, const solver::Model& model) {
   for (const int cell : cells) {
@@ -324,6 +334,8 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
+    if (zone.master_normal != solver::NormalRule::fixed) check_sides_of_sheets(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
+    if (zone.normal_side != solver::NormalSide::master && zone.slave_normal != solver::NormalRule::fixed) check_sides_of_sheets(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
   }
   for (const solver::ContactZone& zone : definition.zones)
     if (zone.mixed.local_average) solver::patches_of(zone, mesh);  // tells slave faces that were not cut

@@ -37,7 +37,7 @@ Vector measured(const Mesh& mesh, int cell, Measure measure) {
 /// The cells of a sheet or line with the sense that each must be given.
 class Sheet {
  public:
-  Sheet(Mesh& mesh, std::span<const int> cells, Measure measure) : mesh_(mesh), cells_(cells), measure_(measure) {
+  Sheet(const Mesh& mesh, std::span<const int> cells, Measure measure) : mesh_(mesh), cells_(cells), measure_(measure) {
     for (const int cell : cells_) {
       const int wanted = dimension(mesh_.cell_types[cell]);
       if (wanted != 1 && (wanted != 2 || measure == Measure::tangent)) {
@@ -48,8 +48,9 @@ class Sheet {
     }
   }
 
-  int orient(const std::optional<OrientationSeed>& seed) {
-    if (cells_.empty()) return 0;
+  /// Those that do not run as the seed wants it or, without one, as the first cell does.
+  std::vector<int> to_turn(const std::optional<OrientationSeed>& seed) {
+    if (cells_.empty()) return {};
     const int first = seed ? cell_at(*seed) : cells_.front();
     turned_[first] = seed && must_turn(first, *seed);
     std::deque<int> open = {first};
@@ -58,7 +59,14 @@ class Sheet {
       open.pop_front();
       for_facets(cell, [&](Facet facet, bool) { reach(cell, facet, open); });
     }
-    return turn_all(first);
+    return unlike(first);
+  }
+
+  /// Where more than two cells meet none of them is the neighbour of another.
+  std::optional<std::pair<int, int>> unlike_neighbours() const {
+    for (const auto& [facet, cells] : neighbours_)
+      if (cells.size() == 2 && !alike(cells[0], cells[1], facet)) return std::pair(cells[0], cells[1]);
+    return std::nullopt;
   }
 
  private:
@@ -127,36 +135,38 @@ class Sheet {
                                                    measure_ == Measure::tangent ? "tangent" : "normal"));
   }
 
-  int turn_all(int first) {
-    int count = 0;
+  std::vector<int> unlike(int first) const {
+    std::vector<int> found;
     for (const int cell : cells_) {
       const auto sense = turned_.find(cell);
       if (sense == turned_.end()) {
         throw Error("several-pieces", fmt::format("cell {} is not connected with {}", mesh_.cell_name(cell), mesh_.cell_name(first)),
                     "turn the pieces one by one");
       }
-      if (!sense->second) continue;
-      turn_cell(mesh_, cell);
-      ++count;
+      if (sense->second) found.push_back(cell);
     }
-    return count;
+    return found;
   }
 
-  Mesh& mesh_;
+  const Mesh& mesh_;
   std::span<const int> cells_;
   Measure measure_;
   std::map<Facet, std::vector<int>> neighbours_;
   std::map<int, bool> turned_;  ///< whether a cell that has been reached must be turned
 };
 
+int orient(Mesh& mesh, std::span<const int> cells, Measure measure, const std::optional<OrientationSeed>& seed) {
+  const std::vector<int> wrong = Sheet(mesh, cells, measure).to_turn(seed);
+  for (const int cell : wrong) turn_cell(mesh, cell);
+  return static_cast<int>(wrong.size());
+}
+
 }  // namespace
 
-int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) {
-  return Sheet(mesh, cells, Measure::normal).orient(seed);
-}
+int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) { return orient(mesh, cells, Measure::normal, seed); }
 
-int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) {
-  return Sheet(mesh, cells, Measure::tangent).orient(seed);
-}
+int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) { return orient(mesh, cells, Measure::tangent, seed); }
+
+std::optional<std::pair<int, int>> unlike_neighbours(const Mesh& mesh, std::span<const int> cells) { return Sheet(mesh, cells, Measure::normal).unlike_neighbours(); }
 
 }  // namespace comma::solver

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/mesh/mesh.hpp"
@@ -41,5 +42,9 @@ int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<O
 
 /// Turns lines so that each begins where its neighbour ends (ORIE_LIGNE). Returns and throws as above.
 int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed);
+
+/// Two of the faces or lines that share an edge (or an end) with no third one and do not run alike: their normals point to different sides.
+/// Throws `wrong-cell` for points and solids.
+std::optional<std::pair<int, int>> unlike_neighbours(const Mesh& mesh, std::span<const int> cells);
 
 }  // namespace comma::solver

@@ -219,7 +219,9 @@ TEST_CASE("the faces of a warped sheet get normals on the side that is asked for
     const Eigen::Vector3d middle = (a + c) / 2.0;
     return (b - a).cross(c - a).dot(Eigen::Vector3d(middle[0], middle[1], 0.0)) > 0.0;
   };
+  CHECK(unlike_neighbours(mesh, cells) == std::pair(cells[0], cells[1]));
   CHECK(orient_normals(mesh, cells, OrientationSeed{0, {1.0, 0.1, 0.0}}) == 3);
+  CHECK_FALSE(unlike_neighbours(mesh, cells));
   CHECK(std::ranges::all_of(cells, outwards));
   CHECK(orient_normals(mesh, cells, OrientationSeed{2 * count, {1.0, 0.0, 0.0}}) == count);
   CHECK(std::ranges::none_of(cells, outwards));
@@ -252,7 +254,9 @@ TEST_CASE("the segments of a line follow each other from the end that is asked f
   for (int i = 0; i < 5; ++i) mesh.nodes.push_back({1.0 * i, 0.3 * i * i, 0.0});
   std::vector<int> cells;
   for (int i = 0; i < 4; ++i) cells.push_back(mesh.add_cell(CellType::seg2, i % 2 == 0 ? std::vector{i, i + 1} : std::vector{i + 1, i}));
+  CHECK(unlike_neighbours(mesh, cells));
   CHECK(orient_lines(mesh, cells, OrientationSeed{4, {-1.0, 0.0, 0.0}}) == 2);
+  CHECK_FALSE(unlike_neighbours(mesh, cells));
   for (int i = 0; i < 4; ++i) CHECK(mesh.cell(cells[i])[0] == i + 1);
   const int face = mesh.add_cell(CellType::tria3, std::vector{0, 1, 2});
   CHECK(code_of([&] { orient_lines(mesh, std::vector{face}, std::nullopt); }) == "wrong-cell");
