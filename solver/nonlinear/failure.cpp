@@ -73,7 +73,7 @@ std::string way_to_settle(const ContactDefinition& contact) {
   const auto any = [&](const auto& is) { return std::ranges::any_of(contact.zones, [&](const ContactZone& zone) { return is(zone.mixed); }); };
   std::string way = "take smaller steps";
   if (any([](const MixedZone& zone) { return zone.penalised; })) way += is_mixed ? ", or a smaller penalty (COEF_PENA_CONT)" : ", or a smaller penalty (E_N)";
-  if (any([](const MixedZone& zone) { return zone.friction_penalised && zone.friction > 0.0; })) way += is_mixed ? ", or a smaller one of friction (COEF_PENA_FROT)" : ", or a smaller one of friction (E_T)";
+  if (any([](const MixedZone& zone) { return zone.friction_penalised && zone.friction > 0.0; })) way += is_mixed ? ", or a smaller one of friction (COEF_PENA_FROT), or none (ALGO_FROT='STANDARD')" : ", or a smaller one of friction (E_T)";
   if (any([](const MixedZone& zone) { return zone.rule != ContactRule::automatic; })) way += ", or another integration rule (INTEGRATION='AUTO' puts points at the nodes)";
   const auto has_slave_normals = [](const ContactZone& zone) { return zone.normal_side != NormalSide::master && zone.mixed.friction > 0.0; };
   // Faces that meet in a node push it along a normal each.
