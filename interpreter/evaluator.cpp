@@ -206,23 +206,28 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   return Value::unknown();
 }
 
+/// A function that a running command calls changes nothing that waits: what binds variables of the file has run at once.
+void Evaluator::announce_binding(const NameNode& name) {
+  if (guests_ == 0) host_.before_binding(name.id);
+}
+
 void Evaluator::store(const NameNode& name, Value value) {
   if (value.is_concept()) {
     const ConceptPtr& handle = value.as_concept();
     if (handle->name.empty() || handle->name[0] == '_') handle->name = name.id;
   }
   if (name.global) {
-    if (globals_.contains(name.id)) host_.before_binding(name.id);
+    if (globals_.contains(name.id)) announce_binding(name);
     globals_[name.id] = std::move(value);
   } else {
     auto& slot = frame_of(name).slots[static_cast<std::size_t>(name.slot)];
-    if (slot) host_.before_binding(name.id);
+    if (slot) announce_binding(name);
     slot = std::move(value);
   }
 }
 
 void Evaluator::erase(const NameNode& name) {
-  host_.before_binding(name.id);
+  announce_binding(name);
   const bool existed =
       name.global ? globals_.erase(name.id) > 0 : frame_of(name).slots[static_cast<std::size_t>(name.slot)].has_value();
   if (!name.global) frame_of(name).slots[static_cast<std::size_t>(name.slot)].reset();

@@ -105,6 +105,7 @@ class Evaluator {
   const Value* math_name(std::string_view name) const;
   Value unknown_name(const NameNode& name, bool called = false);
   int line_of_later_definition(const NameNode& name) const;
+  void announce_binding(const NameNode& name);
   void store(const NameNode& name, Value value);
   void assign(const Node& target, const Value& value);
   void assign_items(const SequenceNode& target, const Value& value);
