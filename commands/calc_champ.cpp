@@ -81,10 +81,9 @@ void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, const
   step.fields.insert_or_assign(own_name(occurrence), std::move(made));
 }
 
-// Whether the step has the field of every cell, with the same values on each: there is nothing to compute.
-bool holds_more(const solver::ResultStep& step, const std::string& name) {
-  const auto held = step.fields.find(name);
-  return held != step.fields.end() && !step.limited.contains(name) && std::holds_alternative<solver::ElementField>(held->second);
+// Whether the step has the field as the solve left it: on every cell, with the same values, which a continuation needs.
+bool holds_of_solve(const solver::ResultStep& step, const std::string& name) {
+  return (name == "SIEF_ELGA" || name == "VARI_ELGA") && step.fields.contains(name) && !step.limited.contains(name);
 }
 
 void add_field(const std::string& name, FieldsOfSteps& computation, const ChosenCells& cells, solver::ResultStep& step, std::size_t index) {
@@ -103,7 +102,7 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
     for (const std::string& name : wanted_fields(call)) {
-      if (!cells || !holds_more(data.result.steps[index], name)) add_field(name, computation, cells, data.result.steps[index], index);
+      if (!cells || !holds_of_solve(data.result.steps[index], name)) add_field(name, computation, cells, data.result.steps[index], index);
     }
     for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
   }

@@ -118,12 +118,12 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
 }
 
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem) {
-  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial || !problem.initial->stresses) return;
+  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial || !problem.initial->stresses || problem.initial->displacement) return;
   const Keywords& keywords = call.factor("ETAT_INIT");
   const solver::ElementField& stresses = *problem.initial->stresses;
   for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
     const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
-    const bool by_displacement = law.relation == solver::Relation::hyperelastic && !problem.initial->displacement;
+    const bool by_displacement = law.relation == solver::Relation::hyperelastic;
     const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !problem.initial->variables;
     if (!by_displacement && !by_variables) continue;
     const auto width = static_cast<std::size_t>(stresses.components.size());

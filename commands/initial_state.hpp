@@ -21,7 +21,7 @@ struct InitialStateChoice {
 InitialStateChoice initial_state(const interpreter::Call& call);
 
 /// Throws DiagnosticError `unsupported` where SIGM stands for a law that does not start from stresses: those of hyperelasticity follow from the
-/// displacement, those of SIMO_MIEHE from the internal variables (R5.03.21), which then must be given too.
+/// displacement, those of SIMO_MIEHE from the internal variables (R5.03.21). Where displacements are given too they are taken for a state of the law.
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem);
 
 }  // namespace comma::commands
