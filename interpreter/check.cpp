@@ -377,7 +377,9 @@ class LevelCheck {
     visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string& when) {
       if (keyword.name == pending.name) conditions.push_back(when);
       known.push_back(keyword.name);
-      if (keyword.is_factor() && has_keyword(keyword.inside, pending.name)) home = keyword.name;
+      // Of the factors that have it, one that the call writes is meant.
+      const bool is_written = std::ranges::any_of(pending_, [&](const Pending& other) { return other.name == home; });
+      if (keyword.is_factor() && has_keyword(keyword.inside, pending.name) && !is_written) home = keyword.name;
     });
     const Span& span = pending.argument->name_span;
     if (!conditions.empty()) {

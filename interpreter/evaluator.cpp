@@ -194,6 +194,8 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   std::string hint = !near.empty() ? fmt::format("did you mean {}?", near) : "";
   if (math_value(word) != nullptr) hint = fmt::format("write 'from math import {}' before", word);
   if (!refusal.empty()) hint = refusal;
+  const bool in_capitals = std::ranges::all_of(word, [](unsigned char c) { return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_'; });
+  if (hint.empty() && !called && in_capitals) hint = fmt::format("a text stands between quotes: '{}'", word);
   if (const int line = line_of_later_definition(name); line > 0) hint = fmt::format("it is defined later, in line {}", line);
   const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
                                               : fmt::format("'{}' is not part of the command language", word);
