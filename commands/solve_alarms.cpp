@@ -341,6 +341,13 @@ void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticP
                             call.factor("ETAT_INIT").span, "give VARI too, or keep VARI_ELGA in the result (ARCHIVAGE, CHAM_EXCLU)");
 }
 
+void warn_of_released_points(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.contact || !problem.initial || !problem.initial->displacement || call.factor("ETAT_INIT").has("EVOL_NOLI")) return;
+  if (std::ranges::none_of(problem.contact->zones, [](const solver::ContactZone& zone) { return zone.mixed.bilateral; })) return;
+  context.diagnostics.alarm("released-points", fmt::format("{}: ETAT_INIT gives fields, which do not say what points GLISSIERE holds: of those that touch, rounding decides", call.command),
+                            call.factor("ETAT_INIT").span, "give the result and its step (EVOL_NOLI)");
+}
+
 void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context) {
   if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return;
   const solver::BehaviourOfCells& now = *problem.behaviours;

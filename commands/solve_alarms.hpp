@@ -28,6 +28,9 @@ void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver
 /// Alarm `other-variables`: a cell goes on with a law whose internal variables are others than those it had. `before`: the laws of the initial state; null: elasticity, or not known.
 void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context);
 
+/// Alarm `released-points`: a contact with GLISSIERE goes on from fields, which do not say what points it holds.
+void warn_of_released_points(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+
 /// Alarm `no-internal-variables`: materials that remember go on from displacements without what they remembered.
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
