@@ -39,6 +39,10 @@ double reduced(const Keywords& test, const Values& values) {
 
 int single(const Keywords& test, const std::vector<int>& found, const std::string& keyword, const char* what) {
   if (found.size() == 1) return found.front();
+  if (keyword.empty()) {
+    throw DiagnosticError("missing-keyword", fmt::format("TEST_RESU: the field has its values on {}s, and no keyword names the one to test", what), test.span,
+                          fmt::format("give {}, a group of one {}", std::string(what) == "cell" ? "GROUP_MA" : "GROUP_NO", what));
+  }
   throw DiagnosticError("wrong-count", fmt::format("{} names {} {}s; a value is tested at one", keyword, found.size(), what),
                         test.span_of(keyword), "name a group of one, or use TYPE_TEST over several");
 }
