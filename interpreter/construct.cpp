@@ -138,7 +138,7 @@ Value make_dict(Evaluator& evaluator, const CallArguments& arguments) {
     raise(ErrorKind::type, fmt::format("dict expected at most 1 argument, got {}", arguments.size()));
   auto dict = std::make_shared<Dict>();
   if (arguments.size() == 1 && arguments[0].is_dict()) {
-    for (const Value& key : arguments[0].as_dict().keys()) dict->set(key, *arguments[0].as_dict().find(key));
+    dict->update(arguments[0].as_dict());
   } else if (arguments.size() == 1) {
     std::size_t index = 0;
     for (const Value& pair : list_of(arguments[0], evaluator.meter())) {

@@ -35,6 +35,12 @@ void Dict::set(const Value& key, Value value) {
   ++live_;
 }
 
+void Dict::update(const Dict& more) {
+  if (&more == this) return;
+  for (const Entry& entry : more.entries_)
+    if (entry.live) set(entry.key, entry.value);
+}
+
 bool Dict::erase(const Value& key) {
   const std::size_t hash = hash_of(key);
   const auto [first, last] = places_.equal_range(hash);

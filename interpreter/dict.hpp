@@ -35,6 +35,8 @@ class Dict {
   const Value* find(const Value& key) const;
   void set(const Value& key, Value value);
   bool erase(const Value& key);
+  /// Takes over the entries of another one, also instead of its own.
+  void update(const Dict& more);
   void clear();
 
   /// Raw entries in order, dead ones included: iteration by index stays valid while values are replaced.

@@ -227,8 +227,7 @@ Value Evaluator::make_factor(const CallArguments& arguments) {
   places->span = arguments.span;
   places->open = places->open || arguments.open;
   auto factor = std::make_shared<Dict>();
-  if (extends)
-    for (const Value& key : base.as_dict().keys()) factor->set(key, *base.as_dict().find(key));
+  if (extends) factor->update(base.as_dict());
   for (const Argument& item : named_arguments(written, "_F")) {
     factor->set(Value(item.name), *item.value);
     places->of_keywords.insert_or_assign(item.name, FactorPlaces::Place{item.name_span, item.value_span});

@@ -128,7 +128,7 @@ Value Evaluator::evaluate_dict(const DictNode& node) {
     const Value spread = evaluate(*value);
     if (spread.is_unknown()) return spread;
     if (!spread.is_dict()) raise(ErrorKind::type, fmt::format("'{}' object is not a mapping", spread.type_name()));
-    for (const Value& name : spread.as_dict().keys()) dict->set(name, *spread.as_dict().find(name));
+    dict->update(spread.as_dict());
   }
   return Value(std::move(dict));
 }

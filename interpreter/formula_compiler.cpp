@@ -138,14 +138,14 @@ class Compiler {
     return found == parameters_.end() ? -1 : static_cast<int>(found - parameters_.begin());
   }
 
-  /// Neither a parameter nor a function of the file occurs, nor what may be changed: such a function may count its calls, or
-  /// read a variable that is set later.
+  /// Neither a parameter nor what may change occurs: a function of the file may count its calls, or read a variable that is
+  /// set later.
   bool is_constant(const Node& node) const {
     if (node.kind == NodeKind::name) {
       const auto& name = static_cast<const NameNode&>(node);
       if (parameter(name.id) >= 0) return false;
       const auto bound = bindings_.find(name.id);
-      return bound == bindings_.end() || (bound->second.as_object<FunctionObject>() == nullptr && !late_reads(bound->second).changes_unseen);
+      return bound == bindings_.end() || !may_change(bound->second);
     }
     const auto parts = parts_of(node);
     return parts && std::all_of(parts->begin(), parts->end(), [&](const Node* part) { return is_constant(*part); });

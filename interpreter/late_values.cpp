@@ -67,6 +67,11 @@ class LateSearch {
 
 }  // namespace
 
+bool may_change(const Value& value) {
+  if (value.is_tuple()) return std::ranges::any_of(value.items(), may_change);
+  return value.as_object<FunctionObject>() != nullptr || late_reads(value).changes_unseen;
+}
+
 LateReads late_reads(const Value& value) {
   LateSearch search;
   search.visit(value);
@@ -78,7 +83,7 @@ bool LateCalls::note_last(const CommandGraph& graph, bool has_own) {
   if (has_own) {
     Source source{last.id, {}};
     for (const Keyword& keyword : last.call.items) {
-      if (keyword.value.as_object<FunctionObject>() != nullptr || late_reads(keyword.value).changes_unseen) source.values.push_back(keyword.value);
+      if (may_change(keyword.value)) source.values.push_back(keyword.value);
     }
     if (!source.values.empty()) sources_.push_back(std::move(source));
   }

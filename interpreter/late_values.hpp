@@ -21,6 +21,9 @@ struct LateReads {
 /// Follows functions into those that they call, as far as the variables hold them now.
 LateReads late_reads(const Value& value);
 
+/// Whether its use may give something else later: a function of the file is in it, or what can change.
+bool may_change(const Value& value);
+
 /// The calls that wait in the graph and use such values, their own (FORMULE) or those of calls that they build on.
 class LateCalls {
  public:

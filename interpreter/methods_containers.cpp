@@ -165,7 +165,7 @@ Value setdefault(Evaluator&, const Value& self, const CallArguments& arguments) 
 Value dict_update(Evaluator& evaluator, const Value& self, const CallArguments& arguments) {
   if (arguments.any_unknown()) return Value::unknown();
   const Value more = construct(evaluator, "dict", arguments);
-  for (const Value& key : more.as_dict().keys()) self.as_dict().set(key, *more.as_dict().find(key));
+  self.as_dict().update(more.as_dict());
   return {};
 }
 

@@ -97,11 +97,8 @@ bool is_set_operator(Operator op) {
 
 Value merge_dicts(const Dict& a, const Dict& b) {
   auto result = std::make_shared<Dict>();
-  for (const Dict* part : {&a, &b}) {
-    for (const Dict::Entry& entry : part->entries()) {
-      if (entry.live) result->set(entry.key, entry.value);
-    }
-  }
+  result->update(a);
+  result->update(b);
   return Value(std::move(result));
 }
 
@@ -141,7 +138,7 @@ Value augmented_operation(Operator op, const Value& a, const Value& b, Meter& me
     return a;
   }
   if (a.is_dict() && b.is_dict() && op == Operator::bit_or) {
-    for (const Value& key : b.as_dict().keys()) a.as_dict().set(key, *b.as_dict().find(key));
+    a.as_dict().update(b.as_dict());
     return a;
   }
   if (a.is_set() && b.is_set() && op == Operator::bit_or) {
