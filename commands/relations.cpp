@@ -128,9 +128,7 @@ solver::Placement placement(const Keywords& keywords) {
 // What is left out (SANS_GROUP_NO ...) takes whole pairs with it (U4.44.01). Where it alone makes the sides match, it is left out before nodes are paired.
 std::vector<solver::NodePair> pairs_left(const Keywords& keywords, const solver::Mesh& mesh, std::vector<int> first, std::vector<int> second) {
   const double farthest = keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
-  const std::vector<int> excluded = excluded_nodes(keywords, mesh);
-  const std::set<int> left_out(excluded.begin(), excluded.end());
-  const auto is_left_out = [&](int node) { return left_out.contains(node); };
+  const auto is_left_out = [left_out = excluded_nodes(keywords, mesh)](int node) { return left_out.contains(node); };
   if (first.size() != second.size()) {
     std::erase_if(first, is_left_out);
     std::erase_if(second, is_left_out);
@@ -231,10 +229,7 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
 // LIAISON_COQUE: nodes that face each other move as one rigid body.
 Relations joined_shells(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes_of = [&](const std::string& number) {
-    auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number});
-    const auto left_out = selected_nodes(keywords, target.mesh, {"", "SANS_GROUP_NO_" + number, "SANS_NOEUD_" + number, "SANS_GROUP_MA_" + number, "SANS_MAILLE_" + number});
-    std::erase_if(nodes, [&](int node) { return std::ranges::find(left_out, node) != left_out.end(); });
-    return nodes;
+    return remaining_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number}, "_" + number);
   };
   Relations relations;
   for (const solver::NodePair& pair : solver::facing_nodes(target.mesh, nodes_of("1"), nodes_of("2"))) {

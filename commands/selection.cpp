@@ -1,7 +1,6 @@
 #include "commands/selection.hpp"
 
 #include <numeric>
-#include <set>
 
 #include "commands/ordered_set.hpp"
 #include "solver/error.hpp"
@@ -76,15 +75,14 @@ std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& me
   return nodes.take();
 }
 
-std::vector<int> excluded_nodes(const Keywords& keywords, const solver::Mesh& mesh) {
-  static const PlaceKeywords without = {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"};
-  return selected_nodes(keywords, mesh, without);
+std::set<int> excluded_nodes(const Keywords& keywords, const solver::Mesh& mesh, const std::string& ending) {
+  const auto nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO" + ending, "SANS_NOEUD" + ending, "SANS_GROUP_MA" + ending, "SANS_MAILLE" + ending});
+  return {nodes.begin(), nodes.end()};
 }
 
-std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names) {
+std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names, const std::string& ending) {
   auto nodes = selected_nodes(keywords, mesh, names);
-  const auto excluded = excluded_nodes(keywords, mesh);
-  const std::set<int> left_out(excluded.begin(), excluded.end());
+  const auto left_out = excluded_nodes(keywords, mesh, ending);
   std::erase_if(nodes, [&](int node) { return left_out.contains(node); });
   return nodes;
 }

@@ -1,6 +1,7 @@
 // Nodes and cells that keywords name: TOUT, GROUP_NO, GROUP_MA, NOEUD, MAILLE.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,12 @@ inline const PlaceKeywords cell_places = {"", "", "", "GROUP_MA", "MAILLE"};
 std::vector<int> selected_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});
 
-/// Those that SANS_GROUP_NO, SANS_NOEUD, SANS_GROUP_MA and SANS_MAILLE name.
-std::vector<int> excluded_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh);
+/// Those that SANS_GROUP_NO, SANS_NOEUD, SANS_GROUP_MA and SANS_MAILLE name, with this ending ("_1") where there is one.
+std::set<int> excluded_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh, const std::string& ending = "");
 
 /// selected_nodes() less excluded_nodes().
 std::vector<int> remaining_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
-                                 const PlaceKeywords& names = {});
+                                 const PlaceKeywords& names = {}, const std::string& ending = "");
 
 /// One node a name, groups opened in their own order, repetitions kept: what lists of terms go along with. Throws as above.
 std::vector<int> listed_nodes(const interpreter::Keywords& keywords, const solver::Mesh& mesh, const std::string& node_groups,
