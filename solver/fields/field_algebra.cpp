@@ -297,6 +297,25 @@ void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* p
   }
 }
 
+void take_common_values(Field& target, const Field& source) {
+  check_places(target, source);
+  const FieldRows to_rows(target), from_rows(source);
+  const auto &names = components_of(target), &given_names = components_of(source);
+  const auto& given = values_of(source);
+  auto& values = values_of(target);
+  for (std::size_t sink = 0; sink < names.size(); ++sink) {
+    const int column = component_of(source, names[sink]);
+    for (int place = 0; column >= 0 && place < to_rows.place_count(); ++place) {
+      if (from_rows.count(place) != to_rows.count(place)) continue;
+      for (int point = 0; point < to_rows.count(place); ++point) {
+        double& slot = values[static_cast<std::size_t>(to_rows.begin(place) + point) * names.size() + sink];
+        const double value = given[static_cast<std::size_t>(from_rows.begin(place) + point) * given_names.size() + static_cast<std::size_t>(column)];
+        if (!std::isnan(slot) && !std::isnan(value)) slot = value;
+      }
+    }
+  }
+}
+
 namespace {
 
 /// Room wherever one of the terms has it.

@@ -86,6 +86,10 @@ struct FieldPiece {
 /// have; what is no number becomes infinite (made_number). Throws Error `incompatible-field` (another kind of place, another number of points), `unknown-component`.
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places = nullptr);
 
+/// Takes the values of a field for those that another one has too: of like components, at places with as many points. Throws
+/// Error `incompatible-field` for another kind of place.
+void take_common_values(Field& target, const Field& source);
+
 /// A function of named values.
 struct ValueFunction {
   std::vector<std::string> parameters;

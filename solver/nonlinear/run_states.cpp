@@ -4,6 +4,7 @@
 #include "solver/contact/contact_field.hpp"
 #include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
 #include "solver/nonlinear/known_displacements.hpp"
 #include "solver/nonlinear/static_run.hpp"
 
@@ -11,35 +12,6 @@ namespace comma::solver {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Those of cells with the same points, component by component.
-void take_values(const ElementField& from, ElementField& to) {
-  for (std::size_t cell = 0; cell + 1 < to.starts.size(); ++cell) {
-    const int index = static_cast<int>(cell);
-    if (from.points(index) != to.points(index)) continue;
-    for (int c = 0; c < static_cast<int>(to.components.size()); ++c) {
-      const int column = from.component(to.components[static_cast<std::size_t>(c)]);
-      for (int point = 0; column >= 0 && point < to.points(index); ++point) {
-        double& target = to.values[static_cast<std::size_t>(to.starts[cell] + point) * to.components.size() + static_cast<std::size_t>(c)];
-        const double value = from.at(index, point, column);
-        if (!std::isnan(target) && !std::isnan(value)) target = value;
-      }
-    }
-  }
-}
-
-/// The components of DEPL that are no displacements.
-void take_multipliers(const NodalField& from, NodalField& to) {
-  for (std::size_t c = 0; c < to.components.size(); ++c) {
-    if (!to.components[c].starts_with("LAGS")) continue;
-    const int column = from.component(to.components[c]);
-    for (std::size_t node = 0; column >= 0 && node < to.values.size() / to.components.size(); ++node) {
-      double& target = to.values[node * to.components.size() + c];
-      const double value = from.at(static_cast<int>(node), column);
-      if (!std::isnan(target) && !std::isnan(value)) target = value;
-    }
-  }
-}
 
 }  // namespace
 
@@ -79,12 +51,12 @@ void StaticRun::start(double instant) {
 
 /// What is given is the state itself, not what the laws would make of it now.
 void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
-  if (given.stresses) take_values(*given.stresses, std::get<ElementField>(step.fields.at("SIEF_ELGA")));
-  if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr) take_values(*variables, std::get<ElementField>(step.fields.at("VARI_ELGA")));
+  if (given.stresses) take_common_values(step.fields.at("SIEF_ELGA"), *given.stresses);
+  if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr) take_common_values(step.fields.at("VARI_ELGA"), *variables);
   if (given.contact_fields.empty()) return;
   for (const auto& [name, field] : given.contact_fields) step.fields.insert_or_assign(name, field);
   step.contact = given.contact;
-  if (given.displacement) take_multipliers(*given.displacement, std::get<NodalField>(step.fields.at("DEPL")));
+  if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
 }
 
 Eigen::VectorXd StaticRun::differential_reference() const {
