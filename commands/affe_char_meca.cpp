@@ -77,15 +77,26 @@ void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& c
   }
 }
 
+// Of several values that occurrences of one keyword give to a component at a place the last counts (U1.03.00, rule of overloading).
+struct Overriding {
+  std::string keyword{};
+  std::ptrdiff_t count = 0;
+  std::string example{};  ///< "DX at N1"
+};
+
+void warn_of(const Overriding& found, const interpreter::Span& at, const char* hint, Context& context) {
+  if (found.count == 0) return;
+  context.diagnostics.alarm("overridden-value", fmt::format("{}: {} of its values give way to later ones of the same keyword, that of {} for one", found.keyword, found.count, found.example), at, hint);
+}
+
 bool imposes_the_same(const solver::LinearRelation& one, const solver::LinearRelation& other) {
   return !one.function && !other.function && one.value * other.terms.front().coefficient == other.value * one.terms.front().coefficient;
 }
 
-// Of several values that occurrences of one keyword impose on a component of a node the last counts (U1.03.00, rule of overloading).
 void keep_last(const Call& call, const char* keyword, std::size_t first, const LoadedModel& target, solver::Load& load, Context& context) {
   std::map<std::pair<int, solver::Component>, std::size_t> last;
   std::vector<char> overridden(load.relations.size(), 0);
-  std::string example;
+  Overriding found{keyword};
   for (std::size_t k = first; k < load.relations.size(); ++k) {
     const solver::LinearRelation& relation = load.relations[k];
     if (relation.terms.size() != 1) continue;
@@ -94,14 +105,54 @@ void keep_last(const Call& call, const char* keyword, std::size_t first, const L
     const std::size_t before = std::exchange(known->second, k);
     if (imposes_the_same(load.relations[before], relation)) continue;
     overridden[before] = 1;
-    if (example.empty()) example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component), target.mesh.node_name(relation.terms.front().node));
+    ++found.count;
+    if (found.example.empty()) found.example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component), target.mesh.node_name(relation.terms.front().node));
   }
-  const auto count = std::ranges::count(overridden, 1);
-  if (count == 0) return;
-  context.diagnostics.alarm("overridden-value", fmt::format("{}: {} of its values give way to later ones of the same keyword, that of {} for one", keyword, count, example), call.span,
-                            "where both are meant to hold, put them into two loads");
+  warn_of(found, call.span, "where both are meant to hold, put them into two loads", context);
   std::size_t k = 0;
   std::erase_if(load.relations, [&](const solver::LinearRelation&) { return overridden[k++] != 0; });
+}
+
+bool is_same_amount(const interpreter::Keyword& one, const interpreter::Keyword& other) {
+  if (one.value.is_concept() || other.value.is_concept())
+    return one.value.is_concept() && other.value.is_concept() && one.value.as_concept() == other.value.as_concept();
+  return one.value.as_real() == other.value.as_real();
+}
+
+struct ForceKeyword {
+  const char* name;
+  bool (*bears)(const LoadedModel& target, int cell);  ///< none: acts on nodes
+};
+
+bool is_loaded(const LoadedModel& target, int cell) { return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none; }
+
+bool is_loaded_skin(const LoadedModel& target, int cell) { return target.model.is_skin(cell); }
+
+constexpr ForceKeyword overloaded_forces[] = {{"FORCE_NODALE", nullptr},          {"PRES_REP", is_surface},        {"FORCE_FACE", is_loaded_skin},
+                                                       {"FORCE_ARETE", is_loaded_skin},    {"FORCE_CONTOUR", is_loaded_skin}, {"FORCE_INTERNE", is_loaded},
+                                                       {"FORCE_POUTRE", is_loaded},        {"FORCE_COQUE", is_loaded},      {"PRE_EPSI", is_loaded}};
+
+std::string place_name(const ForceKeyword& keyword, const LoadedModel& target, int place) {
+  return keyword.bears == nullptr ? target.mesh.node_name(place) : target.mesh.cell_name(place);
+}
+
+void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, const LoadedModel& target, Context& context) {
+  std::map<std::pair<int, std::string>, const interpreter::Keyword*> last;
+  Overriding found{keyword.name};
+  for (const Keywords& force : call.factors(keyword.name)) {
+    std::vector<int> places = keyword.bears == nullptr ? selected_nodes(force, target.mesh) : selected_cells(force, target.mesh);
+    if (keyword.bears != nullptr) std::erase_if(places, [&](int cell) { return !keyword.bears(target, cell); });
+    for (const interpreter::Keyword& item : force.items) {
+      if (!item.given || !(item.value.is_concept() || item.value.is_number())) continue;
+      for (const int place : places) {
+        const auto [known, is_first] = last.try_emplace({place, item.name}, &item);
+        if (is_first || is_same_amount(*std::exchange(known->second, &item), item)) continue;
+        ++found.count;
+        if (found.example.empty()) found.example = fmt::format("{} at {}", item.name, place_name(keyword, target, place));
+      }
+    }
+  }
+  if (found.count > 0) warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads", context);
 }
 
 }  // namespace
@@ -121,6 +172,7 @@ Product affe_char_meca(const Call& call, Context& context) {
   for (const Keywords& imposed : call.factors("LIAISON_OBLIQUE")) add_oblique_displacements(imposed, target, *load);
   add_relations(call, target, *load);
   add_forces(call, target, *load);
+  for (const ForceKeyword& keyword : overloaded_forces) warn_of_overridden_forces(call, keyword, target, context);
   check_normals(call, target, context);
   warn_of_lost_forces(call, target, context);
   warn_of_weight_out_of_plane(call, target, context);
