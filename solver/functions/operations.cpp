@@ -140,12 +140,10 @@ TabulatedFunction integral(const TabulatedFunction& function, double at_first) {
 TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");
+  std::vector<double> slopes(last);
+  for (std::size_t i = 0; i < last; ++i) slopes[i] = (function.y[i + 1] - function.y[i]) / (function.x[i + 1] - function.x[i]);
   TabulatedFunction result = function;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    const std::size_t behind = std::min(i + 1, last);
-    result.y[i] = (function.y[behind] - function.y[before]) / (function.x[behind] - function.x[before]);
-  }
+  for (std::size_t i = 0; i <= last; ++i) result.y[i] = 0.5 * (slopes[i == 0 ? 0 : i - 1] + slopes[std::min(i, last - 1)]);
   return result;
 }
 
