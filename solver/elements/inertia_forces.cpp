@@ -80,7 +80,26 @@ void add_slender(const ForceInput& input, int cell, const AccelerationField& fie
   add_slender_load(input, cell, load, forces);
 }
 
-/// Its mass matrix times the accelerations of its nodes.
+/// What a body around a node adds in an acceleration that varies over it: the integrals of G r and of r x G r over its mass.
+Vector6 force_of_gradient(const Eigen::MatrixXd& mass, const Eigen::Matrix3d& gradient) {
+  Vector6 force = Vector6::Zero();
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  if (mass.rows() == 3) {
+    first << mass(2, 1), -mass(2, 0), 0.0;
+    if (mass(0, 0) > 0.0) second = first * first.transpose() / mass(0, 0);
+  } else {
+    first << mass(5, 1), mass(3, 2), mass(4, 0);
+    const Eigen::Matrix3d inertia = mass.bottomRightCorner<3, 3>();
+    second = 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
+  }
+  const Eigen::Matrix3d turning = gradient * second;
+  force.head<3>() = gradient * first;
+  force.tail<3>() << turning(2, 1) - turning(1, 2), turning(0, 2) - turning(2, 0), turning(1, 0) - turning(0, 1);
+  return force;
+}
+
+/// Its mass matrix times the accelerations of its nodes, and what a mass beside its node meets there.
 void add_discrete(const ForceInput& input, int cell, const AccelerationField& field, double factor,
                   std::span<long double> forces) {
   const auto found = input.properties.masses.find(cell);
@@ -103,7 +122,15 @@ void add_discrete(const ForceInput& input, int cell, const AccelerationField& fi
                 fmt::format("the mass of the discrete element on cell {} is {} x {}, not {} x {}",
                             input.model.mesh->cell_name(cell), found->second.rows(), found->second.cols(), size, size));
   }
-  const Eigen::VectorXd force = found->second * Eigen::Map<const Eigen::VectorXd>(accelerations.data(), size);
+  Eigen::VectorXd force = found->second * Eigen::Map<const Eigen::VectorXd>(accelerations.data(), size);
+  const auto of_node = size / static_cast<Eigen::Index>(nodes.size());
+  if (contains(mask, Component::drz)) {
+    for (Eigen::Index first = 0; first < size; first += of_node) {
+      const Vector6 more = factor * force_of_gradient(found->second.block(first, first, of_node, of_node), field.gradient);
+      if (of_node == 3) force.segment<3>(first) += Eigen::Vector3d(more[0], more[1], more[5]);
+      else force.segment<6>(first) += more;
+    }
+  }
   for (Eigen::Index i = 0; i < size; ++i) forces[dofs[i]] += force[i];
 }
 

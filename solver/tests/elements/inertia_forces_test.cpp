@@ -169,3 +169,41 @@ TEST_CASE("discrete masses weigh: points, segments, and one beside its node", "[
   CHECK(forces[body.dofs->dof(0, Component::drx)] == exactly(-15.0));  // weight 30 at y = 0.5
   CHECK(forces[body.dofs->dof(1, Component::drx)] == 0.0);
 }
+
+// Eight equal masses at the corners of a box have the inertia of one rigid body at its centre.
+TEST_CASE("a mass beside its node is driven outwards where it is, and turned towards the plane of the rotation", "[loads]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{1.0, -0.5, 0.25}};
+  mesh->add_cell(CellType::poi1, std::array{0});
+  const Formulation formulation = Formulation::spring_rotation_3d;
+  const Eigen::Vector3d offset(0.5, 1.0, -0.75);
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+  std::vector<Eigen::Vector3d> corners;
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d half((corner & 1) != 0 ? 0.1 : -0.1, (corner & 2) != 0 ? 0.2 : -0.2, (corner & 4) != 0 ? 0.4 : -0.4);
+    const Eigen::Vector3d arm = turned * half;
+    corners.push_back(offset + arm);
+    tensor += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
+  }
+  ElementProperties properties;
+  const std::vector<double> values(6, 1.0);
+  properties.discrete[0] = diagonal_stiffness(*mesh, 0, formulation, values, DiscreteFrame::global);
+  properties.masses[0] = rigid_mass(*mesh, 0, formulation, {8.0, tensor, offset}, DiscreteFrame::global);
+  const Body body(mesh, std::vector{formulation}, nullptr, properties);
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized(), centre(0.25, 0.5, -1.0), node(1.0, -0.5, 0.25);
+  const double speed = 3.0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : corners) {
+    const Eigen::Vector3d from_centre = node + corner - centre;
+    const Eigen::Vector3d outward = speed * speed * (from_centre - axis.dot(from_centre) * axis);
+    force += outward;
+    moment += corner.cross(outward);
+  }
+  const Load spin = rotation({0}, speed, {axis[0], axis[1], axis[2]}, {centre[0], centre[1], centre[2]});
+  const Eigen::VectorXd forces = body.assembler->external_forces(applied(spin), 0.0);
+  for (int c = 0; c < 3; ++c) {
+    CHECK(forces[body.dofs->dof(0, static_cast<Component>(c))] == exactly(force[c]));
+    CHECK(forces[body.dofs->dof(0, static_cast<Component>(3 + c))] == exactly(moment[c]));
+  }
+}
