@@ -47,6 +47,7 @@ struct CommandNode {
   bool caught = false;    ///< inside try: the file itself deals with what goes wrong
   bool forgiven = false;  ///< it failed inside try: what it left may still be read
   double seconds = 0;
+  std::vector<Span> called_from;  ///< the calls of the file's functions that led to it, the innermost first
 };
 
 /// Where the command starts in its file, 0 if that is not known.

@@ -30,6 +30,14 @@ std::string blanks_under(std::string_view text) {
   return blanks;
 }
 
+/// A recursion has many calls, which say nothing new.
+constexpr std::size_t most_calls_told = 4;
+
+std::string render_place(const Span& span) {
+  const Position place = span.file->position(span.begin);
+  return fmt::format("{}:{}:{}", span.file->path(), place.line, place.column);
+}
+
 std::string render_excerpt(const Span& span) {
   const Position place = span.file->position(span.begin);
   const std::string_view line = span.file->line(place.line);
@@ -105,10 +113,7 @@ std::string_view name_of(Severity severity) {
 
 std::string render(const Diagnostic& diagnostic) {
   std::string text;
-  if (diagnostic.span) {
-    const Position place = diagnostic.span.file->position(diagnostic.span.begin);
-    text = fmt::format("{}:{}:{}: ", diagnostic.span.file->path(), place.line, place.column);
-  }
+  if (diagnostic.span) text = render_place(diagnostic.span) + ": ";
   text += fmt::format("{}: {} [{}]", name_of(diagnostic.severity), diagnostic.message, diagnostic.code);
   std::string margin = "  ";
   if (diagnostic.span) {
@@ -116,15 +121,22 @@ std::string render(const Diagnostic& diagnostic) {
     margin.append(std::to_string(diagnostic.span.file->position(diagnostic.span.begin).line).size() + 1, ' ');
   }
   if (!diagnostic.hint.empty()) text += "\n" + margin + "= hint: " + diagnostic.hint;
+  for (std::size_t k = 0; k < std::min(diagnostic.called_from.size(), most_calls_told); ++k)
+    text += "\n" + margin + "= called at " + render_place(diagnostic.called_from[k]);
   return text;
 }
 
+void Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.called_from.empty()) diagnostic.called_from = called_from();
+  items_.push_back(std::move(diagnostic));
+}
+
 void Diagnostics::error(std::string code, std::string message, Span span, std::string hint) {
-  add({Severity::error, std::move(code), std::move(message), std::move(hint), std::move(span)});
+  add({Severity::error, std::move(code), std::move(message), std::move(hint), std::move(span), {}});
 }
 
 void Diagnostics::alarm(std::string code, std::string message, Span span, std::string hint) {
-  add({Severity::alarm, std::move(code), std::move(message), std::move(hint), std::move(span)});
+  add({Severity::alarm, std::move(code), std::move(message), std::move(hint), std::move(span), {}});
 }
 
 bool Diagnostics::has_errors() const {

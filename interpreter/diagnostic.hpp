@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/source.hpp"
@@ -23,6 +24,7 @@ struct Diagnostic {
   std::string message;
   std::string hint;
   Span span;
+  std::vector<Span> called_from{};  ///< the calls of functions that led there, the innermost first
 };
 
 /// The finding as a user reads it, without a final line break:
@@ -31,6 +33,8 @@ struct Diagnostic {
 ///       12 | MO = AFFE_MODELE(MAILAGE=MA, ...
 ///          |                  ^~~~~~~
 ///          = hint: did you mean MAILLAGE?
+///
+/// and, of what happens in a function of the file, `= called at beam.comm:20:7`, the innermost call first.
 std::string render(const Diagnostic& diagnostic);
 
 /// Thrown where work cannot go on; carries the finding.
@@ -50,15 +54,37 @@ class DiagnosticError : public std::runtime_error {
 /// Collects findings in order of arrival, so that all errors of a file are told at once.
 class Diagnostics {
  public:
-  void add(Diagnostic diagnostic) { items_.push_back(std::move(diagnostic)); }
+  /// A finding that does not say what led to it is taken to come from the calls that are open.
+  void add(Diagnostic diagnostic);
   void error(std::string code, std::string message, Span span, std::string hint = {});
   void alarm(std::string code, std::string message, Span span, std::string hint = {});
 
   const std::vector<Diagnostic>& items() const { return items_; }
   bool has_errors() const;
 
+  /// Functions of the file that run now were called there, the innermost last.
+  void open_call(Span place) { open_calls_.push_back(std::move(place)); }
+  void close_call() { open_calls_.pop_back(); }
+  /// The innermost first, as in a finding.
+  std::vector<Span> called_from() const { return {open_calls_.rbegin(), open_calls_.rend()}; }
+
+  /// While it lives, findings come from the given calls (the innermost first) instead of the open ones.
+  class LaterWork {
+   public:
+    LaterWork(Diagnostics& owner, const std::vector<Span>& called_from)
+        : owner_(owner), kept_(std::exchange(owner.open_calls_, {called_from.rbegin(), called_from.rend()})) {}
+    ~LaterWork() { owner_.open_calls_ = std::move(kept_); }
+    LaterWork(const LaterWork&) = delete;
+    LaterWork& operator=(const LaterWork&) = delete;
+
+   private:
+    Diagnostics& owner_;
+    std::vector<Span> kept_;
+  };
+
  private:
   std::vector<Diagnostic> items_;
+  std::vector<Span> open_calls_;
 };
 
 /// The known word nearest to a misspelt one (Damerau-Levenshtein distance, at most a third of the word's length), else "".

@@ -312,6 +312,11 @@ void Evaluator::report(const Diagnostic& finding) {
   diagnostics_.add(finding);
 }
 
+void Evaluator::place_error(ExceptionObject& error, Span span) const {
+  error.span = std::move(span);
+  error.called_from = diagnostics_.called_from();
+}
+
 void Evaluator::report(const ExceptionObject& error, const Statement& statement) {
   Diagnostic finding = error.diagnostic();
   if (!finding.span) finding.span = span_of(statement.begin, statement.end);

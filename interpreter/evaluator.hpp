@@ -149,6 +149,8 @@ class Evaluator {
   bool recovering() const { return strict_ == 0 && tries_ == 0; }
   void report(const Diagnostic& finding);
   void report(const ExceptionObject& error, const Statement& statement);
+  /// Notes where an exception was raised, and what led there.
+  void place_error(ExceptionObject& error, Span span) const;
   Span span_of(std::uint32_t begin, std::uint32_t end) const { return {file_, begin, end}; }
   Span span_of(const Node& node) const { return {file_, node.begin, node.end}; }
   std::uint64_t count_failures();
@@ -196,7 +198,9 @@ auto Evaluator::with_host(Work work) -> decltype(work()) {
   } catch (const LimitReached&) {
     throw;
   } catch (const DiagnosticError& error) {
-    throw RaisedError(make_exception(error.diagnostic()));
+    auto object = make_exception(error.diagnostic());
+    object->called_from = diagnostics_.called_from();
+    throw RaisedError(std::move(object));
   }
 }
 

@@ -365,11 +365,13 @@ Value Evaluator::call_function(const FunctionObject& function, const CallArgumen
   frame->slots.resize(function.code->slots.size());
   bind_arguments(function, arguments, *frame);
   struct Scope {
-    explicit Scope(Evaluator& owner) : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_) {
+    Scope(Evaluator& owner, const Span& place) : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_), placed(place) {
       ++self.calls_;
+      if (placed) self.diagnostics_.open_call(place);
     }
     ~Scope() {
       --self.calls_;
+      if (placed) self.diagnostics_.close_call();
       self.frame_ = std::move(frame);
       self.file_ = std::move(file);
       self.code_ = std::move(code);
@@ -378,7 +380,8 @@ Value Evaluator::call_function(const FunctionObject& function, const CallArgumen
     std::shared_ptr<Frame> frame;
     std::shared_ptr<const SourceFile> file;
     std::shared_ptr<const FunctionCode> code;
-  } const scope(*this);
+    bool placed;
+  } const scope(*this, arguments.span);
   const std::shared_ptr<const FunctionCode> code = function.code;
   frame_ = std::move(frame);
   file_ = code->file;

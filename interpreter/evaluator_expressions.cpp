@@ -14,7 +14,7 @@ Value Evaluator::evaluate(const Node& node) {
   try {
     return evaluate_node(node);
   } catch (const RaisedError& error) {
-    if (!error.object()->span) error.object()->span = span_of(node);
+    if (!error.object()->span) place_error(*error.object(), span_of(node));
     throw;
   } catch (const LimitReached& limit) {
     if (limit.diagnostic().span) throw;

@@ -88,7 +88,7 @@ Evaluator::Flow Evaluator::execute(const Statement& statement) {
         return execute_compound(statement);
     }
   } catch (const RaisedError& error) {
-    if (!error.object()->span) error.object()->span = span_of(statement.begin, statement.end);
+    if (!error.object()->span) place_error(*error.object(), span_of(statement.begin, statement.end));
     throw;
   } catch (const LimitReached& limit) {
     if (limit.diagnostic().span) throw;

@@ -114,6 +114,7 @@ Diagnostic ExceptionObject::diagnostic() const {
   if (failure) {
     Diagnostic finding = *failure;
     if (!finding.span) finding.span = span;
+    if (finding.called_from.empty()) finding.called_from = called_from;
     return finding;
   }
   const ErrorClass& row = class_of(kind);
@@ -123,7 +124,7 @@ Diagnostic ExceptionObject::diagnostic() const {
     message = message.empty() ? "the assertion is false" : "the assertion is false: " + message;
   if (row.code == "exception" || message.empty())
     message = fmt::format("{}{}{}", row.name, message.empty() ? "" : ": ", message);
-  return {Severity::error, std::string(row.code), std::move(message), hint, span};
+  return {Severity::error, std::string(row.code), std::move(message), hint, span, called_from};
 }
 
 std::optional<Diagnostic> failure_of_exit(const ExceptionObject& exit) {
@@ -132,7 +133,7 @@ std::optional<Diagnostic> failure_of_exit(const ExceptionObject& exit) {
   const bool is_text = status.is_text();
   return Diagnostic{Severity::error, std::string(class_of(exit.kind).code),
                     is_text ? "the file ends itself: " + status.as_text() : fmt::format("the file ends itself with status {}", status.repr()),
-                    "what stands after this has not been run", exit.span};
+                    "what stands after this has not been run", exit.span, exit.called_from};
 }
 
 bool catches(const Value& classes, const ExceptionObject& error) {

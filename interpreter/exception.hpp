@@ -77,6 +77,7 @@ struct ExceptionObject : Object {
   std::vector<Value> arguments;
   std::string hint;
   Span span;                          ///< where it was raised
+  std::vector<Span> called_from;      ///< as in Diagnostic
   std::optional<Diagnostic> failure;  ///< of a command
 
   std::string type_name() const override { return std::string(class_of(kind).name); }

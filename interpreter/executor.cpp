@@ -49,6 +49,7 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
   const bool prepares = nothing_more || std::ranges::count_if(graph_.nodes(), solves) > 1;  // one alone runs next, and tells the same itself
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
+    const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
     if (check && !check(node)) {
       node.state = NodeState::failed;
       continue;
@@ -84,6 +85,7 @@ void Executor::run_now(int id) {
 }
 
 void Executor::run_reporting(CommandNode& node) {
+  const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
 }
 
@@ -120,6 +122,7 @@ void Executor::forgive(int id) {
 }
 
 void Executor::run(CommandNode& node) {
+  const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   const auto start = std::chrono::steady_clock::now();
   const auto stop_clock = [&] {
     node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -42,6 +42,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   checked.call.result = product;
   CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
   node.caught = eager;
+  node.called_from = diagnostics_.called_from();
   const int id = node.id;
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
   if (eager && may_run(id)) {

@@ -43,6 +43,11 @@ ordered_json json_of(const CommandRecord& command) {
           {"skipped", command.skipped}};
 }
 
+ordered_json json_of_place(const interpreter::Span& span) {
+  const auto place = span.file->position(span.begin);
+  return {{"file", span.file->path()}, {"line", place.line}, {"column", place.column}};
+}
+
 ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
   ordered_json json = {{"severity", std::string(interpreter::name_of(diagnostic.severity))},
                        {"code", diagnostic.code},
@@ -56,6 +61,7 @@ ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
   json["column"] = begin.column;
   json["end_line"] = end.line;
   json["end_column"] = end.column;
+  for (const interpreter::Span& call : diagnostic.called_from) json["called_from"].push_back(json_of_place(call));
   return json;
 }
 
