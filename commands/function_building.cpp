@@ -14,6 +14,13 @@ solver::Extension extension_named(const std::string& word) {
 
 solver::Scale scale_named(const std::string& word) { return word == "LOG" ? solver::Scale::logarithmic : solver::Scale::linear; }
 
+const char* word_of(solver::Extension extension) {
+  if (extension == solver::Extension::excluded) return "EXCLU";
+  return extension == solver::Extension::constant ? "CONSTANT" : "LINEAIRE";
+}
+
+const char* word_of(solver::Scale scale) { return scale == solver::Scale::linear ? "LIN" : "LOG"; }
+
 void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function, const std::string& suffix) {
   if (keywords.has("INTERPOL" + suffix)) {
     const auto scales = keywords.texts("INTERPOL" + suffix);

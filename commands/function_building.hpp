@@ -10,6 +10,8 @@ namespace comma::commands {
 
 solver::Extension extension_named(const std::string& word);  ///< CONSTANT, LINEAIRE, EXCLU
 solver::Scale scale_named(const std::string& word);          ///< LIN, LOG
+const char* word_of(solver::Extension extension);
+const char* word_of(solver::Scale scale);
 
 /// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function; with a suffix INTERPOL_FONC ...
 void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function, const std::string& suffix = "");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "commands/diagnosed.hpp"
+#include "commands/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
@@ -75,9 +76,30 @@ double between(solver::Scale scale, double low, double high, double share) {
 
 Value list_of(std::span<const double> values) { return Value::list(std::vector<Value>(values.begin(), values.end())); }
 
+namespace {
+
+using Items = std::vector<std::pair<std::string, Value>>;
+
+Value points_of(const solver::TabulatedFunction& table) { return Value::list({list_of(table.x), list_of(table.y)}); }
+
+Items shape_of(const solver::TabulatedFunction& table, const std::string& suffix = "") {
+  return {{"INTERPOL" + suffix, Value::list({Value(std::string(word_of(table.x_scale))), Value(std::string(word_of(table.y_scale)))})},
+          {"PROL_DROITE" + suffix, Value(std::string(word_of(table.right)))},
+          {"PROL_GAUCHE" + suffix, Value(std::string(word_of(table.left)))}};
+}
+
+Items attributes_of(const solver::TabulatedFunction& table) {
+  Items items = shape_of(table);
+  items.emplace_back("NOM_PARA", Value(table.parameter));
+  items.emplace_back("NOM_RESU", Value(table.result));
+  return items;
+}
+
+}  // namespace
+
 std::vector<std::string> FunctionConcept::method_names() const {
   if (table() == nullptr) return {};
-  return {"Absc", "Ordo", "Valeurs", "getValues", "size"};
+  return {"Absc", "Ordo", "Parametres", "Valeurs", "getValues", "size"};
 }
 
 Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
@@ -90,7 +112,8 @@ Value FunctionConcept::method(std::string_view name, const std::vector<Value>& a
       return list_of(values);
     }
     if (name == "size") return Value(static_cast<std::int64_t>(table()->x.size()));
-    if (name == "Valeurs") return Value::list({list_of(table()->x), list_of(table()->y)});
+    if (name == "Valeurs") return points_of(*table());
+    if (name == "Parametres") return Value::dict(attributes_of(*table()));
   }
   return ConceptData::method(name, arguments, keywords);
 }
@@ -164,6 +187,22 @@ double SurfaceConcept::evaluate(std::span<const double> at) const {
   if (share == 1.0) return (*rows_[upper])(at[1]);
   const double low = (*rows_[upper - 1])(at[1]), high = (*rows_[upper])(at[1]);
   return between(edges_.y_scale, low, high, share);
+}
+
+Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+  const bool plain = arguments.empty() && keywords.empty();
+  std::vector<Value> of_rows;
+  if (plain && name == "Valeurs") {
+    for (const auto& row : rows_) of_rows.push_back(points_of(*row));
+    return Value::list({list_of(edges_.x), Value::list(of_rows)});
+  }
+  if (plain && name == "Parametres") {
+    Items items = attributes_of(edges_);
+    items.emplace_back("NOM_PARA_FONC", Value(parameters_[1]));
+    for (const auto& row : rows_) of_rows.push_back(Value::dict(shape_of(*row, "_FONC")));
+    return Value::list({Value::dict(std::move(items)), Value::list(of_rows)});
+  }
+  return ConceptData::method(name, arguments, keywords);
 }
 
 const solver::TabulatedFunction& SurfaceConcept::row_near(double value, double reach, const Span& span) const {

@@ -19,7 +19,8 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
-  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first; size(): how many.
+  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first; size(): how many;
+  /// Parametres(): NOM_PARA, NOM_RESU, INTERPOL, PROL_DROITE and PROL_GAUCHE, as DEFI_FONCTION takes them.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
@@ -79,6 +80,11 @@ class SurfaceConcept : public FunctionConcept {
   SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows);
   const std::vector<std::string>& parameters() const override { return parameters_; }
   double evaluate(std::span<const double> at) const override;
+  /// Valeurs(): the values of the first parameter, and for each the abscissas and values of its table; Parametres(): how the function goes on between and beyond
+  /// them, and for each table INTERPOL_FONC, PROL_DROITE_FONC and PROL_GAUCHE_FONC (U1.03.02).
+  interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
+                            const std::map<std::string, interpreter::Value>& keywords) const override;
+  std::vector<std::string> method_names() const override { return {"Parametres", "Valeurs"}; }
   const solver::TabulatedFunction& edges() const { return edges_; }
   const std::vector<std::shared_ptr<const solver::TabulatedFunction>>& rows() const { return rows_; }
   /// The table that belongs to the value of the first parameter which lies within `reach`. Throws DiagnosticError `unknown-step` at `span`, listing the values there are.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands/commands.hpp"
+#include "commands/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
@@ -41,13 +42,6 @@ void test_value(const Keywords& test, Context& context) {
   for (std::size_t i = 0; i < at.size(); ++i) label += fmt::format("{} {}={:g}", i == 0 ? " at" : ",", names[i], at[i]);
   for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
 }
-
-const char* word_of(solver::Extension extension) {
-  if (extension == solver::Extension::excluded) return "EXCLU";
-  return extension == solver::Extension::constant ? "CONSTANT" : "LINEAIRE";
-}
-
-const char* word_of(solver::Scale scale) { return scale == solver::Scale::linear ? "LIN" : "LOG"; }
 
 std::string attribute_of(const solver::TabulatedFunction& table, const std::string& name) {
   if (name == "NOM_PARA") return table.parameter;
