@@ -79,7 +79,10 @@ TabulatedFunction computed(const Call& call) {
   if (call.given("REGR_POLYNOMIALE")) return solver::polynomial_fit(table_of(only("REGR_POLYNOMIALE")), static_cast<int>(only("REGR_POLYNOMIALE").integer("DEGRE")));
   if (call.given("ABS")) return solver::mapped(table_of(only("ABS")), [](double y) { return std::abs(y); });
   if (call.given("PUISSANCE")) return power(only("PUISSANCE"));
-  if (call.given("INTEGRE")) return solver::integral(table_of(only("INTEGRE")), only("INTEGRE").real("COEF"));
+  if (call.given("INTEGRE")) {
+    const auto rule = only("INTEGRE").text("METHODE") == "SIMPSON" ? solver::simpson_integral : solver::integral;
+    return rule(table_of(only("INTEGRE")), only("INTEGRE").real("COEF"));
+  }
   if (call.given("DERIVE")) return solver::derivative(table_of(only("DERIVE")));
   if (call.given("INVERSE")) return solver::inverse(table_of(only("INVERSE")));
   const Keywords& composed = only("COMPOSE");

@@ -137,6 +137,18 @@ TabulatedFunction integral(const TabulatedFunction& function, double at_first) {
   return result;
 }
 
+TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first) {
+  TabulatedFunction result = integral(function, at_first);
+  const auto& x = function.x;
+  const auto& y = function.y;
+  for (std::size_t i = 2; i < x.size(); ++i) {
+    const double first = x[i - 1] - x[i - 2], second = x[i] - x[i - 1], both = x[i] - x[i - 2];
+    const double under_parabola = both / 6.0 * ((2.0 - second / first) * y[i - 2] + both * both / (first * second) * y[i - 1] + (2.0 - first / second) * y[i]);
+    result.y[i] = result.y[i - 2] + under_parabola;
+  }
+  return result;
+}
+
 TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");

@@ -41,6 +41,9 @@ TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree);
 
 /// By the trapezoidal rule from the first abscissa, where it is `at_first`.
 TabulatedFunction integral(const TabulatedFunction& function, double at_first);
+/// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the trapezoidal rule, so that every other value
+/// counts from there.
+TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first);
 /// The mean of the slopes on both sides, that of the one side at the ends. Throws Error `out-of-function` for a single point.
 TabulatedFunction derivative(const TabulatedFunction& function);
 /// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates neither rise

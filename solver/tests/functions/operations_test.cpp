@@ -60,6 +60,14 @@ TEST_CASE("the trapezoidal rule integrates a polygon exactly", "[functions]") {
   CHECK(area.y == std::vector<double>{5.0, 9.0, 13.0});
 }
 
+TEST_CASE("Simpson's rule integrates a parabola exactly at every other of uneven points", "[functions]") {
+  TabulatedFunction squares{.x = {0.0, 1.0, 1.5, 3.5, 4.0}, .y = {}};
+  for (const double x : squares.x) squares.y.push_back(x * x);
+  const TabulatedFunction area = simpson_integral(squares, 2.0);
+  const double lost = 0.5 - 1.0 / 3.0;  // by the first trapezium
+  for (std::size_t i = 0; i < squares.x.size(); ++i) CHECK(area.y[i] == exactly(2.0 + std::pow(squares.x[i], 3) / 3.0 + (i % 2 == 1 ? lost : 0.0)));
+}
+
 TEST_CASE("central differences are exact for a parabola inside, one-sided ones for a line at its ends", "[functions]") {
   const TabulatedFunction slope = derivative(parabola());
   for (std::size_t i = 1; i < 10; ++i) CHECK(slope.y[i] == exactly(2.0 * slope.x[i]));
