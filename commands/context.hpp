@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdio>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -45,6 +47,12 @@ class Console {
   Verbosity verbosity_;
 };
 
+/// A mesh in a file, and its name there.
+struct WrittenMesh {
+  std::shared_ptr<const solver::Mesh> mesh;
+  std::string name;
+};
+
 struct Context {
   Files files;
   Console console;
@@ -53,6 +61,7 @@ struct Context {
   solver::Counters counters = {};
   bool only_checks = false;            ///< nothing will be solved
   std::set<std::string> written = {};  ///< outputs that this run has opened: the first writing replaces, later ones append
+  std::map<std::string, std::vector<WrittenMesh>> med_files = {};  ///< outputs of the format MED, likewise
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.
   void write(const std::filesystem::path& path, std::string_view text);

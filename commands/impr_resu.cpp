@@ -30,10 +30,12 @@ constexpr int mesh_unit = 30;
 // What one occurrence of RESU writes: the chosen part of a result, or of a field as a result of one step whose field has no name
 // of its own. Without a result, the mesh alone.
 struct PrintedPart {
-  const solver::Mesh& mesh;
+  std::shared_ptr<const solver::Mesh> shared_mesh;
   std::string name;
   solver::Result result;
   bool mesh_alone = false;
+
+  const solver::Mesh& mesh() const { return *shared_mesh; }
 };
 
 // --- the part that the keywords choose --------------------------------------------------------------------------------------
@@ -151,14 +153,14 @@ void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics
 PrintedPart part_of(const Keywords& print, bool med) {
   if (!print.has("RESULTAT") && !print.has("CHAM_GD")) {
     const auto& handle = print.concept_of("MAILLAGE");
-    return {*interpreter::data_of<MeshConcept>(handle, "MAILLAGE").mesh, handle->name, {}, true};
+    return {interpreter::data_of<MeshConcept>(handle, "MAILLAGE").mesh, handle->name, {}, true};
   }
   const bool whole_result = print.has("RESULTAT");
   const auto& handle = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
-  const solver::Mesh& mesh = whole_result ? interpreter::data_of<ResultConcept>(handle, "RESULTAT").result.mesh()
-                                          : *interpreter::data_of<FieldConcept>(handle, "CHAM_GD").mesh;
+  PrintedPart part{nullptr, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
+  part.shared_mesh = part.result.model ? part.result.model->mesh : part.result.bare_mesh;
+  const solver::Mesh& mesh = part.mesh();
   if (print.has("MAILLAGE")) require_mesh(print, "MAILLAGE", interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh.get(), mesh);
-  PrintedPart part{mesh, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
   for (solver::ResultStep& step : part.result.steps) {
     for (auto item = step.fields.begin(); item != step.fields.end();) {
       const bool kept = choose_components(print, item->second);
@@ -170,7 +172,7 @@ PrintedPart part_of(const Keywords& print, bool med) {
 }
 
 void check_same_mesh(const std::vector<PrintedPart>& parts, std::size_t i, const Call& call) {
-  if (&parts[i].mesh == &parts.front().mesh) return;
+  if (parts[i].shared_mesh == parts.front().shared_mesh) return;
   throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
                         "write them by several IMPR_RESU, each to a UNITE of its own");
 }
@@ -202,7 +204,16 @@ void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solve
   }
 }
 
-void write_med(const Call& call, const std::string& path) {
+// A name for a mesh that stands among others.
+std::string free_name(const std::vector<WrittenMesh>& others, const std::string& name) {
+  const auto taken = [&](const std::string& word) { return std::ranges::any_of(others, [&](const WrittenMesh& other) { return other.name == word; }); };
+  std::string free = name;
+  for (int number = 2; taken(free); ++number) free = fmt::format("{}_{}", name, number);
+  return free;
+}
+
+// The first time in a run the file is made anew, as those of text are.
+void write_med(const Call& call, const std::string& path, std::vector<WrittenMesh>& known) {
   std::vector<PrintedPart> parts;
   for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, true));
   std::vector<solver::NamedResult> results;
@@ -215,7 +226,12 @@ void write_med(const Call& call, const std::string& path) {
       add_med_results(call.factors("RESU")[i], parts[i], results);
     }
   }
-  solver::write_med_results(path, parts.front().mesh, mesh_name, results);
+  const auto& mesh = parts.front().shared_mesh;
+  const auto found = std::ranges::find(known, mesh, &WrittenMesh::mesh);
+  mesh_name = found == known.end() ? free_name(known, mesh_name) : found->name;
+  if (known.empty()) solver::write_med_results(path, *mesh, mesh_name, results);
+  else solver::add_med_results(path, *mesh, mesh_name, found != known.end(), results);
+  if (found == known.end()) known.push_back({mesh, mesh_name});
 }
 
 // --- text -------------------------------------------------------------------------------------------------------------------
@@ -238,7 +254,7 @@ std::vector<Extremum> wanted_extremes(const Keywords& print) {
 std::string text_of(const Keywords& print) {
   const PrintedPart part = part_of(print, false);
   const ListingStyle style = style_of(print);
-  if (part.mesh_alone) return listing(part.mesh, style);
+  if (part.mesh_alone) return listing(part.mesh(), style);
   const auto extremes = wanted_extremes(print);
   std::string text;
   for (const std::string& line : print.texts("SOUS_TITRE")) text += "\n " + line + "\n";
@@ -246,7 +262,7 @@ std::string text_of(const Keywords& print) {
     for (const auto& [name, field] : step.fields) {
       text += name.empty() ? fmt::format("\n {}\n", part.name)
                            : fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", part.name, name, step.order, step.instant);
-      text += extremes.empty() ? listing(field, part.mesh, style) : extreme_listing(field, part.mesh, style, extremes);
+      text += extremes.empty() ? listing(field, part.mesh(), style) : extreme_listing(field, part.mesh(), style, extremes);
     }
   }
   return text;
@@ -268,9 +284,9 @@ std::vector<int> written_cells(const Call& call, const solver::Mesh& mesh) {
 // FORMAT="ASTER" holds meshes, no fields: of a result, its mesh.
 std::string mesh_text(const Call& call, const Keywords& print) {
   const PrintedPart part = part_of(print, false);
-  const auto cells = written_cells(call, part.mesh);
-  if (static_cast<int>(cells.size()) == part.mesh.cell_count()) return solver::format_aster_mesh(part.mesh);
-  return solver::format_aster_mesh(solver::restricted(part.mesh, cells));
+  const auto cells = written_cells(call, part.mesh());
+  if (static_cast<int>(cells.size()) == part.mesh().cell_count()) return solver::format_aster_mesh(part.mesh());
+  return solver::format_aster_mesh(solver::restricted(part.mesh(), cells));
 }
 
 // --- Gmsh -------------------------------------------------------------------------------------------------------------------
@@ -331,7 +347,7 @@ std::string gmsh_text(const Call& call, interpreter::Diagnostics& diagnostics) {
     check_same_mesh(parts, i, call);
     add_views(call.factors("RESU")[i], parts[i], views);
   }
-  const solver::Mesh& mesh = parts.front().mesh;
+  const solver::Mesh& mesh = parts.front().mesh();
   return solver::format_gmsh(mesh, written_cells(call, mesh), views);
 }
 
@@ -369,8 +385,10 @@ Product impr_resu(const Call& call, Context& context) {
     warn_of_layers(print, context.diagnostics);
   }
   if (word == "MED") {
-    write_med(call, path.string());
-    context.console.progress("  writes " + path.string());
+    auto& meshes = context.med_files[path.string()];
+    const bool is_new = meshes.empty();
+    write_med(call, path.string(), meshes);
+    if (is_new) context.console.progress("  writes " + path.string());
     return nullptr;
   }
   if (word == "GMSH") {

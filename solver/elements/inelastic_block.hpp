@@ -70,7 +70,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
+  void impose(const ImposedStrains* imposed) override { imposed_ = imposed; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : this->cells_) {
       if (!imposed.acts_on(cell)) continue;

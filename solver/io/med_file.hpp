@@ -33,6 +33,9 @@ struct NamedResult {
 /// points; Error `unsupported` names a number that has none. Other errors as for write_med_mesh.
 void write_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name,
                        std::span<const NamedResult> results);
+/// The same into a file that write_med_results has made; `has_mesh`: the mesh is there under that name. A field that is there goes on with further steps; a step that it
+/// has already is replaced. Throws Error `unsupported` for one of another mesh or of other components.
+void add_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name, bool has_mesh, std::span<const NamedResult> results);
 /// The same for one result.
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
                       const std::string& result_name);

@@ -127,7 +127,7 @@ QuietHdf5::~QuietHdf5() {
 }
 
 MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)) {
-  if (mode == MED_ACC_RDONLY) check_readable(path_);
+  if (mode != MED_ACC_CREAT) check_readable(path_);
   id_ = MEDfileOpen(path_.c_str(), mode);
   if (id_ >= 0) return;
   if (mode == MED_ACC_RDONLY) throw_unreadable(path_, "the MED library cannot open it");
@@ -142,6 +142,10 @@ MedFile MedFile::create(const std::string& path) {
   // The MED library writes to the screen when it cannot create a file, so we try first.
   if (!std::ofstream(path)) throw Error("unwritable-file", fmt::format("{}: the file cannot be written", path));
   return {path, MED_ACC_CREAT};
+}
+
+MedFile MedFile::open_for_adding(const std::string& path) {
+  return {path, MED_ACC_RDWR};
 }
 
 MedFile::~MedFile() {

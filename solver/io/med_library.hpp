@@ -40,6 +40,8 @@ class MedFile {
   static MedFile open_for_reading(const std::string& path);
   /// Replaces what is there. Throws Error `unwritable-file`.
   static MedFile create(const std::string& path);
+  /// Adds to what is there. Throws Error `unreadable-file`, `unwritable-file`.
+  static MedFile open_for_adding(const std::string& path);
   ~MedFile();
   MedFile(const MedFile&) = delete;
   MedFile& operator=(const MedFile&) = delete;

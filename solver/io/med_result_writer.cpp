@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -32,6 +33,8 @@ class MedResultWriter {
       : file_(file), mesh_(mesh), mesh_name_(mesh_name), blocks_(med_blocks(mesh)) {}
 
   void write(const std::string& name, const ResultStep& step, const Field& field);
+  /// Takes note of what the file holds.
+  void go_on();
 
  private:
   void create(const std::string& name, const std::vector<std::string>& components);
@@ -47,7 +50,9 @@ class MedResultWriter {
   const std::string& mesh_name_;
   std::vector<MedBlock> blocks_;
   std::map<std::string, std::vector<std::string>> components_;  ///< of the fields created so far
+  std::set<std::string> foreign_;                               ///< fields of other meshes
   std::map<std::vector<med_int>, std::string> profiles_;
+  med_int first_profile_ = 1;
   std::set<std::string> localizations_;
 };
 
@@ -60,7 +65,34 @@ bool carries_any(std::span<const double> values) {
   return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
 }
 
+void MedResultWriter::go_on() {
+  std::string name(MED_NAME_SIZE + 1, '\0'), mesh_name = name, interpolation = name, section = name;
+  const med_int fields = MEDnField(file_.id());
+  for (int k = 1; k <= fields; ++k) {
+    const med_int count = MEDfieldnComponent(file_.id(), k);
+    std::string components(static_cast<std::size_t>(count) * MED_SNAME_SIZE + 1, '\0'), units = components;
+    std::array<char, MED_SNAME_SIZE + 1> unit_of_time{};
+    med_bool local = MED_FALSE;
+    med_field_type type{};
+    med_int steps = 0;
+    check_written(MEDfieldInfo(file_.id(), k, name.data(), mesh_name.data(), &local, &type, components.data(), units.data(), unit_of_time.data(), &steps), file_, "its fields, which cannot be read");
+    if (trimmed(mesh_name) != mesh_name_) foreign_.insert(trimmed(name));
+    auto& own = components_[trimmed(name)];
+    for (med_int c = 0; c < count; ++c) own.push_back(trimmed(std::string_view(components).substr(static_cast<std::size_t>(c) * MED_SNAME_SIZE, MED_SNAME_SIZE)));
+  }
+  first_profile_ = MEDnProfile(file_.id()) + 1;
+  const med_int schemes = MEDnLocalization(file_.id());
+  for (int k = 1; k <= schemes; ++k) {
+    med_geometry_type geometry{}, section_type{};
+    med_int dimension = 0, points = 0, section_cells = 0;
+    check_written(MEDlocalizationInfo(file_.id(), k, name.data(), &geometry, &dimension, &points, interpolation.data(), section.data(), &section_cells, &section_type), file_,
+                  "its Gauss points, which cannot be read");
+    localizations_.insert(trimmed(name));
+  }
+}
+
 void MedResultWriter::create(const std::string& name, const std::vector<std::string>& components) {
+  if (foreign_.contains(name)) throw Error("unsupported", fmt::format("the file holds a field {} on another mesh", name), "write it to another UNITE");
   const auto [entry, is_new] = components_.try_emplace(name, components);
   if (!is_new) {
     if (entry->second == components) return;
@@ -87,7 +119,7 @@ void MedResultWriter::write_values(const std::string& name, const ResultStep& st
 /// The name of the profile of the chosen entities (numbered from 1); MED_NO_PROFILE when they are all there are.
 std::string MedResultWriter::profile(const std::vector<med_int>& chosen, std::size_t all) {
   if (chosen.size() == all) return MED_NO_PROFILE;
-  const auto [entry, is_new] = profiles_.try_emplace(chosen, fmt::format("PROFILE_{}", profiles_.size() + 1));
+  const auto [entry, is_new] = profiles_.try_emplace(chosen, fmt::format("PROFILE_{}", static_cast<std::size_t>(first_profile_) + profiles_.size()));
   if (is_new) {
     check_written(MEDprofileWr(file_.id(), entry->second.c_str(), static_cast<med_int>(chosen.size()), chosen.data()),
                   file_, "a profile");
@@ -192,6 +224,14 @@ std::string field_name(const std::string& result, std::string_view field) {
   return name.append(field);
 }
 
+void write_all(MedResultWriter writer, std::span<const NamedResult> results) {
+  for (const NamedResult& each : results) {
+    for (const ResultStep& step : each.result.steps) {
+      for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);
+    }
+  }
+}
+
 }  // namespace
 
 void write_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name,
@@ -199,12 +239,16 @@ void write_med_results(const std::string& path, const Mesh& mesh, const std::str
   check_writable(mesh, mesh_name);
   const MedFile file = MedFile::create(path);
   write_mesh(file, mesh, mesh_name);
+  write_all(MedResultWriter(file, mesh, mesh_name), results);
+}
+
+void add_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name, bool has_mesh, std::span<const NamedResult> results) {
+  check_writable(mesh, mesh_name);
+  const MedFile file = MedFile::open_for_adding(path);
+  if (!has_mesh) write_mesh(file, mesh, mesh_name);
   MedResultWriter writer(file, mesh, mesh_name);
-  for (const NamedResult& each : results) {
-    for (const ResultStep& step : each.result.steps) {
-      for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);
-    }
-  }
+  writer.go_on();
+  write_all(std::move(writer), results);
 }
 
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,

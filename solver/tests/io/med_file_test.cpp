@@ -258,6 +258,44 @@ TEST_CASE("results are written with profiles and localisations") {
   CHECK(values == std::vector<double>{1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
 }
 
+TEST_CASE("a file takes further steps, results and meshes, and keeps what it has") {
+  const auto mesh = small_mesh();
+  Result result;
+  const auto take_step = [&](int order, double value) {
+    NodalField field{"DEPL_R", {"DX"}, std::vector<double>(6, value)};
+    field.values[5] = absent;
+    ElementField stress{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 1, 5, 9}, std::vector<double>(9, value)};
+    result.steps = {ResultStep{}};
+    result.steps.front().order = order;
+    result.steps.front().fields = {{"DEPL", field}, {"SIEF_ELGA", stress}};
+  };
+  const TemporaryFile file;
+  take_step(1, 1.0);
+  write_med_result(file.path(), mesh, "MESH", result, "FIRST");
+  take_step(2, 2.0);
+  add_med_results(file.path(), mesh, "MESH", true, std::vector<NamedResult>{{result, "FIRST"}, {result, "SECOND"}});
+  add_med_results(file.path(), mesh, "OTHER", false, {});
+  check_same(read_med_mesh(file.path(), "MESH"), mesh);
+  check_same(read_med_mesh(file.path(), "OTHER"), mesh);
+  const auto added = [&](const char* name, const char* field) {
+    const std::vector<NamedResult> more = {{result, field}};
+    add_med_results(file.path(), mesh, name, true, more);
+  };
+  CHECK(code_of([&] { added("OTHER", "FIRST"); }) == "unsupported");
+  std::get<NodalField>(result.steps.front().fields["DEPL"]).components = {"DY"};
+  CHECK(code_of([&] { added("MESH", "FIRST"); }) == "unsupported");
+
+  const MedFile med = MedFile::open_for_reading(file.path());
+  CHECK(MEDnField(med.id()) == 4);
+  CHECK(MEDnLocalization(med.id()) == 2);
+  for (const int order : {1, 2}) {
+    std::vector<double> values(5, -1.0);
+    REQUIRE(MEDfieldValueWithProfileRd(med.id(), "FIRST___DEPL", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE, MED_COMPACT_STMODE, order == 1 ? "PROFILE_1" : "PROFILE_2",
+                                       MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data())) >= 0);
+    CHECK(values == std::vector<double>(5, order));
+  }
+}
+
 TEST_CASE("a field that MED files cannot place is refused by name") {
   Result result;
   ResultStep step;
