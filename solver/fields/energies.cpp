@@ -1,6 +1,7 @@
 #include "solver/fields/energies.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "solver/elements/hourglass.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/tensor_reader.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
@@ -118,6 +120,33 @@ void add_stabilisation_work(const Model& model, const ElementField& stresses, co
     if (displacements_before) moved -= relative_values(mesh, cell, *displacements_before);
     return mean.cwiseProduct(Hourglass(places(mesh, cell)).amplitudes(moved)).sum();
   });
+}
+
+ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces, const NodalField& displacements, const ElementField* forces_before,
+                      const NodalField* displacements_before) {
+  const Mesh& mesh = *model.mesh;
+  const auto elongation = [&](const NodalField& moved, int cell) {
+    const auto ends = mesh.cell(cell);
+    const Eigen::Vector3d axis = (place(mesh, ends[1]) - place(mesh, ends[0])).normalized();
+    double sum = 0.0;
+    for (const auto& [name, direction] : {std::pair("DX", 0), std::pair("DY", 1), std::pair("DZ", 2)}) {
+      const int component = moved.component(name);
+      if (component >= 0 && axis[direction] != 0.0) sum += axis[direction] * (moved.at(ends[1], component) - moved.at(ends[0], component));
+    }
+    return sum;
+  };
+  ElementField work{"ENER_R", Support::cell, {"TOTALE"}, std::vector<int>(static_cast<std::size_t>(mesh.cell_count()) + 1, 0), {}};
+  for (const int cell : bars) work.starts[static_cast<std::size_t>(cell) + 1] = 1;
+  std::partial_sum(work.starts.begin(), work.starts.end(), work.starts.begin());
+  work.values.resize(bars.size());
+  for (const int cell : bars) {
+    double force = forces.at(cell, 0, forces.component("N"));
+    double change = elongation(displacements, cell);
+    if (forces_before) force += forces_before->at(cell, 0, forces_before->component("N"));
+    if (displacements_before) change -= elongation(*displacements_before, cell);
+    work.values[static_cast<std::size_t>(work.starts[cell])] = 0.5 * force * change;
+  }
+  return work;
 }
 
 ElementField elastic_energy_density(const FieldInput& input, const ElementField& stresses) {

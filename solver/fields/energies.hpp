@@ -32,6 +32,11 @@ void add_stabilisation_energy(const FieldInput& input, const ElementField& stres
 void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements, const ElementField* stresses_before,
                             const NodalField* displacements_before, ElementField& densities);
 
+/// The work of the normal forces (N of `forces`) of bars since the step before, on the change of their lengths, by the trapezoidal rule: one value (TOTALE) for each
+/// of the bars. The fields of the step before are null at the first one.
+ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces, const NodalField& displacements, const ElementField* forces_before,
+                      const NodalField* displacements_before);
+
 /// Whether a cell has forces on hourglass patterns among its stresses.
 bool is_stabilised(const ElementField& stresses, int cell);
 

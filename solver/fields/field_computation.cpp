@@ -412,14 +412,35 @@ Field FieldComputation::total_energy(std::size_t step) {
   return energies;
 }
 
-// The work of the forces of plates is their elastic energy, as long as nothing else strains them.
+// The work of the normal force of bars adds up like that of stresses; that of the forces of beams, plates and discrete elements is their elastic energy, as
+// long as they are elastic and nothing else strains them.
 Field FieldComputation::total_energy_of_cells(std::size_t step) {
-  const Field continua = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
-  const std::vector<int> plates = plate_cells(*problem_.model);
-  if (plates.empty()) return continua;
-  if (!assembler_.state().empty() || assembler_.imposes_strains())
-    throw Error("unsupported", "the total energy of plates is not known beside strains of command variables or of loads", "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
-  return side_by_side(on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), plates), std::get<ElementField>(continua));
+  ElementField energies = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+  const Model& model = *problem_.model;
+  std::vector<int> bars, others;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (model.components_of(cell) == 0 || model.is_skin(cell) || continuum_dimension(model.formulations[cell]) > 0) continue;
+    (is_bar(model.formulations[cell]) ? bars : others).push_back(cell);
+  }
+  if (!others.empty()) {
+    if (!assembler_.state().empty() || assembler_.imposes_strains())
+      throw Error("unsupported", "the total energy of beams, plates and discrete elements is not known beside strains of command variables or of loads",
+                  "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
+    const auto flows = [&](int cell) { return problem_.behaviours && (*problem_.behaviours)[static_cast<std::size_t>(cell)].relation != Relation::elastic; };
+    if (const auto found = std::ranges::find_if(others, flows); found != others.end())
+      throw Error("unsupported", fmt::format("the total energy of discrete elements with a law of their own, such as that on {}, is not known", model.mesh->cell_name(*found)),
+                  "name the other cells by GROUP_MA");
+    energies = beside(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
+  }
+  if (bars.empty()) return energies;
+  ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step), step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
+                                  step > 0 ? &displacement(step - 1) : nullptr);
+  if (step > 0) {
+    const ElementField& before = element_field("ETOT_ELEM", step - 1);
+    for (const int cell : bars) of_bars.values[static_cast<std::size_t>(of_bars.starts[cell])] += before.at(cell, 0, 0);
+    move_to(step);
+  }
+  return beside(energies, of_bars);
 }
 
 Field FieldComputation::unloading(std::size_t step) {
