@@ -38,7 +38,7 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   Measure result;
   result.absolute = residual;
   const bool has_history = smallest_load_ > 0.0;
-  const bool vanished = !(load > (has_history ? vanishing_load * smallest_load_ : 0.0));
+  const bool vanished = has_vanished(load);
   result.relative = vanished ? -1.0 : residual / load;
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
   const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
@@ -57,8 +57,10 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   return result;
 }
 
+bool ConvergenceCriterion::has_vanished(double load) const { return !(load > (smallest_load_ > 0.0 ? vanishing_load * smallest_load_ : 0.0)); }
+
 void ConvergenceCriterion::accept(double load) {
-  if (load > 0.0) smallest_load_ = smallest_load_ > 0.0 ? std::min(smallest_load_, load) : load;
+  if (load > 0.0 && !has_vanished(load)) smallest_load_ = smallest_load_ > 0.0 ? std::min(smallest_load_, load) : load;
 }
 
 }  // namespace comma::solver

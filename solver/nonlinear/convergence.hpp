@@ -50,10 +50,11 @@ class ConvergenceCriterion {
   /// `by_component`: that of RESI_COMP_RELA, nothing where no internal force is known yet: then the residual is measured against the loads.
   Measure measure(double residual, double load, bool is_rounding, double referred = 0.0, std::optional<double> by_component = std::nullopt) const;
 
-  /// Remembers the load of a converged step.
+  /// Remembers the load of a converged step, or of the state that a computation begins with. One that has vanished is no measure of later ones.
   void accept(double load);
 
  private:
+  bool has_vanished(double load) const;
   double relative_limit() const { return options_.relative_residual.value_or(default_relative_residual); }
 
   /// RESI_GLOB_RELA where the user gives neither criterion.

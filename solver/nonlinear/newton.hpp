@@ -81,6 +81,11 @@ class NewtonSolver {
   /// The forces act beside the external ones from now on; they must outlive the solver.
   void follow(const FollowerForces& forces) { followers_ = &forces; }
 
+  /// The body bears these forces where the computation begins: they count in the criterion as those of an accepted step.
+  void begin_with(const Eigen::VectorXd& external, const Eigen::VectorXd& internal) {
+    weights_.take(assembler_, elimination_);
+    criterion_.accept(weights_.load_size(external, internal, {}));
+  }
   /// The step is accepted: its loads count in the criterion of later ones.
   void accept_step() {
     criterion_.accept(load_);

@@ -37,6 +37,16 @@ TEST_CASE("Where the loads vanish the residual of the least loaded step is asked
   CHECK_FALSE(criterion.measure(1e-3, 10.0, false).converged);  // a small load is a load
 }
 
+TEST_CASE("A body that has been unloaded is loaded and unloaded again") {
+  ConvergenceCriterion criterion(NewtonOptions{});
+  for (int turn = 0; turn < 3; ++turn) {
+    criterion.accept(2000.0);
+    CHECK(criterion.measure(1e-3, 1e-13, false).converged);
+    criterion.accept(1e-13);
+    CHECK_FALSE(criterion.measure(3e-3, 1e-13, false).converged);
+  }
+}
+
 TEST_CASE("Rounding passes the relative test, what is not a number passes none") {
   const ConvergenceCriterion criterion(NewtonOptions{});
   CHECK(criterion.measure(1e-13, 1e-13, true).converged);
