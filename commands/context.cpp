@@ -16,6 +16,12 @@ void Context::write(const std::filesystem::path& path, std::string_view text) {
   if (first) console.progress("  writes " + path.string());
 }
 
+void Context::begin_anew_if_released(int unit, const std::filesystem::path& path) {
+  if (released_units.erase(unit) == 0) return;
+  written.erase(path.string());
+  med_files.erase(path.string());
+}
+
 void Context::report(Verdict verdict) {
   const std::string text = format_verdict(verdict);
   if (verdict.passed) {

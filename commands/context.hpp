@@ -61,10 +61,14 @@ struct Context {
   solver::Counters counters = {};
   bool only_checks = false;            ///< nothing will be solved
   std::set<std::string> written = {};  ///< outputs that this run has opened: the first writing replaces, later ones append
+  std::set<int> released_units = {};   ///< IMPR_RESU begins anew what these held
   std::map<std::string, std::vector<WrittenMesh>> med_files = {};  ///< outputs of the format MED, likewise
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.
   void write(const std::filesystem::path& path, std::string_view text);
+
+  /// Of IMPR_RESU: starts the output of a unit anew if the file has released the unit (DEFI_FICHIER).
+  void begin_anew_if_released(int unit, const std::filesystem::path& path);
 
   /// Keeps a verdict and shows it.
   void report(Verdict verdict);

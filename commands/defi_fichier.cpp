@@ -1,8 +1,11 @@
 #include "commands/commands.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
 
 namespace {
+
+using interpreter::DiagnosticError;
 
 int unit_of(const Call& call) {
   if (call.has("UNITE")) return static_cast<int>(call.integer("UNITE"));
@@ -17,6 +20,7 @@ Product defi_fichier(const Call& call, Context& context) {
   const int unit = unit_of(call);
   if (call.text("ACTION") == "LIBERER") {
     context.files.name_output(unit, "");
+    context.released_units.insert(unit);
     return nullptr;
   }
   if (call.has("FICHIER")) context.files.name_output(unit, call.text("FICHIER"));

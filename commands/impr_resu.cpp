@@ -379,6 +379,7 @@ Product impr_resu(const Call& call, Context& context) {
   const Format format = format_named(word);
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
   const auto path = context.files.output(unit, format.extension, format.unit);
+  context.begin_anew_if_released(unit, path);
   check_model(call, word);
   for (const Keywords& print : call.factors("RESU")) {
     warn_of_missing_names(print, context.diagnostics);
