@@ -349,7 +349,7 @@ constexpr std::array<const char*, 6> own_beam_forces = {"N", "VY", "VZ", "MT", "
 void add_beam_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::BeamForce> forces;
   for (const Keywords& occurrence : call.factors("FORCE_POUTRE")) {
-    const bool own = std::ranges::any_of(own_beam_forces, [&](const char* name) { return occurrence.given(name); });
+    const bool own = is_in_own_axes(occurrence);
     const auto amounts = given_amounts(occurrence, own ? own_beam_forces : global_beam_forces);
     const auto axes = own ? solver::BeamAxes::own : solver::BeamAxes::global;
     const auto can_bear = [&](int cell) {
@@ -367,23 +367,32 @@ void add_beam_forces(const Keywords& call, const LoadedModel& target, solver::Lo
   append(load.beam_forces, std::move(forces));
 }
 
-std::vector<int> cells_or_all(const Keywords& keywords, const solver::Mesh& mesh) {
-  if (names_a_place(keywords)) return selected_cells(keywords, mesh);
-  std::vector<int> all(static_cast<std::size_t>(mesh.cell_count()));
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) all[static_cast<std::size_t>(cell)] = cell;
-  return all;
+// The cells of each occurrence: of several that name a cell the last counts (U1.03.00, rule of overloading).
+std::vector<std::vector<int>> own_cells(const std::vector<Keywords>& occurrences, const solver::Mesh& mesh) {
+  std::vector<std::vector<int>> cells(occurrences.size());
+  std::vector<char> taken(static_cast<std::size_t>(mesh.cell_count()), 0);
+  for (std::size_t k = occurrences.size(); k-- > 0;)
+    for (const int cell : cells_or_all(occurrences[k], mesh))
+      if (std::exchange(taken[static_cast<std::size_t>(cell)], 1) == 0) cells[k].push_back(cell);
+  return cells;
 }
 
 void add_inertia_loads(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  for (const Keywords& weight : call.factors("PESANTEUR")) {
+  const auto& weights = call.factors("PESANTEUR");
+  const auto weighed = own_cells(weights, target.mesh);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const Keywords& weight = weights[k];
     auto acceleration = point_of(weight, "DIRECTION");
     const double length = std::hypot(acceleration[0], acceleration[1], acceleration[2]);
     if (length == 0.0) throw DiagnosticError("zero-vector", "PESANTEUR/DIRECTION has no length", weight.span_of("DIRECTION"));
     for (double& component : acceleration) component *= weight.real("GRAVITE") / length;
-    load.gravities.push_back({cells_or_all(weight, target.mesh), acceleration});
+    load.gravities.push_back({weighed[k], acceleration});
   }
-  for (const Keywords& rotation : call.factors("ROTATION")) {
-    load.rotations.push_back({cells_or_all(rotation, target.mesh), rotation.real("VITESSE"), point_of(rotation, "AXE"),
+  const auto& rotations = call.factors("ROTATION");
+  const auto turned = own_cells(rotations, target.mesh);
+  for (std::size_t k = 0; k < rotations.size(); ++k) {
+    const Keywords& rotation = rotations[k];
+    load.rotations.push_back({turned[k], rotation.real("VITESSE"), point_of(rotation, "AXE"),
                               point_of(rotation, "CENTRE")});
   }
 }
@@ -455,6 +464,10 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
 }
 
 }  // namespace
+
+bool is_in_own_axes(const Keywords& occurrence) {
+  return std::ranges::any_of(own_beam_forces, [&](const char* name) { return occurrence.given(name); });
+}
 
 void add_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   add_nodal_forces(call, target, load);

@@ -87,6 +87,9 @@ void add_relations(const interpreter::Keywords& call, const LoadedModel& target,
 /// Forces on nodes, skins, volumes, beams; weight, rotation, initial strains.
 void add_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
+/// Whether an occurrence of FORCE_POUTRE gives forces along the beam's own axes.
+bool is_in_own_axes(const interpreter::Keywords& occurrence);
+
 /// EVOL_CHAR: pressures and forces that a result holds in time, linear between its instants.
 void add_evolving_loads(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 

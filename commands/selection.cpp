@@ -123,6 +123,13 @@ int single_node(const Keywords& keywords, const std::string& node_keyword, const
                         keywords.span_of(keyword), "name a group of one node");
 }
 
+std::vector<int> cells_or_all(const Keywords& keywords, const solver::Mesh& mesh) {
+  if (names_a_place(keywords)) return selected_cells(keywords, mesh);
+  std::vector<int> all(static_cast<std::size_t>(mesh.cell_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {
   for (const std::string* name : {&names.all, &names.node_groups, &names.nodes, &names.cell_groups, &names.cells}) {
     if (takes(keywords, *name)) return true;

@@ -44,6 +44,9 @@ std::vector<int> listed_nodes(const interpreter::Keywords& keywords, const solve
 std::vector<int> selected_cells(const interpreter::Keywords& keywords, const solver::Mesh& mesh,
                                 const PlaceKeywords& names = {});
 
+/// The same, or all of the mesh where the keywords name none.
+std::vector<int> cells_or_all(const interpreter::Keywords& keywords, const solver::Mesh& mesh);
+
 /// The groups that a keyword names, one by one. Throw as above.
 using NamedGroups = std::vector<std::vector<int>> (*)(const interpreter::Keywords& keywords, const std::string& keyword,
                                                       const solver::Mesh& mesh);
