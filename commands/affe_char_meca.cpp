@@ -17,10 +17,20 @@ namespace comma::commands {
 
 namespace {
 
+// Fields that hold forces may change after the command.
 Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load) {
   auto product = std::make_shared<LoadConcept>();
-  product->load = std::move(load);
   product->model = call.data<ModelConcept>("MODELE").model;
+  std::vector<interpreter::ConceptPtr> sources;
+  for (const char* keyword : {"VECT_ASSE", "EVOL_CHAR"})
+    if (call.has(keyword)) sources.push_back(call.concept_of(keyword));
+  const bool may_change = !sources.empty();
+  product->load = {std::move(sources), [load = std::move(load), may_change, call = may_change ? std::make_shared<const Call>(call) : nullptr, model = product->model]() {
+    if (!may_change) return load;
+    auto whole = std::make_shared<solver::Load>(*load);
+    add_forces_of_fields(*call, LoadedModel(*model), *whole);
+    return std::shared_ptr<const solver::Load>(std::move(whole));
+  }};
   return product;
 }
 

@@ -14,6 +14,7 @@ namespace comma::commands {
 
 namespace {
 
+using interpreter::ConceptPtr;
 using interpreter::DiagnosticError;
 using solver::Parameter;
 
@@ -106,11 +107,19 @@ void keep_component(const char* name, const Keywords& assignment, solver::Comman
   }
 }
 
-solver::CommandVariable command_variable(const Keywords& assignment, const solver::Mesh& mesh) {
+// The groups of a mesh may have changed since the command named them.
+template <class What>
+struct Assigned {
+  What what;
+  std::vector<int> cells;
+};
+
+solver::CommandVariable command_variable(const Assigned<Keywords>& assigned) {
+  const Keywords& assignment = assigned.what;
   const VariableName& name = named_variable(assignment);
   solver::CommandVariable variable;
   variable.variable = name.variable;
-  if (names_a_place(assignment)) variable.cells = selected_cells(assignment, mesh);
+  variable.cells = assigned.cells;
   if (assignment.has("VALE_REF")) variable.reference = assignment.real("VALE_REF");
   if (assignment.has("CHAM_GD")) {
     variable.snapshots.push_back({0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
@@ -123,24 +132,44 @@ solver::CommandVariable command_variable(const Keywords& assignment, const solve
   return variable;
 }
 
-}  // namespace
+struct MaterialAssignments {
+  std::size_t cell_count = 0;
+  std::vector<Assigned<ConceptPtr>> materials;
+  std::vector<Assigned<Keywords>> variables;  ///< no cells: all
+};
 
-Product affe_materiau(const Call& call, Context&) {
-  const std::shared_ptr<const solver::Mesh> whole = call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
-  const solver::Mesh& mesh = *whole;
-  auto field = std::make_shared<solver::MaterialField>();
-  field->by_cell.resize(static_cast<std::size_t>(mesh.cell_count()));
+MaterialAssignments material_assignments(const Call& call, const solver::Mesh& mesh) {
+  MaterialAssignments found;
+  found.cell_count = static_cast<std::size_t>(mesh.cell_count());
   for (const Keywords& assignment : call.factors("AFFE")) {
     if (assignment.concepts("MATER").size() > 1) {
       throw DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material", assignment.span_of("MATER"),
                             "put all laws into one DEFI_MATERIAU");
     }
-    const auto& material = interpreter::data_of<MaterialConcept>(assignment.concepts("MATER").front(), "MATER").material;
-    for (const int cell : selected_cells(assignment, mesh)) field->by_cell[cell] = material;
+    found.materials.push_back({assignment.concepts("MATER").front(), selected_cells(assignment, mesh)});
   }
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     if (assignment.text("NOM_VARC") == "GEOM") continue;
-    solver::CommandVariable variable = command_variable(assignment, mesh);
+    found.variables.push_back({assignment, names_a_place(assignment) ? selected_cells(assignment, mesh) : std::vector<int>()});
+  }
+  return found;
+}
+
+std::vector<ConceptPtr> sources_of(const MaterialAssignments& assignments) {
+  std::vector<ConceptPtr> sources;
+  for (const auto& [material, cells] : assignments.materials) sources.push_back(material);
+  for (const auto& [assignment, cells] : assignments.variables) sources.push_back(assignment.concept_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"));
+  return sources;
+}
+
+std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssignments& assignments) {
+  auto field = std::make_shared<solver::MaterialField>();
+  field->by_cell.resize(assignments.cell_count);
+  for (const auto& [material, cells] : assignments.materials)
+    for (const int cell : cells) field->by_cell[static_cast<std::size_t>(cell)] = interpreter::data_of<MaterialConcept>(material, "MATER").material;
+  for (const Assigned<Keywords>& assigned : assignments.variables) {
+    const Keywords& assignment = assigned.what;
+    solver::CommandVariable variable = command_variable(assigned);
     check_even_through_thickness(variable, assignment);
     if (const char* component = named_variable(assignment).component) keep_component(component, assignment, variable);
     if (assignment.text("NOM_VARC") == "EPSA") {
@@ -149,9 +178,17 @@ Product affe_materiau(const Call& call, Context&) {
       field->variables.push_back(std::move(variable));
     }
   }
+  return field;
+}
+
+}  // namespace
+
+Product affe_materiau(const Call& call, Context&) {
   auto product = std::make_shared<MaterialFieldConcept>();
-  product->field = std::move(field);
-  product->mesh = whole;
+  product->mesh = call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
+  MaterialAssignments assignments = material_assignments(call, *product->mesh);
+  auto sources = sources_of(assignments);
+  product->field = {std::move(sources), [assignments = std::move(assignments)] { return material_field(assignments); }};
   return product;
 }
 

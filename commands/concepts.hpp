@@ -10,6 +10,7 @@
 
 #include "commands/functions.hpp"
 #include "commands/multiplier_sum.hpp"
+#include "commands/renewed.hpp"
 #include "commands/table.hpp"
 #include "interpreter/concept.hpp"
 #include "solver/contact/definition.hpp"
@@ -47,7 +48,7 @@ struct MaterialConcept : ConceptData {
 };
 
 struct MaterialFieldConcept : ConceptData {
-  std::shared_ptr<const solver::MaterialField> field;
+  Renewed<solver::MaterialField> field;  ///< of materials and of fields of command variables
   std::shared_ptr<const solver::Mesh> mesh;
 };
 
@@ -59,7 +60,7 @@ struct PropertiesConcept : ConceptData {
 
 /// AFFE_CHAR_MECA and AFFE_CHAR_CINE alike: conditions are eliminated whichever command wrote them.
 struct LoadConcept : ConceptData {
-  std::shared_ptr<const solver::Load> load;
+  Renewed<solver::Load> load;  ///< of the fields that hold forces (VECT_ASSE, EVOL_CHAR)
   std::shared_ptr<const solver::Model> model;
 };
 

@@ -68,7 +68,9 @@ void take_support(ResultConcept& product, const Keywords& occurrence, const Fiel
   }
   if (occurrence.has("CHAM_MATER")) {
     const auto& materials = occurrence.data<MaterialFieldConcept>("CHAM_MATER");
-    take_part(occurrence, "CHAM_MATER", materials.field, materials.mesh.get(), mesh, product.problem.materials);
+    const auto field = materials.field.get();
+    if (product.problem.materials && materials.field.has_made(product.problem.materials)) product.problem.materials = field;
+    take_part(occurrence, "CHAM_MATER", field, materials.mesh.get(), mesh, product.problem.materials);
   }
   if (occurrence.has("CARA_ELEM")) {
     const auto& properties = occurrence.data<PropertiesConcept>("CARA_ELEM");

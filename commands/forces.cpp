@@ -469,12 +469,15 @@ bool is_in_own_axes(const Keywords& occurrence) {
   return std::ranges::any_of(own_beam_forces, [&](const char* name) { return occurrence.given(name); });
 }
 
+void add_forces_of_fields(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  add_force_vector(call, target, load);
+  add_evolving_loads(call, target, load);
+}
+
 void add_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   add_nodal_forces(call, target, load);
-  add_force_vector(call, target, load);
   add_pressures(call, target, load);
   add_plate_forces(call, target, load);
-  add_evolving_loads(call, target, load);
   add_end_effects(call, target, load);
   add_distributed_forces(call, target, load);
   add_beam_forces(call, target, load);

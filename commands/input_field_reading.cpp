@@ -57,7 +57,7 @@ std::shared_ptr<FieldConcept> field_of_load(const Call& call) {
   const auto& data = call.data<LoadConcept>("CHARGE");
   const std::string& name = call.text("NOM_CHAM");
   try {
-    auto field = is_of_dimension(name, *data.model) ? forces_named(name, *data.model->mesh, *data.load) : solver::ElementField{"FORC_R", {}, {}, {0}, {}};
+    auto field = is_of_dimension(name, *data.model) ? forces_named(name, *data.model->mesh, *data.load.get()) : solver::ElementField{"FORC_R", {}, {}, {0}, {}};
     return checked(call, call.concept_of("CHARGE")->name, data.model, std::move(field));
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("CHARGE"), error.hint());

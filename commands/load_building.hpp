@@ -84,6 +84,9 @@ void add_displacements_of_field(const interpreter::Keywords& keywords, const Loa
 /// LIAISON_...: relations between displacements.
 void add_relations(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
+/// Forces that fields hold: VECT_ASSE, EVOL_CHAR.
+void add_forces_of_fields(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
+
 /// Forces on nodes, skins, volumes, beams; weight, rotation, initial strains.
 void add_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 

@@ -86,7 +86,7 @@ void take_materials(const Call& call, solver::StaticProblem& problem) {
   if (!call.has("CHAM_MATER")) return;
   const auto& materials = call.data<MaterialFieldConcept>("CHAM_MATER");
   if (problem.model) require_mesh(call, "CHAM_MATER", materials.mesh.get(), *problem.model->mesh);
-  problem.materials = materials.field;
+  problem.materials = materials.field.get();
 }
 
 void take_properties(const Call& call, solver::StaticProblem& problem) {
@@ -107,7 +107,7 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
     solver::AppliedLoad applied;
     const auto& load_concept = excitation.data<LoadConcept>("CHARGE");
     if (problem.model) require_mesh(excitation, "CHARGE", load_concept.model ? load_concept.model->mesh.get() : nullptr, *problem.model->mesh);
-    applied.load = load_concept.load;
+    applied.load = load_concept.load.get();
     applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));

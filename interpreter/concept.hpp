@@ -53,6 +53,7 @@ struct Concept {
   int id = 0;                    ///< dense, in order of creation; or detached_concept
   Span defined_at;               ///< the call that made it
   std::shared_ptr<ConceptData> data;
+  int version = 0;               ///< how many commands have written `data`
   std::vector<std::shared_ptr<Concept>> reads_through;  ///< reading this one reads those too (a model reads its mesh)
 
   Concept() = default;

@@ -130,9 +130,11 @@ void Executor::run(CommandNode& node) {
   try {
     auto data = invoke(commands_, node);
     if (node.product && data) node.product->data = std::move(data);
+    if (node.product) ++node.product->version;
     node.state = NodeState::done;
     stop_clock();
   } catch (...) {
+    if (node.product) ++node.product->version;
     node.state = NodeState::failed;
     stop_clock();
     throw;
