@@ -19,6 +19,10 @@ using Eigen::Vector3d;
 constexpr double at_node_tolerance = 1e-12;
 /// Shape functions as near as this to the largest one weigh as much: the middle of a face is as near to all of its sides.
 constexpr double equal_weight = 1e-9;
+/// Of the integral of a shape function, one below this share of that of its size hardly bears: it vanishes on straight faces, and nearly so on curved ones.
+constexpr double small_share = 0.1;
+/// This share of it is next to nothing.
+constexpr double least_share = 1e-9;
 
 class ZonePoints {
  public:
@@ -36,8 +40,10 @@ class ZonePoints {
 
   void append(int cell, std::vector<ContactPoint>& points) {
     const CellType type = mesh_.cell_types[cell];
-    for (const FacePoint& at : face_rule(type, zone_.mixed.rule, zone_.mixed.rule_order)) {
+    const std::vector<FacePoint> rule = face_rule(type, zone_.mixed.rule, zone_.mixed.rule_order);
+    for (const FacePoint& at : rule) {
       ContactPoint point = place(cell, type, at);
+      if (point.node >= 0 && point.weight == 0.0) take_share(point, type, is_carried(cell, type, point.node, rule));
       if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); })) continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
@@ -74,19 +80,34 @@ class ZonePoints {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (std::abs(point.shape[i] - 1.0) < at_node_tolerance) point.node = nodes[i];
     point.weight = at.weight * measure(cell, at.xi);
-    if (point.node >= 0 && point.weight == 0.0) point.weight = share_of(cell, type, point.node);
     return point;
   }
 
-  /// The integral of a node's shape function, in size: what a point on the axis stands for, where the radius vanishes. On quadratic
-  /// faces the integral itself vanishes too, yet the node may not overlap either.
-  double share_of(int cell, CellType type, int node) const {
+  std::size_t local_number(int cell, int node) const {
     const auto nodes = mesh_.cell(cell);
-    const auto local = static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
-    double share = 0.0;
-    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0))
-      share += at.weight * measure(cell, at.xi) * std::abs(facet_shape(type, at.xi).values[local]);
-    return share;
+    return static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
+  }
+
+  /// Whether other points of the face stand for the node.
+  bool is_carried(int cell, CellType type, int node, const std::vector<FacePoint>& rule) const {
+    const std::size_t local = local_number(cell, node);
+    return std::ranges::any_of(rule, [&](const FacePoint& at) {
+      return std::abs(facet_shape(type, at.xi).values[local]) > at_node_tolerance && at.weight * measure(cell, at.xi) != 0.0;
+    });
+  }
+
+  /// The integral of a node's shape function: what a point on the axis stands for, where the radius vanishes. On quadratic faces the integral vanishes too, or nearly so, yet the
+  /// node may not overlap either: it weighs as much as its size. Next to nothing where other points carry the node, or an overlap has a pressure: the point shows how the node is.
+  void take_share(ContactPoint& point, CellType type, bool carried) const {
+    const std::size_t local = local_number(point.cell, point.node);
+    double share = 0.0, size = 0.0;
+    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0)) {
+      const double part = at.weight * measure(point.cell, at.xi) * facet_shape(type, at.xi).values[local];
+      share += part;
+      size += std::abs(part);
+    }
+    point.bears_nothing = !carried && share < small_share * size;
+    point.weight = carried || (point.bears_nothing && zone_.mixed.penalised) ? least_share * size : size;
   }
 
   Vector3d position(const ContactPoint& point) const {

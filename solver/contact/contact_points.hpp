@@ -36,6 +36,7 @@ struct ContactPoint {
   bool kept = false;                                   ///< see ContactPair
   std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
   double offset = 0.0;                                 ///< see shares; thicknesses count in it
+  bool bears_nothing = false;                          ///< on the axis of an axisymmetric face of second order: no uniform pressure there has a force at its node
   double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master
 };
 

@@ -139,6 +139,7 @@ class MixedContact {
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
   void note_lowered_augmentation(ContactDoubts& doubts) const;
+  void show_pressures_on_axis(const std::function<double*(int)>& place) const;
   void add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const;
   double share_of_limit(const CondensedPoint& point, double slip, double limit) const;
   Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;

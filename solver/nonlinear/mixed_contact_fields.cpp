@@ -61,8 +61,20 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
     place(key.second)[0] -= value[0];
     for (int c = 1; c < problem_.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
   }
+  show_pressures_on_axis(place);
   add_idle_multipliers(u, place);
   displacements.values = std::move(values);
+}
+
+/// Where the pressure of a node on the axis does not show in its force (bears_nothing), it is that of the face: the parabola about the axis, a + b r^2, through the other two nodes.
+void MixedContact::show_pressures_on_axis(const std::function<double*(int)>& place) const {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const ContactPoint& point = points_[p];
+    if (!point.bears_nothing || problem_.points[p].law.penalised || state_.statuses[p] == ContactStatus::open) continue;
+    const auto nodes = mesh_.cell(point.cell);
+    const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
+    if (at_middle < 0.0) place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
+  }
 }
 
 /// Shares of the limit where conditions prescribe how points slide.

@@ -51,6 +51,27 @@ TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either,
   }
 }
 
+TEST_CASE("On a surface that reaches the axis the weights of a rule with points between nodes add up to the integral of the radius") {
+  const bool quadratic = GENERATE(false, true);
+  const auto [rule, order] = GENERATE(std::pair(ContactRule::simpson, 2), std::pair(ContactRule::newton_cotes, 4), std::pair(ContactRule::gauss, 3));
+  Scene scene;
+  const auto face = [&](const std::string& name, double height, bool reversed) {
+    std::vector<int> nodes = {scene.node(name + "a", reversed ? 2.0 : 0.0, height), scene.node(name + "b", reversed ? 0.0 : 2.0, height)};
+    if (quadratic) nodes.push_back(scene.node(name + "m", 1.0, height));
+    return scene.cell(name, quadratic ? CellType::seg3 : CellType::seg2, nodes, Formulation::axisymmetric);
+  };
+  const int master = face("master", 0.0, true), slave = face("slave", 0.1, false);
+  scene.zone({master}, {slave});
+  scene.problem.contact->formulation = ContactFormulation::mixed;
+  scene.problem.contact->zones[0].mixed.rule = rule;
+  scene.problem.contact->zones[0].mixed.rule_order = order;
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
+  double area = 0.0;
+  for (const ContactPoint& point : contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0)) area += point.weight;
+  CHECK(area == Approx(2.0).epsilon(1e-8));
+}
+
 TEST_CASE("A node between faces of different thickness sees the mean of both, weighted by their areas, in any order of the faces") {
   const bool turned = GENERATE(false, true);
   Scene scene;
