@@ -40,7 +40,7 @@ void MixedContact::add_natural_augmentation() {
     if (point.rows == 0 || point.node_count == 0) continue;
     if (is_shared(point)) {
       double& softest = least[static_cast<std::size_t>(points_[p].zone)];
-      softest = std::min(softest, stiffness_at(p));
+      softest = std::min(softest, resistance_at(p));
     } else if (points_[p].node >= 0) {
       point.stiffness = stiffness_at(p);
       if (!point.law.penalised) point.law.augmentation = point.stiffness;
@@ -87,6 +87,16 @@ CondensedSolution MixedContact::solve_law() {
     solution.iterations += iterations;
   }
   return solution;
+}
+
+/// By what pressure a length the bodies at a point resist together, to which the softer one gives way.
+double MixedContact::resistance_at(std::size_t p) const {
+  const CondensedPoint& point = problem_.points[p];
+  const Eigen::VectorXd& sizes = tangent_.row_sizes();
+  double compliance = 0.0;
+  for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+    if (sizes[it.col()] > 0.0) compliance += it.value() * it.value() / sizes[it.col()];
+  return compliance > 0.0 ? 1.0 / (compliance * std::abs(point.weight)) : 0.0;
 }
 
 /// What the unknowns that move a point resist by: a pressure a length.

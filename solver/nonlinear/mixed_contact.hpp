@@ -125,6 +125,7 @@ class MixedContact {
   bool lower_augmentation();
   CondensedSolution solve_law();
   double stiffness_at(std::size_t p) const;
+  double resistance_at(std::size_t p) const;
   Eigen::Vector3d multiplier(int number) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, std::vector<Eigen::Triplet<double>>& entries) const;
   void count_slips();
