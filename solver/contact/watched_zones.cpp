@@ -9,21 +9,19 @@
 
 namespace comma::solver {
 
-std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now) {
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
   std::map<std::size_t, ContactPair> watched;
   if (std::ranges::all_of(contact.zones, [](const ContactZone& zone) { return zone.resolved; })) return watched;
-  const auto pairs = pair_surfaces(contact, mesh, now);
+  const auto pairs = pair_surfaces(contact, mesh, now, instant);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (pairs[k].status == PairingStatus::watched) watched.emplace(k, pairs[k]);
   }
   return watched;
 }
 
-double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now) { return gap_at(pair, mesh, now) + pair.thickness; }
-
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
-  for (const auto& [k, pair] : watched_pairs(contact, mesh, now)) {
-    const double depth = -surface_gap(pair, mesh, now);
+  for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
+    const double depth = -gap_at(pair, mesh, now);
     if (depth <= contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
     throw Error("contact-interpenetration",
                 fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,

@@ -8,11 +8,9 @@
 
 namespace comma::solver {
 
-/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Throws what pair_surfaces throws.
-std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now);
-
-/// The gap between the surfaces themselves (m), without the thicknesses that DIST_MAIT and DIST_ESCL add.
-double surface_gap(const ContactPair& pair, const Mesh& mesh, Positions now);
+/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Their gaps are gap_at(), less thicknesses, as where contact is
+/// enforced. Throws what pair_surfaces throws.
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
 
 /// For STOP_INTERP='OUI': throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);

@@ -100,7 +100,7 @@ class MixedContact {
   /// contact at those inside patches); with friction LAGS_F1, LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
   void add_multipliers(const Eigen::VectorXd& u, NodalField& displacements) const;
   /// CONT_NOEU (see contact_field.hpp) at u.
-  NodalField contact_state(const Eigen::VectorXd& u, Positions positions) const;
+  NodalField contact_state(const Eigen::VectorXd& u, Positions positions, double instant) const;
 
  private:
   using Key = std::pair<int, int>;  ///< zone, node
@@ -146,7 +146,7 @@ class MixedContact {
   Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;
   Eigen::Vector3d shear_force(std::size_t p, const Eigen::VectorXd& jumps) const;
   void add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const;
-  void add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const;
+  void add_nodes_without_contact(Positions positions, double instant, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,

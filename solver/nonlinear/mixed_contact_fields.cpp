@@ -90,7 +90,7 @@ void MixedContact::add_idle_multipliers(const Eigen::VectorXd& u, const std::fun
   }
 }
 
-NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions) const {
+NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions positions, double instant) const {
   const Eigen::VectorXd now = jumps(u);
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
@@ -119,7 +119,7 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
     }
   }
   add_forces_between_nodes(now, by_node, contacts);
-  add_nodes_without_contact(positions, contacts);
+  add_nodes_without_contact(positions, instant, contacts);
   return contact_field(contacts, mesh_.node_count(), positions);
 }
 
@@ -172,8 +172,8 @@ void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::m
 }
 
 /// Nodes of zones where contact is not enforced, and those that the user leaves out.
-void MixedContact::add_nodes_without_contact(Positions positions, std::vector<NodeContact>& contacts) const {
-  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions)) contacts.push_back({.pair = pair, .gap = surface_gap(pair, mesh_, positions)});
+void MixedContact::add_nodes_without_contact(Positions positions, double instant, std::vector<NodeContact>& contacts) const {
+  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions, instant)) contacts.push_back({.pair = pair, .gap = gap_at(pair, mesh_, positions)});
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))

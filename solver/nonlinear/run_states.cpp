@@ -124,7 +124,7 @@ NodalField StaticRun::initial_contact_state(double instant) {
   pair(instant, now_.state.u, nullptr);
   now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
   resize_multipliers(now_.conditions);
-  return contact_state();
+  return contact_state(instant);
 }
 
 void StaticRun::add_internal_variables(ResultStep& step) const {
@@ -154,7 +154,7 @@ ResultStep StaticRun::fields_now(double instant) const {
 
 void StaticRun::archive(double instant, int iterations) {
   ResultStep step = fields_now(instant);
-  if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state());
+  if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state(instant));
   add_patch_state(step);
   if (mixed_) step.contact = mixed_->memory();
   step.parameters["ITER_GLOB"] = iterations;
@@ -168,8 +168,8 @@ void StaticRun::append(ResultStep step) {
   if (after_step_) after_step_(result_);
 }
 
-NodalField StaticRun::contact_state() const {
-  if (mixed_) return mixed_->contact_state(now_.state.u, positions());
+NodalField StaticRun::contact_state(double instant) const {
+  if (mixed_) return mixed_->contact_state(now_.state.u, positions(), instant);
   const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
   std::vector<double> gaps(now_.conditions.pairs.size(), absent);
   for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
@@ -178,9 +178,9 @@ NodalField StaticRun::contact_state() const {
   }
   const std::vector<Vector3d> now = positions();
   std::vector<ContactPair> pairs = now_.conditions.pairs;
-  for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, now)) {
+  for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, now, instant)) {
     pairs[k] = pair;
-    gaps[k] = surface_gap(pair, mesh_, now);
+    gaps[k] = gap_at(pair, mesh_, now);
   }
   return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
 }

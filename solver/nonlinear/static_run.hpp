@@ -122,7 +122,7 @@ class StaticRun {
   /// The multipliers of the mixed formulation are unknowns beside them.
   NodalField displacements() const;
   void add_internal_variables(ResultStep& step) const;
-  NodalField contact_state() const;
+  NodalField contact_state(double instant) const;
   void add_patch_state(ResultStep& step) const;
   /// Displacements, stresses and internal variables.
   ResultStep fields_now(double instant) const;
