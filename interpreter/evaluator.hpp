@@ -149,6 +149,7 @@ class Evaluator {
   bool recovering() const { return strict_ == 0 && tries_ == 0; }
   void report(const Diagnostic& finding);
   void report(const ExceptionObject& error, const Statement& statement);
+  void keep_what_is_left(ExceptionObject& error, const NameNode& target);
   /// Notes where an exception was raised, and what led there.
   void place_error(ExceptionObject& error, Span span) const;
   Span span_of(std::uint32_t begin, std::uint32_t end) const { return {file_, begin, end}; }
@@ -200,6 +201,7 @@ auto Evaluator::with_host(Work work) -> decltype(work()) {
   } catch (const DiagnosticError& error) {
     auto object = make_exception(error.diagnostic());
     object->called_from = diagnostics_.called_from();
+    if (const auto* failure = dynamic_cast<const CommandFailure*>(&error)) object->left = failure->left();
     throw RaisedError(std::move(object));
   }
 }

@@ -148,8 +148,19 @@ void Evaluator::execute_assign(const AssignStatement& statement) {
   if (!statement.value) return;
   const bool names_product = statement.value->kind == NodeKind::call && statement.targets.size() == 1 && statement.targets[0]->kind == NodeKind::name;
   if (names_product) target_ = static_cast<const NameNode&>(*statement.targets[0]).id;
-  const Value value = evaluate(*statement.value);
-  for (const NodePtr& target : statement.targets) assign(*target, value);
+  try {
+    const Value value = evaluate(*statement.value);
+    for (const NodePtr& target : statement.targets) assign(*target, value);
+  } catch (const RaisedError& error) {
+    if (names_product) keep_what_is_left(*error.object(), static_cast<const NameNode&>(*statement.targets[0]));
+    throw;
+  }
+}
+
+/// A command that fails leaves what had converged to the variable that was to take its product (U1.03.00, section 5).
+void Evaluator::keep_what_is_left(ExceptionObject& error, const NameNode& target) {
+  if (!error.left || error.left->name != target.id) return;
+  store(target, Value(std::exchange(error.left, nullptr)));
 }
 
 void Evaluator::execute_augmented(const AugmentedStatement& statement) {

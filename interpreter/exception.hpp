@@ -79,6 +79,7 @@ struct ExceptionObject : Object {
   Span span;                          ///< where it was raised
   std::vector<Span> called_from;      ///< as in Diagnostic
   std::optional<Diagnostic> failure;  ///< of a command
+  ConceptPtr left;                    ///< what that command has made before it failed, until a variable has it
 
   std::string type_name() const override { return std::string(class_of(kind).name); }
   std::string repr() const override;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 
 namespace comma::interpreter {
@@ -32,6 +33,16 @@ struct Assertion {
   bool holds = false;
   Value computed, reference;  ///< None where the method has none
   double tolerance = 0.0;     ///< of assertAlmostEqual
+};
+
+/// A command has failed and left something of its product: what had converged.
+class CommandFailure : public DiagnosticError {
+ public:
+  CommandFailure(const Diagnostic& finding, ConceptPtr left) : DiagnosticError(finding), left_(std::move(left)) {}
+  const ConceptPtr& left() const { return left_; }
+
+ private:
+  ConceptPtr left_;
 };
 
 /// What the evaluator needs from the outside.

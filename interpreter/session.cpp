@@ -48,8 +48,9 @@ Value Session::call(const CommandCall& written, bool eager) {
   if (eager && may_run(id)) {
     try {
       if (!executor_.force(id)) return Value::unknown();
-    } catch (const DiagnosticError&) {
+    } catch (const DiagnosticError& failure) {
       executor_.forgive(id);
+      if (product && product->data) throw CommandFailure(failure.diagnostic(), product);
       throw;
     }
   }
