@@ -224,10 +224,21 @@ void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context
   add_group(target, names[0], creation.given("GROUP_NO") ? part_of(nodes, creation) : nodes, creation);
 }
 
-void remove_groups(const Keywords& removal, Groups& groups, const char* kind) {
-  for (const std::string& name : removal.texts("NOM")) {
-    if (groups.erase(name) > 0) continue;
-    throw DiagnosticError("unknown-group", fmt::format("DEFI_GROUP: the mesh has no group {} of {} to remove", name, kind), removal.span_of("NOM"));
+// A group need not be there, so that a loop can remove and make it in each turn (U4.22.01); one that nothing makes may be misspelt.
+void remove_groups(const Call& call, const std::string& kind, Groups& groups, Context& context) {
+  for (const Keywords& removal : call.factors("DETR_" + kind)) {
+    for (const std::string& name : removal.texts("NOM")) {
+      const auto makes = [&](const Keywords& making) {
+        const auto made = making.texts("NOM");
+        return std::ranges::find(made, name) != made.end();
+      };
+      if (groups.erase(name) > 0 || std::ranges::any_of(call.factors("CREA_" + kind), makes)) continue;
+      std::vector<std::string> known;
+      for (const auto& [other, members] : groups) known.push_back(other);
+      const std::string near = interpreter::nearest(name, known);
+      context.diagnostics.alarm("no-such-group", fmt::format("DEFI_GROUP/DETR_{}: the mesh has no group {} to remove", kind, name), removal.span_of("NOM"),
+                                near.empty() ? "" : fmt::format("did you mean {}?", near));
+    }
   }
 }
 
@@ -235,8 +246,8 @@ void remove_groups(const Keywords& removal, Groups& groups, const char* kind) {
 
 Product defi_group(const Call& call, Context& context) {
   solver::Mesh& mesh = *call.data<MeshConcept>("MAILLAGE").mesh;
-  each_occurrence(call, "DETR_GROUP_MA", [&](const Keywords& one) { remove_groups(one, mesh.cell_groups, "cells"); });
-  each_occurrence(call, "DETR_GROUP_NO", [&](const Keywords& one) { remove_groups(one, mesh.node_groups, "nodes"); });
+  remove_groups(call, "GROUP_MA", mesh.cell_groups, context);
+  remove_groups(call, "GROUP_NO", mesh.node_groups, context);
   each_occurrence(call, "CREA_GROUP_MA", [&](const Keywords& one) { make_cell_group(one, mesh, context); });
   each_occurrence(call, "CREA_GROUP_NO", [&](const Keywords& one) { make_node_group(one, mesh, context); });
   return nullptr;

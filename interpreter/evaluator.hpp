@@ -125,6 +125,7 @@ class Evaluator {
   Value evaluate_comprehension(const ComprehensionNode& node);
   Value evaluate_subscript(const SubscriptNode& node);
   Value evaluate_name(const NameNode& node);
+  Value augmented(Operator op, const Value& before, const Value& value);
   Value concept_operation(Operator op, const Value& left, const Value& right);
   Value item(const Value& object, const Value& index);
   Value evaluate_slice(const SliceNode& node);

@@ -9,6 +9,15 @@
 
 namespace comma::interpreter {
 
+namespace {
+
+bool combines_concepts(const Value& left, const Value& right) {
+  const auto counts = [](const Value& value) { return value.is_number() || value.is_concept(); };
+  return (left.is_concept() || right.is_concept()) && counts(left) && counts(right);
+}
+
+}  // namespace
+
 /// The innermost node that fails is where the error is.
 Value Evaluator::evaluate(const Node& node) {
   try {
@@ -49,8 +58,7 @@ Value Evaluator::evaluate_node(const Node& node) {
       const auto& binary = static_cast<const BinaryNode&>(node);
       const Value left = evaluate(*binary.left);
       const Value right = evaluate(*binary.right);
-      const auto counts = [](const Value& value) { return value.is_number() || value.is_concept(); };
-      if ((left.is_concept() || right.is_concept()) && counts(left) && counts(right)) return concept_operation(binary.op, left, right);
+      if (combines_concepts(left, right)) return concept_operation(binary.op, left, right);
       return binary_operation(binary.op, left, right, meter_);
     }
     case NodeKind::logical:
@@ -163,6 +171,10 @@ Value Evaluator::evaluate_conditional(const ConditionalNode& node) {
 
 Value Evaluator::evaluate_lambda(const LambdaNode& node) {
   return make_function(node.code, node.defaults);
+}
+
+Value Evaluator::augmented(Operator op, const Value& before, const Value& value) {
+  return combines_concepts(before, value) ? concept_operation(op, before, value) : augmented_operation(op, before, value, meter_);
 }
 
 /// Of concepts, and of one and a number: what comes of it has no command that makes it.

@@ -167,15 +167,14 @@ void Evaluator::execute_augmented(const AugmentedStatement& statement) {
   if (statement.target->kind == NodeKind::name) {
     const auto& name = static_cast<const NameNode&>(*statement.target);
     const Value before = evaluate(name);
-    return store(name, augmented_operation(statement.op, before, evaluate(*statement.value), meter_));
+    return store(name, augmented(statement.op, before, evaluate(*statement.value)));
   }
   if (statement.target->kind == NodeKind::subscript) {
     const auto& place = static_cast<const SubscriptNode&>(*statement.target);
     const Value object = evaluate(*place.object);
     const Value index = evaluate(*place.index);
     const Value before = item(object, index);
-    return store_subscript(object, index, augmented_operation(statement.op, before, evaluate(*statement.value), meter_),
-                           meter_);
+    return store_subscript(object, index, augmented(statement.op, before, evaluate(*statement.value)), meter_);
   }
   assign(*statement.target, evaluate(*statement.value));
 }
