@@ -190,11 +190,44 @@ Integrals integrals_over_skin(const FieldSource& source, const solver::Model& mo
   return {solver::integrate_skin(model, std::get<solver::NodalField>(source.field), cells), solver::integrate_skin(model, one, cells)};
 }
 
-void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+// Whether the field has the component at all nodes or points of a cell.
+bool carries(const FieldSource& source, int cell, int component) {
+  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field))
+    return std::ranges::none_of(source.mesh.cell(cell), [&](int node) { return std::isnan(nodal->at(node, component)); });
+  const auto& field = std::get<solver::ElementField>(source.field);
+  for (int point = 0; point < field.points(cell); ++point)
+    if (std::isnan(field.at(cell, point, component))) return false;
+  return field.points(cell) > 0;
+}
+
+void require_component(const Keywords& occurrence, const FieldSource& source, const Part& part, const std::string& name) {
+  const int component = component_of(occurrence, solver::components_of(source.field), name);
+  const auto lacks = [&](int cell) { return !carries(source, cell, component); };
+  const auto found = std::ranges::find_if(part.cells, lacks);
+  if (found == part.cells.end()) return;
+  throw DiagnosticError("unknown-component", fmt::format("POST_ELEM: {} of the {} cells of {} that are integrated over lack {}, {} for one", std::ranges::count_if(part.cells, lacks),
+                                                         part.cells.size(), part.name, name, source.mesh.cell_name(*found)),
+                        occurrence.span_of("NOM_CMP"), "name the cells that have it by GROUP_MA");
+}
+
+// Elements of the part that have no volume to integrate over: beams, plates and discrete elements.
+void warn_of_cells_left_out(const Keywords& occurrence, const Part& part, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+  const auto is_left_out = [&](int cell) {
+    return model.components_of(cell) != 0 && !model.is_skin(cell) && solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0;
+  };
+  const auto count = std::ranges::count_if(part.cells, is_left_out);
+  if (count == 0) return;
+  diagnostics.alarm("cells-left-out", fmt::format("POST_ELEM/INTEGRALE: {} of the cells of {} are beams, plates or discrete elements, {} for one, which are not integrated over", count, part.name,
+                                                  model.mesh->cell_name(*std::ranges::find_if(part.cells, is_left_out))),
+                    occurrence.span, "name the other cells by GROUP_MA");
+}
+
+void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const Integrals inside = integrals_of(occurrence, source, model);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
     keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
+    if (!summed) warn_of_cells_left_out(occurrence, part, model, diagnostics);
     std::vector<int> skin;
     std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
     std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
@@ -211,6 +244,7 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
     const double volume = solver::sum_over_cells(integrals.of_one, 0, std::span<const int>(part.cells));
     if (!summed) row.emplace_back("VOL", volume);
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
+      require_component(occurrence, source, part, name);
       const double total = solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name), std::span<const int>(part.cells));
       row.emplace_back("INTE_" + name, total);
       if (!summed) row.emplace_back("MOYE_" + name, total / volume);
@@ -219,10 +253,10 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
   }
 }
 
-void list_integrals(Table& table, const Call& call) {
+void list_integrals(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto model = model_behind(call);
   for (const Keywords& occurrence : call.factors("INTEGRALE")) {
-    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_integrals(table, call, occurrence, source, *model);
+    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_integrals(table, call, occurrence, source, *model, diagnostics);
   }
 }
 
@@ -293,7 +327,7 @@ Product post_elem(const Call& call, Context& context) {
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
     if (call.has(keyword)) list_indicators(table, call, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
-  if (call.has("INTEGRALE")) list_integrals(table, call);
+  if (call.has("INTEGRALE")) list_integrals(table, call, context.diagnostics);
   if (call.has("NORME")) list_norms(table, call);
   if (call.has("VOLUMOGRAMME")) list_distributions(table, call);
   if (call.has("MINMAX")) list_extremes(table, call);
