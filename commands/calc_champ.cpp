@@ -96,6 +96,7 @@ void add_field(const std::string& name, FieldsOfSteps& computation, const Chosen
 }
 
 void add_fields(const Call& call, Context& context, ResultConcept& data) {
+  warn_of_missing_instants("CALC_CHAMP", call, context.diagnostics);
   FieldsOfSteps computation(call, data);
   ChosenCells cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());

@@ -144,7 +144,10 @@ Product crea_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   for (const Keywords& list : call.factors("LISTE")) add_list(product->table, list);
   for (const Keywords& source : call.factors("FONCTION")) add_function(product->table, source);
-  for (const Keywords& source : call.factors("RESU")) add_field(product->table, source, context.diagnostics);
+  for (const Keywords& source : call.factors("RESU")) {
+    warn_of_missing_instants("CREA_TABLE", source, context.diagnostics);
+    add_field(product->table, source, context.diagnostics);
+  }
   if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
   return product;
 }

@@ -382,6 +382,7 @@ Product impr_resu(const Call& call, Context& context) {
   context.begin_anew_if_released(unit, path);
   check_model(call, word);
   for (const Keywords& print : call.factors("RESU")) {
+    warn_of_missing_instants("IMPR_RESU", print, context.diagnostics);
     warn_of_missing_names(print, context.diagnostics);
     warn_of_layers(print, context.diagnostics);
   }

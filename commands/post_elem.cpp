@@ -321,6 +321,7 @@ void list_areas(Table& table, const Call& call) {
 Product post_elem(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   Table& table = product->table;
+  warn_of_missing_instants("POST_ELEM", call, context.diagnostics);
   if (call.has("ENER_ELAS")) list_energies(table, call, context.diagnostics, "ENER_ELAS", "ENEL_ELEM");
   if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "EPOT_ELEM");
   if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ETOT_ELEM");

@@ -405,19 +405,6 @@ void add_of_cells(Table& table, const Keywords& action, const FieldSource& sourc
   }
 }
 
-// A list of instants is one of computations as a rule; what the result lacks of it has no rows.
-void warn_of_missing_instants(const Keywords& action, Context& context) {
-  if (!action.has("RESULTAT") || !action.given("LIST_INST")) return;
-  const auto missing = missing_instants(action, action.data<ResultConcept>("RESULTAT").result);
-  if (missing.empty()) return;
-  constexpr std::size_t most_shown = 5;
-  const std::span<const double> shown(missing.data(), std::min(missing.size(), most_shown));
-  context.diagnostics.alarm("unknown-step",
-                            fmt::format("POST_RELEVE_T: {} has no step at {} of the instants of LIST_INST: {}{}", action.concept_of("RESULTAT")->name,
-                                        missing.size(), fmt::join(shown, ", "), missing.size() > most_shown ? " ..." : ""),
-                            action.span_of("LIST_INST"), "the table has rows for the others alone");
-}
-
 void check_line(const Keywords& action) {
   const auto operations = action.texts("OPERATION");
   if (!action.has("TOUT") || names_a_place(action, node_places) || names_a_place(action, cell_places)) return;
@@ -436,7 +423,7 @@ void check_resultant(const Keywords& action) {
 void act(Table& table, const Keywords& action, Context& context) {
   check_line(action);
   check_resultant(action);
-  warn_of_missing_instants(action, context);
+  warn_of_missing_instants("POST_RELEVE_T", action, context.diagnostics);
   bool first = true;
   const std::size_t before = table.rows.size();
   for (const FieldSource& source : field_sources(action)) {

@@ -111,13 +111,14 @@ void read_between_steps(const Call& call, const solver::Result& result, solver::
   for (const double instant : function.x) function.y.push_back(polyline(instant));
 }
 
-void read_result(const Call& call, solver::TabulatedFunction& function) {
+void read_result(const Call& call, solver::TabulatedFunction& function, interpreter::Diagnostics& diagnostics) {
   const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
   function.parameter = "INST";
   const bool between = call.text("INTERP_NUME") == "OUI" && (call.given("LIST_INST") || call.given("INST"));
   if (between) {
     read_between_steps(call, result, function);
   } else {
+    warn_of_missing_instants("RECU_FONCTION", call, diagnostics);
     read_steps(call, selected_steps(call, result), result.mesh(), function);
   }
 }
@@ -170,7 +171,7 @@ Product recu_fonction(const Call& call, Context& context) {
   } else if (call.given("TABLE")) {
     read_table(call, function);
   } else {
-    read_result(call, function);
+    read_result(call, function, context.diagnostics);
   }
   if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
   sort_abscissas(call, function);

@@ -85,11 +85,19 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   return steps;
 }
 
-std::vector<double> missing_instants(const Keywords& keywords, const solver::Result& result) {
+void warn_of_missing_instants(const char* command, const Keywords& keywords, interpreter::Diagnostics& diagnostics) {
+  if (!keywords.has("RESULTAT") || !keywords.given("LIST_INST")) return;
+  const solver::Result& result = keywords.data<ResultConcept>("RESULTAT").result;
   std::vector<double> missing;
   for (const double instant : keywords.data<ListConcept>("LIST_INST").values)
     if (find_step(keywords, result, instant) == nullptr) missing.push_back(instant);
-  return missing;
+  if (missing.empty()) return;
+  constexpr std::size_t most_shown = 5;
+  const std::span<const double> shown(missing.data(), std::min(missing.size(), most_shown));
+  diagnostics.alarm("unknown-step",
+                    fmt::format("{}: {} has no step at {} of the instants of LIST_INST: {}{}", command, keywords.concept_of("RESULTAT")->name, missing.size(), fmt::join(shown, ", "),
+                                missing.size() > most_shown ? " ..." : ""),
+                    keywords.span_of("LIST_INST"), "those that it has are taken");
 }
 
 std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted, std::span<const double> computed) {

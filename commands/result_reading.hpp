@@ -16,8 +16,8 @@ namespace comma::commands {
 /// Throws DiagnosticError `unknown-step` listing the steps there are.
 std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keywords& keywords, const solver::Result& result);
 
-/// The instants of LIST_INST at which the result has no step.
-std::vector<double> missing_instants(const interpreter::Keywords& keywords, const solver::Result& result);
+/// A list of instants is one of computations as a rule: alarm `unknown-step` where RESULTAT, if that is given, has no step at some of LIST_INST.
+void warn_of_missing_instants(const char* command, const interpreter::Keywords& keywords, interpreter::Diagnostics& diagnostics);
 
 /// How near a stored instant must lie to the one asked for.
 struct InstantTolerance {

@@ -334,6 +334,25 @@ void warn_of_initial_strains(const interpreter::Call& call, const solver::Static
                             call.span, "give strains that are known beforehand as a command variable (AFFE_VARC, EPSA)");
 }
 
+// A result may have been kept without some of its fields (ARCHIVAGE, CHAM_EXCLU).
+void warn_of_missing_state(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !call.factor("ETAT_INIT").has("EVOL_NOLI")) return;
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const auto warn = [&](const char* field, const char* what, const char* keyword) {
+    context.diagnostics.alarm("no-initial-field", fmt::format("{}: the step of {} that it starts from holds no {}: {} begin at zero", call.command, given.concept_of("EVOL_NOLI")->name, field, what),
+                              given.span_of("EVOL_NOLI"), fmt::format("keep {} in the result (ARCHIVAGE, CHAM_EXCLU), or give the field by {}", field, keyword));
+  };
+  if (!problem.initial->displacement) warn("DEPL", "displacements", "DEPL");
+  if (!problem.initial->stresses) warn("SIEF_ELGA", "stresses", "SIGM");
+}
+
+// What flowed in the step before is not kept in results.
+void warn_of_forgotten_flow(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || call.text("METHODE") != "IMPLEX" || !has_flow(problem)) return;
+  context.diagnostics.alarm("forgotten-flow", fmt::format("{}: METHODE='IMPLEX' does not know what flowed before ETAT_INIT: its first step is elastic", call.command), call.factor("ETAT_INIT").span,
+                            "begin with a short step, or go on without ETAT_INIT");
+}
+
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.initial || !problem.initial->displacement || problem.initial->variables || !has_flow(problem)) return;
   context.diagnostics.alarm("no-internal-variables",

@@ -32,6 +32,8 @@ void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOf
 void warn_of_released_points(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
 /// Alarm `no-internal-variables`: materials that remember go on from displacements without what they remembered.
+void warn_of_missing_state(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
+void warn_of_forgotten_flow(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 void warn_of_lost_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
 /// Alarm `initial-strains`: loads give initial strains to materials that remember, where what Code_Aster does with them is not known.

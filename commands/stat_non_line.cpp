@@ -250,6 +250,8 @@ void warn_of_scene(const Call& call, const Scene& scene, Context& context) {
   warn_of_cells_without_behaviour(call, *problem.model, context);
   warn_of_repeated_loads(call, context);
   warn_of_initial_strains(call, problem, context);
+  warn_of_missing_state(call, problem, context);
+  warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
   warn_of_other_laws(call, scene.initial.behaviours.get(), problem, context);
