@@ -124,7 +124,8 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces(state.u);
   weights_.take(assembler_, elimination_);
-  if (is_tangent_due(policy_, tangent_, 1, steps_) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  const bool is_other = is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
+  if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
   measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }

@@ -41,6 +41,8 @@ class TangentSystem {
   /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds; `unsupported` for conjugate gradients
   /// with an unsymmetric tangent.
   bool refresh(const Eigen::VectorXd& u, TangentKind kind = TangentKind::tangent);
+  /// Which one is factorised.
+  TangentKind kind() const { return kind_; }
   /// The elimination is another from now on: nothing that was factorised is of use.
   void forget();
   /// Whether there is a factorisation, of whatever displacement.
