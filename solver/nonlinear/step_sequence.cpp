@@ -92,7 +92,10 @@ void StepSequence::adapt(double length, int iterations, std::span<const double> 
     factor = std::min(factor.value_or(std::numeric_limits<double>::infinity()), factor_of(rule, iterations, change));
   }
   length_ = length;
-  if (factor) length_ = std::clamp(length_ * *factor, adaptation.shortest, std::max(adaptation.shortest, adaptation.longest));
+  if (factor && !finished() && length_ * *factor < adaptation.shortest)
+    throw Error("step-too-short", fmt::format("after t = {:.6g} the steps are to adapt to {:.6g}, shorter than the shortest allowed (PAS_MINI = {:.6g})", now_, length_ * *factor, adaptation.shortest),
+                "lower PAS_MINI, or let steps shrink less (PCENT_AUGM, INCR_GRAN or NB_ITER_NEWTON_REF of ADAPTATION)");
+  if (factor) length_ = std::min(length_ * *factor, std::max(adaptation.shortest, adaptation.longest));
   if (!finished() && now_ + length_ <= now_)
     throw Error("too-many-steps", fmt::format("steps become shorter and shorter, and at t = {:.6g} the next one has no length", now_), "give PAS_MINI, or let steps grow (PCENT_AUGM)");
 }

@@ -139,6 +139,16 @@ TEST_CASE("steps aim at a number of iterations") {
   CHECK(walk(plan, 0, never) == std::vector<double>{1.0, 3.0, 7.0, 10.0});
 }
 
+TEST_CASE("steps that are to become shorter than allowed end the computation") {
+  StepPlan plan({0.0, 1.0, 10.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->rules[0].always = true;
+  plan.adaptation->rules[0].wanted_iterations = 4;
+  plan.adaptation->shortest = 0.5;
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0});
+  CHECK_THROWS_WITH(walk(plan, 63, never), Catch::Contains("PAS_MINI"));
+}
+
 TEST_CASE("steps adapt so that a watched field changes by as much as is wanted") {
   StepPlan plan({0.0, 0.5, 2.0});
   plan.adaptation = StepAdaptation{};
