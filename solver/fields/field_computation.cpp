@@ -249,10 +249,15 @@ Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces_at_corners(result_.mesh(), plate_forces(step))));
 }
 
+bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
+  const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
+  return std::ranges::any_of(cells, [&](int cell) { return imposed.acts_on(cell); });
+}
+
 bool FieldComputation::has_plates() const { return !plate_cells(*problem_.model).empty(); }
 
 ElementField FieldComputation::plate_forces(std::size_t step) {
-  if (assembler_.imposes_strains()) throw Error("unsupported", "stresses of plates are not known beside initial strains (PRE_EPSI)", "take EFGE_ELNO");
+  if (strains_act_on(step, plate_cells(*problem_.model))) throw Error("unsupported", "stresses of plates are not known beside initial strains (PRE_EPSI)", "take EFGE_ELNO");
   return assembler_.plate_forces(to_dofs(displacement(step), dofs_));
 }
 
@@ -278,7 +283,7 @@ Field FieldComputation::section_strains(std::size_t step) {
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   if (!names_one("NXX")) return generalised_strains(input(), forces, &imposed);
-  if (assembler_.imposes_strains()) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
+  if (strains_act_on(step, plate_cells(*problem_.model))) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
   const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
   return names_one("N") ? side_by_side(generalised_strains(input(), forces, &imposed), of_plates) : of_plates;
 }
@@ -423,7 +428,7 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
     (is_bar(model.formulations[cell]) ? bars : others).push_back(cell);
   }
   if (!others.empty()) {
-    if (!assembler_.state().empty() || assembler_.imposes_strains())
+    if (!assembler_.state().empty() || strains_act_on(step, others))
       throw Error("unsupported", "the total energy of beams, plates and discrete elements is not known beside strains of command variables or of loads",
                   "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
     const auto flows = [&](int cell) { return problem_.behaviours && (*problem_.behaviours)[static_cast<std::size_t>(cell)].relation != Relation::elastic; };

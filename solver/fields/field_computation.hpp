@@ -56,6 +56,8 @@ class FieldComputation {
   Field stresses(std::size_t step);
   Field stress_field_at_points(std::size_t step);
   Field stress_field_at_nodes(std::size_t step);
+  /// Whether loads strain any of the cells beforehand (PRE_EPSI).
+  bool strains_act_on(std::size_t step, std::span<const int> cells) const;
   bool has_plates() const;
   ElementField plate_forces(std::size_t step);
   Field section_force_field(std::size_t step);
