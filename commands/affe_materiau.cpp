@@ -181,14 +181,40 @@ std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssign
   return field;
 }
 
+// A cell has the variable where all of its nodes have.
+void warn_of_partial_variables(const MaterialAssignments& assignments, const solver::MaterialField& field, const solver::Mesh& mesh, Context& context) {
+  for (std::size_t k = 0; k < field.variables.size() && k < assignments.variables.size(); ++k) {
+    if (assignments.variables[k].what.text("NOM_VARC") == "EPSA") return;  // one assignment makes several variables
+    const solver::CommandVariable& variable = field.variables[k];
+    const auto* nodal = variable.snapshots.empty() ? nullptr : std::get_if<solver::NodalField>(variable.snapshots.back().field.get());
+    if (nodal == nullptr) continue;
+    std::vector<char> chosen(static_cast<std::size_t>(mesh.cell_count()), variable.cells.empty() ? 1 : 0);
+    for (const int cell : variable.cells) chosen[static_cast<std::size_t>(cell)] = 1;
+    std::vector<int> partial;
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+      if (chosen[static_cast<std::size_t>(cell)] == 0) continue;
+      const auto nodes = mesh.cell(cell);
+      const auto absent = std::ranges::count_if(nodes, [&](int node) { return std::isnan(nodal->at(node, 0)); });
+      if (absent > 0 && absent < static_cast<std::ptrdiff_t>(nodes.size())) partial.push_back(cell);
+    }
+    if (partial.empty()) continue;
+    const Keywords& assignment = assignments.variables[k].what;
+    context.diagnostics.alarm("partial-variable",
+                              fmt::format("AFFE_VARC: {} is given at some of the nodes alone of {} cells, {} for one: these have their reference value", assignment.text("NOM_VARC"), partial.size(),
+                                          mesh.cell_name(partial.front())),
+                              assignment.span, "give the field at all nodes of the cells, or name the cells that have it");
+  }
+}
+
 }  // namespace
 
-Product affe_materiau(const Call& call, Context&) {
+Product affe_materiau(const Call& call, Context& context) {
   auto product = std::make_shared<MaterialFieldConcept>();
   product->mesh = call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
-  MaterialAssignments assignments = material_assignments(call, *product->mesh);
+  const MaterialAssignments assignments = material_assignments(call, *product->mesh);
   auto sources = sources_of(assignments);
-  product->field = {std::move(sources), [assignments = std::move(assignments)] { return material_field(assignments); }};
+  product->field = {std::move(sources), [assignments] { return material_field(assignments); }};
+  warn_of_partial_variables(assignments, *product->field.get(), *product->mesh, context);
   return product;
 }
 

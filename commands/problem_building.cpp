@@ -1,5 +1,7 @@
 #include "commands/problem_building.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "commands/functions.hpp"
 #include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
 
 namespace comma::commands {
