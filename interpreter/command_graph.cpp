@@ -112,7 +112,10 @@ CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage&
     node.reads.push_back(id);
     for (const int behind : histories_[id].changed_behind) resources.emplace(behind, histories_[behind].name);
   }
-  for (const auto& [id, name] : resources) read(node, id, name);
+  for (const auto& [id, name] : resources) {
+    read(node, id, name);
+    node.complete = node.complete && !histories_[id].is_spoiled;
+  }
   for (const int unit : accesses.files_read) read(node, file_resource(unit), fmt::format("file {}", unit));
   for (const int unit : accesses.files_written) write(node, file_resource(unit), fmt::format("file {}", unit));
   if (product) {
@@ -122,6 +125,11 @@ CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage&
   }
   node.call = std::move(call);
   return nodes_.emplace_back(std::move(node));
+}
+
+void CommandGraph::spoil(const Concept& changed) {
+  note_change(changed);
+  histories_[changed.id].is_spoiled = true;
 }
 
 /// From the first change on, whoever reads something made from the concept counts among its readers.

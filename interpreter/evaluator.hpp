@@ -111,6 +111,7 @@ class Evaluator {
   void assign_items(const SequenceNode& target, const Value& value);
   void erase(const NameNode& name);
   Frame& frame_of(const NameNode& name);
+  std::optional<Value> present(const NameNode& name);
 
   // Expressions (evaluator_expressions.cpp).
   Value evaluate(const Node& node);

@@ -114,11 +114,19 @@ Evaluator::Flow Evaluator::execute_compound(const Statement& statement) {
   }
 }
 
+/// What a variable holds, if it holds something.
+std::optional<Value> Evaluator::present(const NameNode& name) {
+  if (!name.global) return frame_of(name).slots[static_cast<std::size_t>(name.slot)];
+  const auto found = globals_.find(name.id);
+  return found == globals_.end() ? std::nullopt : std::optional(found->second);
+}
+
 /// What a statement would have bound is unknown from here on.
 void Evaluator::forget_bound(const Statement& statement) {
   for (const NameNode* name : bound_names(statement)) {
-    if (!name->global || globals_.contains(name->id) || builtin_value(name->id) == nullptr)
-      store(*name, Value::unknown());
+    const std::optional<Value> before = present(*name);
+    if (before && before->is_concept()) host_.spoil(*before->as_concept());
+    if (!name->global || before || builtin_value(name->id) == nullptr) store(*name, Value::unknown());
   }
 }
 

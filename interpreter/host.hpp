@@ -65,6 +65,9 @@ class CommandHost {
   /// A variable that has a value is about to get another, or none. A call that waits may read it through a function.
   virtual void before_binding(std::string_view /*name*/) {}
 
+  /// A statement that went wrong may have been to change the concept in place: nothing that reads it from here on is sound.
+  virtual void spoil(const Concept& /*changed*/) {}
+
   /// Whether a call that is made at once, as within `try`, is really run: else nobody knows whether it would have failed.
   virtual bool runs_calls() const { return true; }
 

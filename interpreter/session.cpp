@@ -31,7 +31,11 @@ Value Session::call(const CommandCall& written, bool eager) {
   CommandCall bound = written;
   const bool readable = bind_expressions(bound, page, diagnostics_);
   CheckedCall checked = check_call(bound, page, catalogue_, diagnostics_, unsupported);
-  if (!readable || !checked.sound) return Value::unknown();
+  if (!readable || !checked.sound) {
+    for (const Argument& argument : written.arguments)
+      if (argument.name == "reuse" && argument.value->is_concept()) graph_.spoil(*argument.value->as_concept());
+    return Value::unknown();
+  }
   if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
     if (checked.complete) action->second(checked.call);
     return Value();

@@ -42,6 +42,7 @@ class Session : public CommandHost {
   bool force(const ConceptPtr& handle) override;
   /// Runs the calls that read the variable through a function of the file.
   void before_binding(std::string_view name) override;
+  void spoil(const Concept& changed) override { graph_.spoil(changed); }
   bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
   void judge(const Assertion& assertion) override;
 
