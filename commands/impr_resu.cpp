@@ -85,6 +85,32 @@ bool is_chosen(const Keywords& print, const std::string& field) {
   return std::ranges::find(names, field) != names.end();
 }
 
+std::vector<int> cells_beside_plates(const solver::Model& model) {
+  std::vector<int> cells;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
+    if (!solver::is_plate(model.formulations[static_cast<std::size_t>(cell)])) cells.push_back(cell);
+  return cells;
+}
+
+bool has_plates(const solver::Result& result) { return result.model && std::ranges::any_of(result.model->formulations, solver::is_plate); }
+
+// What SIEF_ELGA holds of plates are forces at corners, not at the points that the field is written for.
+void leave_out_plates(const solver::Model& model, solver::ResultStep& step) {
+  const auto found = step.fields.find("SIEF_ELGA");
+  if (found == step.fields.end()) return;
+  solver::ElementField rest = solver::on_cells(std::get<solver::ElementField>(found->second), cells_beside_plates(model));
+  std::vector<int> present;
+  const std::size_t width = rest.components.size();
+  for (std::size_t c = 0; c < width; ++c)
+    for (std::size_t i = c; i < rest.values.size(); i += width)
+      if (!std::isnan(rest.values[i])) {
+        present.push_back(static_cast<int>(c));
+        break;
+      }
+  if (present.empty()) step.fields.erase(found);
+  else found->second = solver::with_components(rest, present);
+}
+
 solver::Result chosen_steps(const Keywords& print, const solver::Result& result) {
   solver::Result part;
   part.model = result.model;
@@ -92,6 +118,7 @@ solver::Result chosen_steps(const Keywords& print, const solver::Result& result)
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
     std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first) || is_layered(item.second); });
+    if (has_plates(result)) leave_out_plates(*result.model, copy);
   }
   return part;
 }
@@ -148,6 +175,16 @@ void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics
   if (layered.empty()) return;
   diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not written: {} of {} left out", fmt::join(layered, ", "), source->name),
                     print.span, "POST_CHAMP with EXTR_COQUE takes one of them");
+}
+
+void warn_of_plates(const Keywords& print, interpreter::Diagnostics& diagnostics) {
+  if (!print.has("RESULTAT")) return;
+  const auto& source = print.concept_of("RESULTAT");
+  const solver::Result& result = interpreter::data_of<ResultConcept>(source, "RESULTAT").result;
+  const auto holds = [](const solver::ResultStep* step) { return step->fields.contains("SIEF_ELGA"); };
+  if (!has_plates(result) || !is_chosen(print, "SIEF_ELGA") || std::ranges::none_of(selected_steps(print, result), holds)) return;
+  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: SIEF_ELGA of plates is not written: comma knows their forces at the corners alone; {} has them", source->name), print.span,
+                    "CALC_CHAMP gives EFGE_ELNO, SIGM_ELNO in layers");
 }
 
 PrintedPart part_of(const Keywords& print, bool med) {
@@ -385,6 +422,7 @@ Product impr_resu(const Call& call, Context& context) {
     warn_of_missing_instants("IMPR_RESU", print, context.diagnostics);
     warn_of_missing_names(print, context.diagnostics);
     warn_of_layers(print, context.diagnostics);
+    warn_of_plates(print, context.diagnostics);
   }
   if (word == "MED") {
     auto& meshes = context.med_files[path.string()];
