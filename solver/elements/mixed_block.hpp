@@ -85,9 +85,13 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   }
 
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
-    add_stiffness(u, state, column_starts, values);
+    assemble(u, state, column_starts, values, &PointLaw::begin);
   }
-  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override { add_internal_forces(u, state, forces); }
+  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
+      return response_at(element, g, x, gradient, fields, state, &PointLaw::begin);
+    });
+  }
 
   void weigh_rows(const VariableState& state, std::span<double> weights) const override {
     std::array<int, most_unknowns> dofs;
