@@ -22,12 +22,15 @@ Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load)
   std::vector<interpreter::ConceptPtr> sources;
   for (const char* keyword : {"VECT_ASSE", "EVOL_CHAR"})
     if (call.has(keyword)) sources.push_back(call.concept_of(keyword));
-  const bool may_change = !sources.empty();
-  product->load = {std::move(sources), [load = std::move(load), may_change, call = may_change ? std::make_shared<const Call>(call) : nullptr, model = product->model]() {
-    if (!may_change) return load;
+  if (sources.empty()) {
+    product->load = {{}, [load = std::move(load)] { return load; }};
+    return product;
+  }
+  // Of the call its keywords alone: the product would keep itself alive.
+  product->load = {std::move(sources), [load = std::move(load), keywords = static_cast<const Keywords&>(call), model = product->model] {
     auto whole = std::make_shared<solver::Load>(*load);
-    add_forces_of_fields(*call, LoadedModel(*model), *whole);
-    return std::shared_ptr<const solver::Load>(std::move(whole));
+    add_forces_of_fields(keywords, LoadedModel(*model), *whole);
+    return whole;
   }};
   return product;
 }
