@@ -159,7 +159,8 @@ void throw_geometry_failure(double time, const GeometryHistory& history, const C
   throw Error("no-convergence",
               fmt::format("the contact geometry did not settle within {} updates {}", contact.max_geometry_updates, tail),
               contact.restless_tolerance > 0.0 ? "take smaller steps, smooth the normals (LISSAGE='OUI'), or take ALGO_RESO_GEOM='POINT_FIXE'"
-                                               : "take smaller steps, raise ITER_GEOM_MAXI, or fix the number of updates (REAC_GEOM='CONTROLE')");
+                                               : "take smaller steps, raise ITER_GEOM_MAXI, or fix the number of updates (REAC_GEOM='CONTROLE'); where nodes slide off the end of the master surface, "
+                                                 "lengthen it, or take another TOLE_PROJ_EXT");
 }
 
 }  // namespace comma::solver
