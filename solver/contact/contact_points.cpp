@@ -106,7 +106,7 @@ class ZonePoints {
       share += part;
       size += std::abs(part);
     }
-    point.bears_nothing = !carried && share < small_share * size;
+    point.bears_nothing = !carried && type == CellType::seg3 && share < small_share * size;
     point.weight = carried || (point.bears_nothing && zone_.mixed.penalised) ? least_share * size : size;
   }
 
