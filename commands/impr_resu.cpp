@@ -115,10 +115,11 @@ solver::Result chosen_steps(const Keywords& print, const solver::Result& result)
   solver::Result part;
   part.model = result.model;
   part.bare_mesh = result.bare_mesh;
+  const bool with_plates = has_plates(result);
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
     std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first) || is_layered(item.second); });
-    if (has_plates(result)) leave_out_plates(*result.model, copy);
+    if (with_plates) leave_out_plates(*result.model, copy);
   }
   return part;
 }

@@ -146,7 +146,7 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
       }
     }
   }
-  if (found.count > 0) warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads", context);
+  warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads", context);
 }
 
 // Forces of a beam in own axes replace those in the axes of the mesh, and the other way round.

@@ -79,18 +79,14 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      return response_at(element, g, x, gradient, fields, state, &PointLaw::respond);
-    });
+    add_law_forces(u, state, forces, &PointLaw::respond);
   }
 
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      return response_at(element, g, x, gradient, fields, state, &PointLaw::begin);
-    });
+    add_law_forces(u, state, forces, &PointLaw::begin);
   }
 
   void weigh_rows(const VariableState& state, std::span<double> weights) const override {
@@ -273,6 +269,12 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       forces.own.head(corners_) += point.weight * response.pressure * at_corners_[g];
       if (two_fields()) forces.own.segment(corners_, corners_) += point.weight * response.swelling * at_corners_[g];
     }
+  }
+
+  void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
+      return response_at(element, g, x, gradient, fields, state, how);
+    });
   }
 
   void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values, Respond how) const {

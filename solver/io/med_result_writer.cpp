@@ -224,7 +224,7 @@ std::string field_name(const std::string& result, std::string_view field) {
   return name.append(field);
 }
 
-void write_all(MedResultWriter writer, std::span<const NamedResult> results) {
+void write_all(MedResultWriter& writer, std::span<const NamedResult> results) {
   for (const NamedResult& each : results) {
     for (const ResultStep& step : each.result.steps) {
       for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);
@@ -239,7 +239,8 @@ void write_med_results(const std::string& path, const Mesh& mesh, const std::str
   check_writable(mesh, mesh_name);
   const MedFile file = MedFile::create(path);
   write_mesh(file, mesh, mesh_name);
-  write_all(MedResultWriter(file, mesh, mesh_name), results);
+  MedResultWriter writer(file, mesh, mesh_name);
+  write_all(writer, results);
 }
 
 void add_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name, bool has_mesh, std::span<const NamedResult> results) {
@@ -248,7 +249,7 @@ void add_med_results(const std::string& path, const Mesh& mesh, const std::strin
   if (!has_mesh) write_mesh(file, mesh, mesh_name);
   MedResultWriter writer(file, mesh, mesh_name);
   writer.go_on();
-  write_all(std::move(writer), results);
+  write_all(writer, results);
 }
 
 void write_med_result(const std::string& path, const Mesh& mesh, const std::string& mesh_name, const Result& result,
