@@ -235,9 +235,8 @@ void remove_groups(const Call& call, const std::string& kind, Groups& groups, Co
       if (groups.erase(name) > 0 || std::ranges::any_of(call.factors("CREA_" + kind), makes)) continue;
       std::vector<std::string> known;
       for (const auto& [other, members] : groups) known.push_back(other);
-      const std::string near = interpreter::nearest(name, known);
       context.diagnostics.alarm("no-such-group", fmt::format("DEFI_GROUP/DETR_{}: the mesh has no group {} to remove", kind, name), removal.span_of("NOM"),
-                                near.empty() ? "" : fmt::format("did you mean {}?", near));
+                                interpreter::did_you_mean(name, known));
     }
   }
 }

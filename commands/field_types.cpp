@@ -81,9 +81,8 @@ bool has_component(const FieldType& type, const std::string& name) {
 
 void check_component(const interpreter::Keywords& keywords, const std::string& keyword, const FieldType& type, const std::string& name) {
   if (has_component(type, name)) return;
-  const std::string near = interpreter::nearest(name, components_known(type));
   throw DiagnosticError("unknown-component", fmt::format("{}: a field of {} has no component {}", keyword, type.quantity, name),
-                        keywords.span_of(keyword), near.empty() ? "" : fmt::format("did you mean {}?", near));
+                        keywords.span_of(keyword), interpreter::did_you_mean(name, components_known(type)));
 }
 
 solver::Support support_of(FieldPlace place) {

@@ -64,8 +64,7 @@ Value ConceptData::call(const std::vector<Value>& arguments) const {
 }
 
 Value ConceptData::method(std::string_view name, const std::vector<Value>&, const std::map<std::string, Value>&) const {
-  const std::string near = nearest(name, method_names());
-  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {}, near.empty() ? "" : fmt::format("did you mean {}?", near));
+  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {}, did_you_mean(name, method_names()));
 }
 
 }  // namespace comma::interpreter

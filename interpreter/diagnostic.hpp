@@ -90,5 +90,7 @@ class Diagnostics {
 /// The known word nearest to a misspelt one (Damerau-Levenshtein distance, at most a third of the word's length), else "".
 /// Of words as near, the one that begins with more of its letters; then the one that stands first in `known`.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
+/// The hint that names it, or "".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace comma::interpreter

@@ -308,9 +308,8 @@ void Evaluator::bind_arguments(const FunctionObject& function, const CallArgumen
       }
       std::vector<std::string> names;
       for (const Parameter& parameter : parameters) names.push_back(parameter.name);
-      const std::string near = nearest(item.name, names);
       raise(ErrorKind::type, fmt::format("{}() got an unexpected keyword argument '{}'", code.name, item.name),
-            near.empty() ? "" : fmt::format("did you mean {}?", near));
+            did_you_mean(item.name, names));
     }
     auto& slot = frame.slots[static_cast<std::size_t>(match - parameters.begin())];
     if (slot) raise(ErrorKind::type, fmt::format("{}() got multiple values for argument '{}'", code.name, item.name));

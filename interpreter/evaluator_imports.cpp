@@ -16,11 +16,6 @@ namespace comma::interpreter {
 
 namespace {
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const std::string near = nearest(word, known);
-  return near.empty() ? "" : fmt::format("did you mean {}?", near);
-}
-
 Value module_value(const std::shared_ptr<ModuleObject>& module) {
   return Value(std::shared_ptr<Object>(module));
 }

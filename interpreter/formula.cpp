@@ -22,10 +22,9 @@ void Formula::check_names() const {
     if (known) continue;
     std::vector<std::string> candidates = parameters_;
     for (const auto& [bound, value] : bindings_) candidates.push_back(bound);
-    const std::string near = nearest(name, candidates);
     throw DiagnosticError("unknown-name", fmt::format("the formula {} uses {}, which is neither a parameter nor defined", text(), name),
                           {expression_.file(), 0, static_cast<std::uint32_t>(text().size())},
-                          near.empty() ? "" : fmt::format("did you mean {}?", near));
+                          did_you_mean(name, candidates));
   }
 }
 
