@@ -129,12 +129,36 @@ void warn_of_inward_normals(const Call& call, const solver::ContactDefinition& d
   }
 }
 
+// Coefficients of a weak formulation that the zone does not take are in no equation.
+void warn_of_idle_coefficients(const Call& call, const solver::ContactDefinition& definition, interpreter::Diagnostics& diagnostics) {
+  if (definition.formulation != solver::ContactFormulation::mixed) return;
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const solver::MixedZone& mixed = definition.zones[k].mixed;
+    const auto warn = [&](const char* keyword, bool is_taken, const std::string& what, const std::string& taken_with) {
+      if (is_taken || !zones[k].given(keyword)) return;
+      diagnostics.alarm("idle-coefficient", fmt::format("DEFI_CONTACT: {} is given and nothing takes it: {}", keyword, what), zones[k].span_of(keyword),
+                        fmt::format("write {}, or leave {} out", taken_with, keyword));
+    };
+    const std::string contact = "ALGO_CONT is '" + zones[k].text("ALGO_CONT") + "'";
+    warn("COEF_CONT", !mixed.penalised && !mixed.local_average, contact, "ALGO_CONT='STANDARD'");
+    warn("COEF_PENA_CONT", mixed.penalised, contact, "ALGO_CONT='PENALISATION'");
+    warn("PENE_MAXI", mixed.penalised && mixed.largest_depth.has_value(), "no penalty of contact is adapted", "ALGO_CONT='PENALISATION' and ADAPTATION='ADAPT_COEF'");
+    if (!zones[k].has("COULOMB")) continue;
+    const std::string friction = "ALGO_FROT is '" + zones[k].text("ALGO_FROT") + "'";
+    warn("COEF_FROT", !mixed.friction_penalised, friction, "ALGO_FROT='STANDARD'");
+    warn("COEF_PENA_FROT", mixed.friction_penalised, friction, "ALGO_FROT='PENALISATION'");
+    warn("GLIS_MAXI", mixed.friction_penalised && mixed.largest_slip.has_value(), "no penalty of friction is adapted", "ALGO_FROT='PENALISATION' and ADAPTATION='ADAPT_COEF'");
+  }
+}
+
 }  // namespace
 
 void warn_of_contact(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
   warn_of_few_points(call, definition, mesh, diagnostics);
   warn_of_shared_nodes(call, definition, mesh, diagnostics);
   warn_of_idle_exclusions(call, definition, mesh, diagnostics);
+  warn_of_idle_coefficients(call, definition, diagnostics);
   warn_of_inward_directions(call, definition, mesh, diagnostics);
   warn_of_inward_normals(call, definition, mesh, diagnostics);
 }
