@@ -5,6 +5,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/problem_building.hpp"
+#include "commands/scene_alarms.hpp"
 #include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/nonlinear/linear_static_analysis.hpp"
@@ -39,12 +40,6 @@ std::vector<double> new_instants(std::vector<double> instants, const solver::Res
 solver::LinearStaticOptions options_of(const Call& call) {
   const SolverChoice choice = solver_choice(call);
   return {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
-}
-
-void warn_of_scene(const Call& call, const solver::StaticProblem& problem, Context& context) {
-  warn_of_locking(call, problem, context);
-  warn_of_missing_data(call, problem, context);
-  warn_of_repeated_loads(call, context);
 }
 
 }  // namespace

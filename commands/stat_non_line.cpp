@@ -15,6 +15,7 @@
 #include "commands/problem_building.hpp"
 #include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
+#include "commands/scene_alarms.hpp"
 #include "commands/solve_alarms.hpp"
 #include "commands/stability_reading.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -242,19 +243,8 @@ Scene scene_of(const Call& call) {
   return {initial, product, options, steps};
 }
 
-void warn_of_scene(const Call& call, const Scene& scene, Context& context) {
-  const solver::StaticProblem& problem = scene.product->problem;
-  warn_of_locking(call, problem, context);
-  warn_of_missing_data(call, problem, context);
-  warn_of_strained_start(call, problem, scene.steps.instants.front(), context);
-  warn_of_cells_without_behaviour(call, *problem.model, context);
-  warn_of_repeated_loads(call, context);
-  warn_of_initial_strains(call, problem, context);
-  warn_of_missing_state(call, problem, context);
-  warn_of_forgotten_flow(call, problem, context);
-  warn_of_lost_variables(call, problem, context);
-  warn_of_released_points(call, problem, context);
-  warn_of_other_laws(call, scene.initial.behaviours.get(), problem, context);
+void warn_of(const Call& call, const Scene& scene, Context& context) {
+  warn_of_nonlinear_scene(call, scene.product->problem, scene.steps.instants.front(), scene.initial.behaviours.get(), context);
 }
 
 }  // namespace
@@ -265,7 +255,7 @@ Product prepare_stat_non_line(const Call& call, Context& context) {
   const Archive archive(call);
   solver::require_solvable(scene.product->problem, scene.steps, scene.options);
   if (!call.has("PILOTAGE")) check_multipliers(call, std::span(scene.steps.instants).subspan(1));
-  if (context.only_checks) warn_of_scene(call, scene, context);
+  if (context.only_checks) warn_of(call, scene, context);
   return nullptr;
 }
 
@@ -275,7 +265,7 @@ Product stat_non_line(const Call& call, Context& context) {
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;
-  warn_of_scene(call, scene, context);
+  warn_of(call, scene, context);
   const solver::Counters before = context.counters;
   Observer observer(call, *product);
   if (!observer.empty() && !product->observations) product->observations.emplace();
