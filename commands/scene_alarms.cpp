@@ -223,12 +223,30 @@ void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver
                             call.factors("COMPORTEMENT").front().span, "name all cells that carry stiffness, those with RELATION='ELAS' too");
 }
 
+bool has_other_elements(const solver::Model* own, const solver::Model& model) { return own != nullptr && own != &model && own->formulations != model.formulations; }
+
+// What is given for a model is taken by the numbers of its cells and nodes.
+void warn_of_other_models(const interpreter::Call& call, const solver::Model& model, Context& context) {
+  const auto look_at = [&](const interpreter::Keywords& keywords, const char* keyword, const solver::Model* own) {
+    if (!has_other_elements(own, model)) return;
+    context.diagnostics.alarm("other-model",
+                              fmt::format("{}: {} was made on a model that has other elements than MODELE: what it says of cells and nodes is taken as if it were said of these", call.command,
+                                          keywords.concept_of(keyword)->name),
+                              keywords.span_of(keyword), "make it on the model that is computed");
+  };
+  if (call.has("EXCIT"))
+    for (const interpreter::Keywords& excitation : call.factors("EXCIT")) look_at(excitation, "CHARGE", excitation.data<LoadConcept>("CHARGE").model.get());
+  if (call.has("CARA_ELEM")) look_at(call, "CARA_ELEM", call.data<PropertiesConcept>("CARA_ELEM").model.get());
+  if (call.has("CONTACT")) look_at(call, "CONTACT", call.data<ContactConcept>("CONTACT").model.get());
+}
+
 }  // namespace
 
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   warn_of_locking(call, problem, context);
   warn_of_missing_data(call, problem, context);
   warn_of_repeated_loads(call, context);
+  warn_of_other_models(call, *problem.model, context);
 }
 
 void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant, const solver::BehaviourOfCells* before, Context& context) {

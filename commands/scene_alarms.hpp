@@ -8,7 +8,8 @@
 namespace comma::commands {
 
 /// Alarms `near-incompressible` (cells that lock), `no-density` (weight or rotation of a material without one), `no-expansion` (nothing depends on a
-/// temperature or drying that is given), `repeated-load` (a load that EXCIT names more than once).
+/// temperature or drying that is given), `repeated-load` (a load that EXCIT names more than once), `other-model`
+/// (a load, contact or properties that were made on a model of other elements).
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
 /// The same, and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already, without an initial state), `no-behaviour`
