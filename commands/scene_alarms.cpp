@@ -169,6 +169,26 @@ void warn_of_missing_state(const interpreter::Call& call, const solver::StaticPr
   if (!problem.initial->stresses) warn("SIEF_ELGA", "stresses", "SIGM");
 }
 
+// Where the initial displacement says nothing of a node it counts as zero.
+void warn_of_partial_displacement(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !problem.initial->displacement) return;
+  const solver::NodalField& displacement = *problem.initial->displacement;
+  const solver::DofMap dofs(*problem.model);
+  int count = 0, first = -1;
+  for (int dof = 0; dof < dofs.size(); ++dof) {
+    if (static_cast<int>(dofs.component_of(dof)) >= solver::motion_count) continue;
+    const int column = displacement.component(solver::name_of(dofs.component_of(dof)));
+    if (column >= 0 && !std::isnan(displacement.at(dofs.node_of(dof), column))) continue;
+    if (count++ == 0) first = dof;
+  }
+  if (count == 0) return;
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  context.diagnostics.alarm("partial-state",
+                            fmt::format("{}: the displacement that it starts from says nothing of {} component{} of nodes, {} at {} the first: they begin at zero", call.command, count, count == 1 ? "" : "s",
+                                        solver::name_of(dofs.component_of(first)), problem.model->mesh->node_name(dofs.node_of(first))),
+                            given.span_of(given.has("DEPL") ? "DEPL" : "EVOL_NOLI"), "give a field of all nodes and components of the model");
+}
+
 // What flowed in the step before is not kept in results.
 void warn_of_forgotten_flow(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.initial || call.text("METHODE") != "IMPLEX" || !has_flow(problem)) return;
@@ -255,6 +275,7 @@ void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::Static
   warn_of_cells_without_behaviour(call, *problem.model, context);
   warn_of_initial_strains(call, problem, context);
   warn_of_missing_state(call, problem, context);
+  warn_of_partial_displacement(call, problem, context);
   warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
