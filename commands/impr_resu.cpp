@@ -85,21 +85,12 @@ bool is_chosen(const Keywords& print, const std::string& field) {
   return std::ranges::find(names, field) != names.end();
 }
 
-std::vector<int> cells_beside_plates(const solver::Model& model) {
-  std::vector<int> cells;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
-    if (!solver::is_plate(model.formulations[static_cast<std::size_t>(cell)])) cells.push_back(cell);
-  return cells;
-}
-
-bool has_plates(const solver::Result& result) { return result.model && std::ranges::any_of(result.model->formulations, solver::is_plate); }
-
-// What SIEF_ELGA holds of plates are forces at corners, not at the points that the field is written for.
-void leave_out_plates(const solver::Model& model, solver::ResultStep& step) {
-  const auto found = step.fields.find("SIEF_ELGA");
-  if (found == step.fields.end()) return;
-  solver::ElementField rest = solver::on_cells(std::get<solver::ElementField>(found->second), cells_beside_plates(model));
-  std::vector<int> present;
+// On the cells with one value a point, with the components that some of these have; nothing where there are none.
+std::optional<solver::Field> beside_layers(const solver::ElementField& field) {
+  std::vector<int> cells, present;
+  for (int cell = 0; cell + 1 < static_cast<int>(field.starts.size()); ++cell)
+    if (field.values_a_point(cell) == 1) cells.push_back(cell);
+  const solver::ElementField rest = solver::on_cells(field, cells);
   const std::size_t width = rest.components.size();
   for (std::size_t c = 0; c < width; ++c)
     for (std::size_t i = c; i < rest.values.size(); i += width)
@@ -107,19 +98,28 @@ void leave_out_plates(const solver::Model& model, solver::ResultStep& step) {
         present.push_back(static_cast<int>(c));
         break;
       }
-  if (present.empty()) step.fields.erase(found);
-  else found->second = solver::with_components(rest, present);
+  if (present.empty()) return std::nullopt;
+  return solver::with_components(rest, present);
+}
+
+// Of the fields that have several values a point, in the thickness of plates, what other cells have.
+void leave_out_layers(solver::ResultStep& step) {
+  for (auto item = step.fields.begin(); item != step.fields.end();) {
+    const auto* field = is_layered(item->second) ? &std::get<solver::ElementField>(item->second) : nullptr;
+    const std::optional<solver::Field> rest = field != nullptr ? beside_layers(*field) : std::nullopt;
+    if (rest) item->second = *rest;
+    item = field != nullptr && !rest ? step.fields.erase(item) : std::next(item);
+  }
 }
 
 solver::Result chosen_steps(const Keywords& print, const solver::Result& result) {
   solver::Result part;
   part.model = result.model;
   part.bare_mesh = result.bare_mesh;
-  const bool with_plates = has_plates(result);
   for (const solver::ResultStep* step : selected_steps(print, result)) {
     solver::ResultStep& copy = part.steps.emplace_back(*step);
-    std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first) || is_layered(item.second); });
-    if (with_plates) leave_out_plates(*result.model, copy);
+    std::erase_if(copy.fields, [&](const auto& item) { return !is_chosen(print, item.first); });
+    leave_out_layers(copy);
   }
   return part;
 }
@@ -174,18 +174,8 @@ void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics
     for (const auto& [name, field] : step->fields)
       if (is_chosen(print, name) && is_layered(field)) layered.insert(name);
   if (layered.empty()) return;
-  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not written: {} of {} left out", fmt::join(layered, ", "), source->name),
+  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not written there: {} of {} left out", fmt::join(layered, ", "), source->name),
                     print.span, "POST_CHAMP with EXTR_COQUE takes one of them");
-}
-
-void warn_of_plates(const Keywords& print, interpreter::Diagnostics& diagnostics) {
-  if (!print.has("RESULTAT")) return;
-  const auto& source = print.concept_of("RESULTAT");
-  const solver::Result& result = interpreter::data_of<ResultConcept>(source, "RESULTAT").result;
-  const auto holds = [](const solver::ResultStep* step) { return step->fields.contains("SIEF_ELGA"); };
-  if (!has_plates(result) || !is_chosen(print, "SIEF_ELGA") || std::ranges::none_of(selected_steps(print, result), holds)) return;
-  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: SIEF_ELGA of plates is not written: comma knows their forces at the corners alone; {} has them", source->name), print.span,
-                    "CALC_CHAMP gives EFGE_ELNO, SIGM_ELNO in layers");
 }
 
 PrintedPart part_of(const Keywords& print, bool med) {
@@ -423,7 +413,6 @@ Product impr_resu(const Call& call, Context& context) {
     warn_of_missing_instants("IMPR_RESU", print, context.diagnostics);
     warn_of_missing_names(print, context.diagnostics);
     warn_of_layers(print, context.diagnostics);
-    warn_of_plates(print, context.diagnostics);
   }
   if (word == "MED") {
     auto& meshes = context.med_files[path.string()];

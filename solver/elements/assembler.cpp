@@ -20,7 +20,10 @@
 #include "solver/elements/slender_forces.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/plate_stresses.hpp"
 #include "solver/materials/elasticity.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
@@ -119,6 +122,21 @@ std::vector<double> read_block(const ElementBlock& block, const std::vector<std:
         values.push_back(value);
       }
     }
+  }
+  return values;
+}
+
+/// The values of a field on some cells, point after point, in the order of the components of `layout`, which has as many values a cell; NaN without one.
+std::vector<double> values_on(std::span<const int> cells, const ElementField& layout, const ElementField& field, const Mesh& mesh) {
+  std::vector<double> values;
+  for (const int cell : cells) {
+    if (field.points(cell) != layout.points(cell))
+      throw Error("incompatible-field", fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity, field.points(cell), mesh.cell_name(cell), layout.points(cell)));
+    for (int point = 0; point < field.points(cell); ++point)
+      for (const auto& name : layout.components) {
+        const int column = field.component(name);
+        values.push_back(column < 0 ? absent : field.at(cell, point, column));
+      }
   }
   return values;
 }
@@ -348,13 +366,15 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
 }
 
 void Assembler::check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
-  const std::vector<double> wanted = read_block(block, stress_names(block), &given, *model_.mesh);
-  const std::vector<double> known = stresses_of(block, u, state_, nullptr);
+  const bool has_forces = block.force_point_count(PlatePlaces::corners) > 0;
+  const ElementField of_plates = has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, nullptr)) : ElementField();
+  const std::vector<double> wanted = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh) : read_block(block, stress_names(block), &given, *model_.mesh);
+  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh) : stresses_of(block, u, state_, nullptr);
   double largest = 0.0;
   for (const double each : known) largest = std::max(largest, std::abs(each));
   for (std::size_t k = 0; k < known.size(); ++k) {
     if (std::abs(wanted[k] - known[k]) <= initial_stress_tolerance * std::max(largest, std::abs(wanted[k]))) continue;
-    const std::size_t each = static_cast<std::size_t>(block.point_count()) * block.stress_names().size();
+    const std::size_t each = known.size() / block.cells().size();
     throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[k / each])),
                 "only isotropic continua in small or logarithmic strains take up stresses of another origin");
   }
@@ -439,22 +459,30 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
   }
   ElementField field = field_at_points("SIEF_R", std::move(components));
   for (const auto& block : blocks_->list) write_block(*block, stress_names(*block), stresses_of(*block, u, state_, imposed), field);
-  return field;
+  if (!has_plates()) return field;
+  return side_by_side(field, plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed)));
 }
 
-ElementField Assembler::plate_forces(const Eigen::VectorXd& u) const {
-  ElementField field{"SIEF_R", Support::gauss_point, {}, {}, {}};
+bool Assembler::has_plates() const {
+  return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->force_point_count(PlatePlaces::corners) > 0; });
+}
+
+ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads, double time) const {
+  const ImposedStrains imposed(model_, loads, time);
+  return plate_forces(u, places, &imposed);
+}
+
+ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places, const ImposedStrains* imposed) const {
+  ElementField field{"SIEF_R", Support::gauss_point, {plate_force_names.begin(), plate_force_names.end()}, {}, {}};
   std::vector<int> counts(static_cast<std::size_t>(model_.mesh->cell_count()), 0);
-  for (const auto& block : blocks_->list) {
-    if (block->inner_point_count() > 0) field.components = stress_names(*block);
-    for (const int cell : block->cells()) counts[static_cast<std::size_t>(cell)] = block->inner_point_count();
-  }
+  for (const auto& block : blocks_->list)
+    for (const int cell : block->cells()) counts[static_cast<std::size_t>(cell)] = block->force_point_count(places);
   field.starts = starts_of(counts);
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
   for (const auto& block : blocks_->list) {
-    if (block->inner_point_count() == 0) continue;
-    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->inner_point_count()) * field.components.size());
-    block->inner_stresses(u, state_, values);
+    if (block->force_point_count(places) == 0) continue;
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->force_point_count(places)) * field.components.size());
+    block->forces(places, u, imposed, state_, values);
     write_block(*block, field.components, values, field);
   }
   return field;

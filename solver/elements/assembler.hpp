@@ -122,14 +122,15 @@ class Assembler {
   int stiffness_version() const { return version_; }
 
   /// Stresses at the Gauss points (SIEF_ELGA): SIXX SIYY SIZZ SIXY (2D), with SIXZ SIYZ in 3D; N for bars; N VY VZ MT MFY MFZ in own
-  /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node); NXX NYY NXY MXX MYY MXY
-  /// QX QY for plates, a length, in own axes at the corners, moments about the surface of the mesh. N > 0 in tension.
+  /// axes for beams (at both ends) and as far as they have them for discrete elements (at their last node), N > 0 in tension; SIXX ... SIYZ for plates
+  /// in their own axes, at places in their thickness (plate_stresses.hpp).
   ElementField stresses(const Eigen::VectorXd& u) const;
   /// The same less the stresses of the initial strains that the loads impose at a time.
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
-  /// The forces NXX ... QY of plates, as stresses() has them, at the points with which their stiffness is integrated; other cells have none.
-  ElementField plate_forces(const Eigen::VectorXd& u) const;
+  /// The forces NXX NYY NXY MXX MYY MXY QX QY of plates, a length, in own axes, moments about the surface of the mesh, less those of the initial strains
+  /// that the loads impose at a time; other cells have none.
+  ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads, double time) const;
 
   /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command variables). Axisymmetric bodies:
   /// per radian.
@@ -137,6 +138,8 @@ class Assembler {
 
  private:
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+  ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, const ImposedStrains* imposed) const;
+  bool has_plates() const;
   void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
   void check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;

@@ -80,10 +80,10 @@ class ElementBlock {
   virtual std::span<const std::string_view> stress_names() const = 0;
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
   virtual void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
-  /// Of elements whose stresses() are at their nodes: how many points their stiffness is integrated with, and the same stresses there (cells x these
-  /// points x names). 0: stresses() are at these points.
-  virtual int inner_point_count() const { return 0; }
-  virtual void inner_stresses(const Eigen::VectorXd&, const VariableState&, std::span<double>) const {}
+  /// Plates have forces a length in the place of stresses(): how many of these places there are a cell (0 of other elements), and the forces there (cells x
+  /// places x plate_force_names), less those of the imposed strains.
+  virtual int force_point_count(PlatePlaces) const { return 0; }
+  virtual void forces(PlatePlaces, const Eigen::VectorXd&, const ImposedStrains*, const VariableState&, std::span<double>) const {}
   /// Writes the elastic energy of each element (one value a cell); absent where the material has a memory.
   virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;

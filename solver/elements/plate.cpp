@@ -127,19 +127,19 @@ class PlateBlock final : public ElementBlock {
   }
 
   std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return Nodes; }
-  std::span<const std::string_view> stress_names() const override { return plate_force_names; }
+  int point_count() const override { return 0; }
+  std::span<const std::string_view> stress_names() const override { return {}; }
+  void stresses(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {}
 
-  /// Forces and moments per length at the corners, about the surface of the mesh, in the plate's own axes.
-  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
-    forces_at(reference_nodes(type), u, state, out);
-  }
+  int force_point_count(PlatePlaces places) const override { return places == PlatePlaces::corners ? Nodes : static_cast<int>(points_.size()); }
 
-  int inner_point_count() const override { return static_cast<int>(points_.size()); }
-  void inner_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
-    std::vector<ReferencePoint> places;
-    for (const QuadraturePoint& point : points_) places.push_back(point.at);
-    forces_at(places, u, state, out);
+  /// Forces and moments per length about the surface of the mesh, in the plate's own axes.
+  void forces(PlatePlaces places, const Eigen::VectorXd& u, const ImposedStrains* imposed, const VariableState& state, std::span<double> out) const override {
+    std::vector<ReferencePoint> at;
+    if (places == PlatePlaces::corners) at.assign(reference_nodes(type).begin(), reference_nodes(type).end());
+    else std::ranges::transform(points_, std::back_inserter(at), &QuadraturePoint::at);
+    forces_at(at, u, state, out);
+    if (imposed != nullptr) subtract_imposed(at, *imposed, state, out);
   }
 
   void impose(const ImposedStrains* strains) override { imposed_ = strains; }
@@ -187,22 +187,6 @@ class PlateBlock final : public ElementBlock {
     }
   }
 
-  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
-    const std::size_t names = plate_force_names.size();
-    for (int element = 0; element < map_.element_count(); ++element) {
-      if (!imposed.acts_on(cells_[element])) continue;
-      double* target = out.data() + static_cast<std::size_t>(element * Nodes) * names;
-      for (const ReferencePoint& corner : reference_nodes(type)) {
-        const Resultants resultants = imposed_resultants(imposed, element, rigidity(element, state), corner);
-        for (int c = 0; c < 3; ++c) {
-          target[c] -= resultants.normal[c];
-          target[3 + c] -= resultants.moment[c];
-        }
-        target += names;
-      }
-    }
-  }
-
  private:
   /// Forces and moments per length at places of the reference cell, about the surface of the mesh, in the plate's own axes.
   void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const {
@@ -227,6 +211,22 @@ class PlateBlock final : public ElementBlock {
         target = std::copy(normal.begin(), normal.end(), target);
         target = std::copy(moment.begin(), moment.end(), target);
         target = std::copy(shear.begin(), shear.end(), target);
+      }
+    }
+  }
+
+  void subtract_imposed(std::span<const ReferencePoint> places, const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const {
+    const std::size_t names = plate_force_names.size();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      if (!imposed.acts_on(cells_[element])) continue;
+      double* target = out.data() + static_cast<std::size_t>(element) * places.size() * names;
+      for (const ReferencePoint& place : places) {
+        const Resultants resultants = imposed_resultants(imposed, element, rigidity(element, state), place);
+        for (int c = 0; c < 3; ++c) {
+          target[c] -= resultants.normal[c];
+          target[3 + c] -= resultants.moment[c];
+        }
+        target += names;
       }
     }
   }

@@ -1,6 +1,7 @@
 // What discrete elements, bars, beams and plates have beside their mesh: stiffnesses, sections, orientations.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -101,6 +102,9 @@ struct BeamSection {
   std::shared_ptr<const BeamSection> end = nullptr;
   VariationPowers powers{};  ///< see varying_section.hpp
 };
+
+/// Where the forces of a plate are wanted.
+enum class PlatePlaces : std::uint8_t { corners, integration_points };
 
 /// What a plate has beside its mesh (AFFE_CARA_ELEM, COQUE of U4.42.01).
 struct PlateSection {

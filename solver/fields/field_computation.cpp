@@ -46,7 +46,7 @@ std::vector<int> skin_cells(const Model& model) {
 }
 
 // What plates have: forces and strains in their own axes, stresses in layers (of which one may be taken to the nodes), energies, forces on nodes.
-constexpr std::array<std::string_view, 15> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU", "SIEQ_ELGA",
+constexpr std::array<std::string_view, 16> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIEF_ELGA", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU", "SIEQ_ELGA",
                                                            "SIEQ_ELNO", "SIEQ_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
 std::vector<int> all_cells(const Model& model) {
@@ -223,7 +223,7 @@ Field FieldComputation::stresses(std::size_t step) {
 // Elasticity has no memory: Code_Aster gives it one variable, which stays zero (U4.51.11).
 Field FieldComputation::internal_variables(std::size_t step) {
   if (assembler_.has_memory()) return remembered("VARI_ELGA", step);
-  ElementField field = element_field("SIEF_ELGA", step);
+  ElementField field = stresses_beside_plates(step);
   const std::size_t stresses = field.components.size();
   for (std::size_t k = 0; k < field.values.size() / stresses; ++k) {
     const bool exists = std::any_of(field.values.begin() + static_cast<std::ptrdiff_t>(k * stresses),
@@ -238,14 +238,30 @@ Field FieldComputation::internal_variables(std::size_t step) {
 }
 
 Field FieldComputation::stress_field_at_points(std::size_t step) {
-  const ElementField of_continua = continuum_stresses(element_field("SIEF_ELGA", step));
-  if (!has_plates()) return of_continua;
-  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+  if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));
+  return beside(continuum_stresses(stresses_beside_plates(step)), plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+}
+
+// Stresses of plates and forces of other elements have little in common.
+const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
+  const ElementField& all = element_field("SIEF_ELGA", step);
+  if (!has_plates()) return all;
+  const Key key(step, "SIEF_ELGA beside plates");
+  if (const auto found = known_.find(key); found != known_.end()) return std::get<ElementField>(found->second);
+  std::vector<int> others;
+  std::ranges::copy_if(all_cells(*problem_.model), std::back_inserter(others), [&](int cell) { return !is_plate(problem_.model->formulations[cell]); });
+  return std::get<ElementField>(known_.emplace(key, on_cells(all, others)).first->second);
+}
+
+ElementField FieldComputation::structural_forces(std::size_t step) {
+  const ElementField& others = stresses_beside_plates(step);
+  if (!has_plates()) return others;
+  return beside(others, assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners, problem_.loads, result_.steps[step].instant));
 }
 
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
-  const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(element_field("SIEF_ELGA", step)));
+  const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
   return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces_at_corners(result_.mesh(), plate_forces(step))));
 }
 
@@ -257,17 +273,16 @@ bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cel
 bool FieldComputation::has_plates() const { return !plate_cells(*problem_.model).empty(); }
 
 ElementField FieldComputation::plate_forces(std::size_t step) {
-  if (strains_act_on(step, plate_cells(*problem_.model))) throw Error("unsupported", "stresses of plates are not known beside initial strains (PRE_EPSI)", "take EFGE_ELNO");
-  return assembler_.plate_forces(to_dofs(displacement(step), dofs_));
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads, result_.steps[step].instant);
 }
 
 Field FieldComputation::section_force_field(std::size_t step) {
-  return section_forces(element_field("SIEF_ELGA", step));
+  return section_forces(structural_forces(step));
 }
 
 Field FieldComputation::end_forces(std::size_t step) {
   const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
-  return end_section_forces(forces, element_field("SIEF_ELGA", step), problem_.loads, result_.steps[step].instant);
+  return end_section_forces(forces, structural_forces(step), problem_.loads, result_.steps[step].instant);
 }
 
 Field FieldComputation::fibre_stresses(std::size_t step) {
@@ -279,7 +294,7 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
-  const ElementField forces = section_forces(element_field("SIEF_ELNO", step));
+  const ElementField forces = section_forces(to_element_nodes(*problem_.model, structural_forces(step)));
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   if (!names_one("NXX")) return generalised_strains(input(), forces, &imposed);
@@ -304,7 +319,7 @@ Field FieldComputation::mechanical_strains(std::size_t step) {
 Field FieldComputation::plastic_strains_at_points(std::size_t step) {
   require_small_strains("EPSP_ELGA");
   if (assembler_.imposes_strains()) throw Error("unsupported", "EPSP_ELGA is not known beside initial strains (PRE_EPSI)");
-  return plastic_strains(input(), displacement(step), element_field("SIEF_ELGA", step));
+  return plastic_strains(input(), displacement(step), stresses_beside_plates(step));
 }
 
 Field FieldComputation::green_strains(std::size_t step) {
@@ -341,7 +356,7 @@ void FieldComputation::require_small_strains(std::string_view name) const {
 }
 
 Field FieldComputation::elastic_energy(std::size_t step) {
-  const ElementField& stresses = element_field("SIEF_ELGA", step);
+  const ElementField& stresses = stresses_beside_plates(step);
   Field energies = elastic_energy_density(input(), stresses);
   if (const std::vector<int> cells = cells_in_green_strains(); !cells.empty()) {
     const Field of_strains = strain_energy_density(input(), element_field("EPMG_ELGA", step));
@@ -405,13 +420,13 @@ Field FieldComputation::total_energy(std::size_t step) {
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
   const NodalField* displacement_before = nullptr;
   if (step > 0) {
-    stress_before = &element_field("SIEF_ELGA", step - 1);
+    stress_before = &stresses_beside_plates(step - 1);
     strain_before = &element_field("EPSI_ELGA", step - 1);
     before = &element_field("ETOT_ELGA", step - 1);
     displacement_before = &displacement(step - 1);
     move_to(step);
   }
-  const ElementField& stress = element_field("SIEF_ELGA", step);
+  const ElementField& stress = stresses_beside_plates(step);
   ElementField energies = total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
   add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
   return energies;
@@ -449,20 +464,20 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
 }
 
 Field FieldComputation::unloading(std::size_t step) {
-  const ElementField now = continuum_stresses(element_field("SIEF_ELGA", step));
+  const ElementField now = continuum_stresses(stresses_beside_plates(step));
   const bool is_last = step + 1 == result_.steps.size();
-  ElementField indicators = local_indicators(now, is_last ? now : continuum_stresses(element_field("SIEF_ELGA", step + 1)));
+  ElementField indicators = local_indicators(now, is_last ? now : continuum_stresses(stresses_beside_plates(step + 1)));
   move_to(step);
   if (is_last) std::ranges::fill(indicators.values, absent);
   return indicators;
 }
 
 Field FieldComputation::yield_of_loading(std::size_t step) {
-  return yield_indicator(input(), {element_field("EPSP_ELGA", step), element_field("SIEF_ELGA", step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return yield_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 Field FieldComputation::energy_of_loading(std::size_t step) {
-  return energy_indicator(input(), {element_field("EPSP_ELGA", step), element_field("SIEF_ELGA", step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 Field FieldComputation::internal_forces(std::size_t step) {

@@ -59,7 +59,10 @@ class FieldComputation {
   /// Whether loads strain any of the cells beforehand (PRE_EPSI).
   bool strains_act_on(std::size_t step, std::span<const int> cells) const;
   bool has_plates() const;
+  const ElementField& stresses_beside_plates(std::size_t step);
   ElementField plate_forces(std::size_t step);
+  /// Those of bars, beams and discrete elements, and of plates at their corners.
+  ElementField structural_forces(std::size_t step);
   Field section_force_field(std::size_t step);
   Field end_forces(std::size_t step);
   Field fibre_stresses(std::size_t step);

@@ -144,7 +144,7 @@ TEST_CASE("plates have constant strains and curvatures exactly, on distorted mes
       const Eigen::VectorXd u = displacements(body, place, constant_strains(e, k));
       const Eigen::Vector3d normal = plane_law(membrane) * (e + offset * k);
       const Eigen::Vector3d moment = plane_law(membrane * h * h / 12) * k + offset * normal;
-      const ElementField forces = body.assembler->stresses(u);
+      const ElementField forces = body.assembler->plate_forces(u, PlatePlaces::corners, {}, 0.0);
       for (int cell = 0; cell < body.model.mesh->cell_count(); ++cell) {
         for (int point = 0; point < forces.points(cell); ++point) {
           for (int c = 0; c < 3; ++c) {
@@ -232,7 +232,7 @@ TEST_CASE("a strip bends like a beam, and shears like one where the plate knows 
     for (const int node : {4, 9}) force[body.dofs->dof(node, Component::dz)] = 0.5 * load;
     const Eigen::VectorXd u = solve(body, force, [](const Point& at, Component) { return at[0] == 0.0; });
     CHECK(u[body.dofs->dof(4, Component::dz)] == Approx(bending + (formulation == Formulation::shear_plate ? shear : 0.0)).epsilon(1e-8));
-    const ElementField forces = body.assembler->stresses(u);
+    const ElementField forces = body.assembler->plate_forces(u, PlatePlaces::corners, {}, 0.0);
     for (int cell = 0; cell < 4; ++cell) {
       for (int point = 0; point < 4; ++point) {
         const double x = body.model.mesh->nodes[body.model.mesh->cell(cell)[point]][0];
