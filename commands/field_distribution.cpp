@@ -60,13 +60,14 @@ std::vector<double> weights_of(const Keywords& occurrence, const std::vector<std
   return chosen;
 }
 
-void add_norms(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+void add_norms(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const solver::ElementField field = at_gauss_points(source, model);
   const auto squares = std::get<solver::ElementField>(solver::made_of_rows(field, std::array{solver::sum_of_squares(weights_of(occurrence, field.components))}));
   const solver::ElementField integrals = solver::integrate_cells(model, squares);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
     if (occurrence.has("TYPE_MAILLE")) keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
     if (std::ranges::none_of(part.cells, [&](int cell) { return integrals.points(cell) > 0; })) carries_nothing(occurrence, part);
+    warn_of_cells_left_out("NORME", occurrence, part, model, diagnostics);
     Row row = row_of(source, part);
     row.emplace_back("TYPE_NORM", occurrence.text("TYPE_NORM"));
     row.emplace_back("VALE_NORM", std::sqrt(solver::sum_over_cells(integrals, 0, std::span<const int>(part.cells))));
@@ -86,7 +87,7 @@ std::vector<double> bounds_of(const Keywords& occurrence, std::pair<double, doub
   return bounds;
 }
 
-void add_distribution(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
+void add_distribution(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const solver::ElementField field = at_gauss_points(source, model);
   const std::string& name = occurrence.text("NOM_CMP");
   const int component = component_of(occurrence, field.components, name);
@@ -94,6 +95,7 @@ void add_distribution(Table& table, const Call& call, const Keywords& occurrence
     if (occurrence.has("TYPE_MAILLE")) keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
     const auto pieces = solver::value_volumes(model, field, component, part.cells);
     if (pieces.empty()) carries_nothing(occurrence, part);
+    warn_of_cells_left_out("VOLUMOGRAMME", occurrence, part, model, diagnostics);
     const auto bounds = bounds_of(occurrence, solver::value_range(pieces));
     const auto volumes = solver::volumes_between(pieces, bounds);
     double whole = 0.0;
@@ -112,20 +114,20 @@ void add_distribution(Table& table, const Call& call, const Keywords& occurrence
 
 }  // namespace
 
-void list_norms(Table& table, const Call& call) {
+void list_norms(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   for (const Keywords& occurrence : call.factors("NORME")) {
     for (const FieldSource& source : field_sources(occurrence)) {
       if (source.model == nullptr && !call.has("MODELE")) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
       if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), source.mesh);
-      add_norms(table, call, occurrence, source, call.has("MODELE") ? *call.data<ModelConcept>("MODELE").model : *source.model);
+      add_norms(table, call, occurrence, source, call.has("MODELE") ? *call.data<ModelConcept>("MODELE").model : *source.model, diagnostics);
     }
   }
 }
 
-void list_distributions(Table& table, const Call& call) {
+void list_distributions(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto model = model_behind(call);
   for (const Keywords& occurrence : call.factors("VOLUMOGRAMME")) {
-    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_distribution(table, call, occurrence, source, *model);
+    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_distribution(table, call, occurrence, source, *model, diagnostics);
   }
 }
 

@@ -84,4 +84,15 @@ Keywords with_field(const Call& call, const Keywords& occurrence) {
   return merged;
 }
 
+void warn_of_cells_left_out(const char* keyword, const Keywords& occurrence, const Part& part, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+  const auto is_left_out = [&](int cell) {
+    return model.components_of(cell) != 0 && !model.is_skin(cell) && solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0;
+  };
+  const auto count = std::ranges::count_if(part.cells, is_left_out);
+  if (count == 0) return;
+  diagnostics.alarm("cells-left-out", fmt::format("POST_ELEM/{}: {} of the cells of {} are beams, plates or discrete elements, {} for one, which are not integrated over", keyword, count, part.kind == "TOUT" ? "the model" : part.name,
+                                                  model.mesh->cell_name(*std::ranges::find_if(part.cells, is_left_out))),
+                    occurrence.span, "name the other cells by GROUP_MA");
+}
+
 }  // namespace comma::commands

@@ -210,24 +210,12 @@ void require_component(const Keywords& occurrence, const FieldSource& source, co
                         occurrence.span_of("NOM_CMP"), "name the cells that have it by GROUP_MA");
 }
 
-// Elements of the part that have no volume to integrate over: beams, plates and discrete elements.
-void warn_of_cells_left_out(const Keywords& occurrence, const Part& part, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
-  const auto is_left_out = [&](int cell) {
-    return model.components_of(cell) != 0 && !model.is_skin(cell) && solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0;
-  };
-  const auto count = std::ranges::count_if(part.cells, is_left_out);
-  if (count == 0) return;
-  diagnostics.alarm("cells-left-out", fmt::format("POST_ELEM/INTEGRALE: {} of the cells of {} are beams, plates or discrete elements, {} for one, which are not integrated over", count, part.name,
-                                                  model.mesh->cell_name(*std::ranges::find_if(part.cells, is_left_out))),
-                    occurrence.span, "name the other cells by GROUP_MA");
-}
-
 void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const Integrals inside = integrals_of(occurrence, source, model);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
     keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-    if (!summed) warn_of_cells_left_out(occurrence, part, model, diagnostics);
+    if (!summed) warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
     std::vector<int> skin;
     std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
     std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
@@ -329,8 +317,8 @@ Product post_elem(const Call& call, Context& context) {
     if (call.has(keyword)) list_indicators(table, call, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
   if (call.has("INTEGRALE")) list_integrals(table, call, context.diagnostics);
-  if (call.has("NORME")) list_norms(table, call);
-  if (call.has("VOLUMOGRAMME")) list_distributions(table, call);
+  if (call.has("NORME")) list_norms(table, call, context.diagnostics);
+  if (call.has("VOLUMOGRAMME")) list_distributions(table, call, context.diagnostics);
   if (call.has("MINMAX")) list_extremes(table, call);
   if (call.has("TRAV_EXT")) list_work(table, call, context.diagnostics);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);
