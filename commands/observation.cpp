@@ -55,14 +55,14 @@ std::vector<Sample> samples_of(const solver::NodalField& field, int component, c
   return samples;
 }
 
-// The points of a cell that POINT names, all without it, counted from 0.
-std::vector<int> points_of(const Keywords& keywords, const solver::ElementField& field, int cell) {
-  if (!keywords.has("POINT")) return all_indices(field.points(cell));
-  std::vector<int> points;
-  for (const auto point : keywords.integers("POINT")) {
-    if (point >= 1 && point <= field.points(cell)) points.push_back(static_cast<int>(point) - 1);
+// Those of `count` that POINT or SOUS_POINT names, all without it, counted from 0.
+std::vector<int> chosen_of(const Keywords& keywords, const char* keyword, int count) {
+  if (!keywords.has(keyword)) return all_indices(count);
+  std::vector<int> chosen;
+  for (const auto number : keywords.integers(keyword)) {
+    if (number >= 1 && number <= count) chosen.push_back(static_cast<int>(number) - 1);
   }
-  return points;
+  return chosen;
 }
 
 std::vector<Sample> samples_of(const solver::ElementField& field, int component, const solver::Mesh& mesh, const std::vector<int>& cells,
@@ -71,9 +71,14 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
   const std::string& over_points = keywords.text("EVAL_ELGA");
   for (const int cell : cells) {
     std::vector<Sample> own;
-    for (const int point : points_of(keywords, field, cell)) {
-      const double value = field.at(cell, point, component);
-      if (!std::isnan(value)) own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value});
+    const int each = field.values_a_point(cell);
+    for (const int point : chosen_of(keywords, "POINT", field.points(cell) / each)) {
+      for (const int place : chosen_of(keywords, "SOUS_POINT", each)) {
+        const double value = field.at(cell, point * each + place, component);
+        if (std::isnan(value)) continue;
+        own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value});
+        if (each > 1) own.back().place.emplace_back("SOUS_POINT", std::int64_t{place + 1});
+      }
     }
     if (over_points != "VALE" && !own.empty()) {
       own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own)}};
@@ -155,7 +160,7 @@ const solver::Field& Observer::watched(const Keywords& keywords, const solver::R
   const bool is_computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
   if (is_computed && !computation) computation.emplace(computed_.problem, computed_.result);
   if (is_computed) made = computation->compute(name, computed_.result.steps.size() - 1);
-  const solver::Field& held = is_computed ? made : field_of(keywords, step);
+  const solver::Field& held = is_computed ? made : layered_field_of(keywords, step, name);
   if (keywords.text("EVAL_CMP") == "FORMULE") return made = formula_of(keywords, held, mesh_);
   if (!keywords.given("NOM_VARI")) return held;
   return made = by_variable_names(keywords, held, computed_.problem.behaviours.get());

@@ -49,8 +49,9 @@ int point_of(const Call& call, const solver::ElementField& field, int cell, cons
   if (field.support == solver::Support::cell) return 0;
   if (call.given("POINT")) {
     const auto point = call.integer("POINT");
-    if (point <= field.points(cell)) return static_cast<int>(point) - 1;
-    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), field.points(cell)), call.span_of("POINT"));
+    const int points = field.points(cell) / field.values_a_point(cell);
+    if (point <= points) return static_cast<int>(point) - 1;
+    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), points), call.span_of("POINT"));
   }
   const int node = node_of(call, mesh);
   const auto nodes = mesh.cell(cell);
@@ -73,7 +74,7 @@ double field_value(const Call& call, const solver::Field& field, const solver::M
   }
   const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", "MAILLE"}), call.given("MAILLE") ? "MAILLE" : "GROUP_MA", "cell");
   if (element.points(cell) == 0) return std::nan("");
-  return element.at(cell, point_of(call, element, cell, mesh), column);
+  return element.at(cell, point_of(call, element, cell, mesh) * element.values_a_point(cell) + sub_point(call, element, cell, mesh), column);
 }
 
 double carried_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
@@ -85,7 +86,7 @@ double carried_value(const Call& call, const solver::Field& field, const solver:
 
 double step_value(const Call& call, const solver::ResultStep& step, const solver::Mesh& mesh) {
   if (!call.given("NOM_PARA_RESU")) {
-    const solver::Field& field = field_of(call, step);
+    const solver::Field& field = layered_field_of(call, step, call.text("NOM_CHAM"));
     if (!call.given("NOM_VARI")) return carried_value(call, field, mesh);
     return carried_value(call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem.behaviours.get()), mesh);
   }

@@ -155,6 +155,19 @@ const solver::Field& layered_field_of(const Keywords& keywords, const ResultStep
                         fmt::format("it holds {}; CALC_CHAMP computes more", fmt::join(known, ", ")));
 }
 
+int sub_point(const Keywords& keywords, const solver::ElementField& field, int cell, const solver::Mesh& mesh) {
+  const int count = field.values_a_point(cell);
+  if (!keywords.given("SOUS_POINT")) {
+    if (count == 1) return 0;
+    throw DiagnosticError("missing-keyword", fmt::format("the field has {} values a point on cell {}, one for each place in its thickness", count, mesh.cell_name(cell)), keywords.span,
+                          "name one by SOUS_POINT: 1 at the lower side, 2 in the middle, 3 at the upper side of the lowest layer, and so on");
+  }
+  const auto wanted = keywords.integer("SOUS_POINT");
+  if (wanted <= count) return static_cast<int>(wanted) - 1;
+  throw DiagnosticError("out-of-bounds", fmt::format("SOUS_POINT: the field has {} a point on cell {}", count == 1 ? "one value" : fmt::format("{} values", count), mesh.cell_name(cell)),
+                        keywords.span_of("SOUS_POINT"), count == 1 ? "give 1, or leave it out" : fmt::format("give 1 to {}", count));
+}
+
 std::vector<double> multipliers_of(const ResultConcept& data, const ResultStep& step) {
   const solver::StaticProblem& problem = data.problem_of(step);
   if (!problem.model || !problem.materials) return {};

@@ -55,6 +55,10 @@ bool is_layered(const solver::Field& field);
 /// Throws DiagnosticError `layered-field` where they have.
 void require_one_value_a_point(const std::string& name, const solver::Field& field, const interpreter::Span& span);
 
+/// Which of the values of a point of the cell SOUS_POINT names, from 0. Throws DiagnosticError `missing-keyword` where there are several and it names none,
+/// `out-of-bounds`.
+int sub_point(const interpreter::Keywords& keywords, const solver::ElementField& field, int cell, const solver::Mesh& mesh);
+
 /// The multipliers of AFFE_CHAR_MECA that stand among the values of DEPL (ssnp140a); none without a computation behind the result.
 std::vector<double> multipliers_of(const ResultConcept& data, const solver::ResultStep& step);
 

@@ -97,20 +97,6 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
   return value;
 }
 
-// Which of the values of a point SOUS_POINT names, from 0. A field that has several needs it.
-int sub_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
-  const int count = field.values_a_point(cell);
-  if (!test.given("SOUS_POINT")) {
-    if (count == 1) return 0;
-    throw DiagnosticError("missing-keyword", fmt::format("the field has {} values a point on cell {}, one for each place in its thickness", count, mesh.cell_name(cell)), test.span,
-                          "name one by SOUS_POINT: 1 at the lower side, 2 in the middle, 3 at the upper side of the lowest layer, and so on");
-  }
-  const auto wanted = test.integer("SOUS_POINT");
-  if (wanted <= count) return static_cast<int>(wanted) - 1;
-  throw DiagnosticError("out-of-bounds", fmt::format("SOUS_POINT: the field has {} a point on cell {}", count == 1 ? "one value" : fmt::format("{} values", count), mesh.cell_name(cell)),
-                        test.span_of("SOUS_POINT"), count == 1 ? "give 1, or leave it out" : fmt::format("give 1 to {}", count));
-}
-
 int local_point(const Keywords& test, const ElementField& field, int cell, const solver::Mesh& mesh) {
   if (test.given("POINT")) {
     const auto point = test.integer("POINT");
