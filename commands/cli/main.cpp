@@ -79,7 +79,7 @@ void keep_memory() {
 
 int main(int argc, char** argv) {
   keep_memory();
-  CLI::App app("comma runs Code_Aster command files.");
+  CLI::App app("comma runs Code_Aster command files.", "comma");
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   Subcommands given;

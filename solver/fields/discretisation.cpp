@@ -40,23 +40,26 @@ class PointWeights {
   double operator()(int cell, int points, int point, int node) {
     const CellType type = model_.mesh->cell_types[cell];
     if (continua_.covers(cell)) return continua_.samples(cell)[static_cast<std::size_t>(point)].values[node];
-    if (model_.is_skin(cell)) return skin(type)[static_cast<std::size_t>(point)][node];
+    if (model_.is_skin(cell)) return at_points(type, boundary_family(type), skins_)[static_cast<std::size_t>(point)][node];
+    if (is_plate(model_.formulations[cell])) return at_points(type, plate_family(type), plates_)[static_cast<std::size_t>(point)][node];
     if (points == 1) return 1.0 / node_count(type);
     return point == node ? 1.0 : 0.0;  // one point a node
   }
 
  private:
-  const std::vector<Eigen::VectorXd>& skin(CellType type) {
-    auto& values = skins_[static_cast<std::size_t>(type)];
+  using ByType = std::array<std::vector<Eigen::VectorXd>, cell_type_count>;
+
+  static const std::vector<Eigen::VectorXd>& at_points(CellType type, std::string_view family, ByType& known) {
+    auto& values = known[static_cast<std::size_t>(type)];
     if (values.empty()) {
-      for (const QuadraturePoint& point : quadrature(type, boundary_family(type))) values.push_back(shape_functions(type, point.at));
+      for (const QuadraturePoint& point : quadrature(type, family)) values.push_back(shape_functions(type, point.at));
     }
     return values;
   }
 
   const Model& model_;
   ContinuumPoints continua_;
-  std::array<std::vector<Eigen::VectorXd>, cell_type_count> skins_;
+  ByType skins_, plates_;
 };
 
 bool is_at_points(const Field& field) {

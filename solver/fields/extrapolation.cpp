@@ -69,8 +69,10 @@ class Smoothing {
     const CellType type = model_.mesh->cell_types[cell];
     const int nodes = node_count(type);
     if (points == 1) return Eigen::MatrixXd::Ones(nodes, 1);
-    if (continuum_dimension(model_.formulations[cell]) == dimension(type)) {
-      Eigen::MatrixXd matrix = gauss_to_nodes(type, stiffness_family(type, model_.formulations[cell]));
+    const Formulation formulation = model_.formulations[cell];
+    const bool is_surface = is_plate(formulation) && dimension(type) == 2;
+    if (is_surface || continuum_dimension(formulation) == dimension(type)) {
+      Eigen::MatrixXd matrix = gauss_to_nodes(type, is_surface ? plate_family(type) : stiffness_family(type, formulation));
       if (matrix.cols() == points) return matrix;
     } else if (points == nodes) {
       return Eigen::MatrixXd::Identity(nodes, nodes);
@@ -128,11 +130,6 @@ ElementField smoothed(const Mesh& mesh, const ElementField& field, MatrixOf&& ma
 ElementField to_element_nodes(const Model& model, const ElementField& field) {
   Smoothing smoothing(model);
   return smoothed(*model.mesh, field, [&](int cell, int points) -> const Eigen::MatrixXd& { return smoothing.of(cell, points); });
-}
-
-ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces) {
-  const std::array matrices = {gauss_to_nodes(CellType::tria3, plate_family(CellType::tria3)), gauss_to_nodes(CellType::quad4, plate_family(CellType::quad4))};
-  return smoothed(mesh, forces, [&](int cell, int) -> const Eigen::MatrixXd& { return matrices[mesh.cell_types[static_cast<std::size_t>(cell)] == CellType::tria3 ? 0 : 1]; });
 }
 
 ElementField to_element_nodes(const Model& model, const NodalField& field) {

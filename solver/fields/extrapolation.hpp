@@ -22,9 +22,6 @@ Eigen::MatrixXd gauss_to_nodes(CellType type, std::string_view family);
 /// naming a cell with another number of points.
 ElementField to_element_nodes(const Model& model, const ElementField& field);
 
-/// Forces at the points of plates (Assembler::plate_forces) as those at their corners, by the linear functions through them (R3.06.03).
-ElementField plate_forces_at_corners(const Mesh& mesh, const ElementField& forces);
-
 /// A nodal field as one at the nodes of each element, skin excluded; cells with a node that carries nothing have none.
 ElementField to_element_nodes(const Model& model, const NodalField& field);
 

@@ -253,16 +253,18 @@ const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
   return std::get<ElementField>(known_.emplace(key, on_cells(all, others)).first->second);
 }
 
-ElementField FieldComputation::structural_forces(std::size_t step) {
-  const ElementField& others = stresses_beside_plates(step);
+ElementField FieldComputation::forces_at_nodes(std::size_t step) {
+  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
   if (!has_plates()) return others;
-  return beside(others, assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners, problem_.loads, result_.steps[step].instant));
+  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners, problem_.loads, result_.steps[step].instant);
+  of_plates.support = Support::element_node;
+  return beside(others, of_plates);
 }
 
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
   const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
-  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, plate_forces_at_corners(result_.mesh(), plate_forces(step))));
+  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, to_element_nodes(*problem_.model, plate_forces(step))));
 }
 
 bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
@@ -277,12 +279,12 @@ ElementField FieldComputation::plate_forces(std::size_t step) {
 }
 
 Field FieldComputation::section_force_field(std::size_t step) {
-  return section_forces(structural_forces(step));
+  return section_forces(stresses_beside_plates(step));
 }
 
 Field FieldComputation::end_forces(std::size_t step) {
   const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
-  return end_section_forces(forces, structural_forces(step), problem_.loads, result_.steps[step].instant);
+  return end_section_forces(forces, forces_at_nodes(step), problem_.loads, result_.steps[step].instant);
 }
 
 Field FieldComputation::fibre_stresses(std::size_t step) {
@@ -294,7 +296,7 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
-  const ElementField forces = section_forces(to_element_nodes(*problem_.model, structural_forces(step)));
+  const ElementField forces = section_forces(forces_at_nodes(step));
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   if (!names_one("NXX")) return generalised_strains(input(), forces, &imposed);

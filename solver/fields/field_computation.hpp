@@ -61,8 +61,8 @@ class FieldComputation {
   bool has_plates() const;
   const ElementField& stresses_beside_plates(std::size_t step);
   ElementField plate_forces(std::size_t step);
-  /// Those of bars, beams and discrete elements, and of plates at their corners.
-  ElementField structural_forces(std::size_t step);
+  /// SIEF_ELNO, with the forces of plates at their corners.
+  ElementField forces_at_nodes(std::size_t step);
   Field section_force_field(std::size_t step);
   Field end_forces(std::size_t step);
   Field fibre_stresses(std::size_t step);
