@@ -107,14 +107,17 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
   }
   const solver::ElementField places = places_of(from, field);
   for (const int cell : selected_cells(source, from.mesh)) {
-    const bool placed = !places.starts.empty() && places.points(cell) == field.points(cell);
-    for (int point = 0; point < field.points(cell); ++point) {
+    const int each = field.values_a_point(cell);
+    const bool placed = !places.starts.empty() && places.points(cell) == field.points(cell) / each;
+    for (int value = 0; value < field.points(cell); ++value) {
+      const int point = value / each;
       Row row = head_of(source, from);
       row.emplace_back("MAILLE", table_cell(from.mesh, cell));
       if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
       if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
+      if (each > 1) row.emplace_back("SOUS_POINT", static_cast<std::int64_t>(value % each + 1));
       if (placed) add_place(row, places.at(cell, point, 0), places.at(cell, point, 1), places.at(cell, point, 2));
-      add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, point, component); });
+      add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, value, component); });
     }
   }
 }
@@ -127,7 +130,7 @@ std::vector<int> known_indices(const Keywords& source, const std::vector<std::st
 
 // One row a node, or a point of a cell, that carries any of the components (U4.33.02).
 void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
-  for (const FieldSource& from : field_sources(source)) {
+  for (const FieldSource& from : field_sources(source, ValuesAPoint::any)) {
     const std::vector<std::string>& all = solver::components_of(from.field);
     const std::vector<int> components = source.given("NOM_CMP") ? known_indices(source, all, diagnostics) : chosen_components(source, all);
     if (std::holds_alternative<solver::NodalField>(from.field)) {

@@ -13,7 +13,7 @@ namespace comma::commands {
 using interpreter::DiagnosticError;
 using interpreter::Keywords;
 
-std::vector<FieldSource> field_sources(const Keywords& keywords) {
+std::vector<FieldSource> field_sources(const Keywords& keywords, ValuesAPoint wanted) {
   if (keywords.has("CHAM_GD")) {
     const auto& handle = keywords.concept_of("CHAM_GD");
     const FieldConcept& data = number_field(handle, keywords, "CHAM_GD");
@@ -25,7 +25,7 @@ std::vector<FieldSource> field_sources(const Keywords& keywords) {
   const bool by_name = keywords.given("NOM_VARI");
   const auto* behaviours = interpreter::data_of<ResultConcept>(handle, "RESULTAT").problem.behaviours.get();
   for (const solver::ResultStep* step : steps_with_field(keywords, result)) {
-    const solver::Field& held = field_of(keywords, *step);
+    const solver::Field& held = wanted == ValuesAPoint::any ? layered_field_of(keywords, *step, keywords.text("NOM_CHAM")) : field_of(keywords, *step);
     auto made = by_name ? std::make_shared<const solver::Field>(by_variable_names(keywords, held, behaviours)) : nullptr;
     sources.push_back({made ? *made : held,
                        result.mesh(),

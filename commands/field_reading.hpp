@@ -1,6 +1,7 @@
 // Reading fields by RESULTAT and NOM_CHAM or by CHAM_GD, step by step, as the commands that make tables do.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,8 +24,12 @@ struct FieldSource {
   std::shared_ptr<const solver::Field> made = {};  ///< what `field` is where it was made for the reader
 };
 
-/// One a selected step of RESULTAT, or the field CHAM_GD; with NOM_VARI its components are names of internal variables. Throws DiagnosticError `unknown-step`, `unknown-field`, `wrong-type`.
-std::vector<FieldSource> field_sources(const interpreter::Keywords& keywords);
+/// What a reader makes of fields that have several values a point, in the thickness of plates.
+enum class ValuesAPoint : std::uint8_t { one, any };
+
+/// One a selected step of RESULTAT, or the field CHAM_GD; with NOM_VARI its components are names of internal variables. Throws DiagnosticError `unknown-step`, `unknown-field`, `wrong-type`,
+/// `layered-field` for one with several values a point where one is wanted.
+std::vector<FieldSource> field_sources(const interpreter::Keywords& keywords, ValuesAPoint wanted = ValuesAPoint::one);
 
 /// The field at nodes: as it is, or the mean over the cells (all when null) of a field at the nodes of cells. Throws
 /// DiagnosticError `unsupported` for one at other points.
