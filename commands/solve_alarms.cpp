@@ -98,6 +98,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",
                           zone, mesh.node_name(doubt.node), doubt.length, 100.0 * doubt.share),
               how_to_follow(contact)};
+    case solver::DoubtKind::weak_friction:
+      return {"weak-friction",
+              fmt::format("faces of zone {} are partly in contact, and their points that slide lack {:.0f} % of the friction that COULOMB times all that presses would be: the limit there is that of "
+                          "multipliers which they share with open points",
+                          zone, 100.0 * doubt.share),
+              "refine the slave side there, or put points on the nodes (INTEGRATION='AUTO' on linear faces)"};
     case solver::DoubtKind::coarse_face:
       return {"coarse-slave",
               fmt::format("where faces of the slave side of zone {} are partly in contact their points overlap the master by {:.3g} on the mean, {:.0f} % of what contact pushes back: forces come out too small by about that share",

@@ -13,7 +13,7 @@ namespace comma::commands {
 /// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive definite.
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
 
-/// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave` on what may be wrong with the contact and the bounds of a solution.
+/// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave`, `weak-friction` and others on what may be wrong with the contact and the bounds of a solution.
 void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem, const solver::ContactDoubts& doubts, Context& context);
 
 /// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.

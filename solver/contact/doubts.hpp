@@ -23,6 +23,7 @@ enum class DoubtKind : std::uint8_t {
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with that
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
+  weak_friction,  ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers of nodes they share with open ones
   coarse_face,  ///< points between nodes overlap: faces that are partly in contact press for all of their points together
   kept_facet,  ///< points that hopped between two facets are left on one of them
   restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
@@ -32,7 +33,7 @@ enum class DoubtKind : std::uint8_t {
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`, `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back (infinite where it pushes nothing)
+  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`, `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back (infinite where it pushes nothing); `weak_friction`: of what points that slide lack in the limit of all
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
@@ -59,6 +60,9 @@ inline constexpr double doubtful_depth = 0.1;
 inline constexpr double penalty_goal = 1e-3;
 /// Contact forces are short by about the share that master nodes have gone through on the mean; below this it passes for what a mesh leaves.
 inline constexpr double doubtful_passage = 0.05;
+
+/// Friction is short by this share of its limit over the whole zone; below, that passes for what a mesh leaves.
+inline constexpr double doubtful_friction = 0.05;
 
 /// The penalty that leaves `penalty_goal`, the next power of ten, where the present one leaves `share`: both in series with the
 /// compliance of the bodies.

@@ -24,6 +24,7 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
   if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
   if (rows_.rows() == 0) return;
   note_coarse_faces(u, doubts);
+  note_weak_friction(doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
@@ -69,6 +70,21 @@ void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& do
     const double mean = area[zone] > 0.0 ? overlap[zone] / area[zone] : 0.0;
     if (mean > doubtful_passage * reach) doubts.note({.kind = DoubtKind::coarse_face, .zone = static_cast<int>(zone), .share = mean / reach, .length = mean});
   }
+}
+
+/// The limit of friction is that of the multiplier, without the augmentation by the gap, and a face that is partly in contact has little of the multiplier where it presses.
+void MixedContact::note_weak_friction(ContactDoubts& doubts) const {
+  std::vector<double> limit(definition_.zones.size(), 0.0), missing = limit;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows < 2 || point.node_count < 2 || state_.statuses[p] == ContactStatus::open) continue;
+    const auto zone = static_cast<std::size_t>(points_[p].zone);
+    const double own_limit = point.law.friction * std::abs(forces_[point.first_row]);
+    limit[zone] += own_limit;
+    if (state_.statuses[p] == ContactStatus::sliding) missing[zone] += own_limit - forces_.segment(point.first_row + 1, point.rows - 1).norm();
+  }
+  for (std::size_t zone = 0; zone < limit.size(); ++zone)
+    if (missing[zone] > doubtful_friction * limit[zone]) doubts.note({.kind = DoubtKind::weak_friction, .zone = static_cast<int>(zone), .share = missing[zone] / limit[zone]});
 }
 
 void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {
