@@ -457,9 +457,9 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   }
 
   const auto reuse = std::ranges::find(written.arguments, "reuse", &Argument::name);
+  // Editors number the commands that they write (identifier="3:1"), and no command takes that for anything.
   std::vector<Argument> arguments;
-  std::ranges::copy_if(written.arguments, std::back_inserter(arguments),
-                       [](const Argument& a) { return a.name != "reuse"; });
+  std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse" && a.name != "identifier"; });
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
   CheckedCall checked;

@@ -119,6 +119,12 @@ TEST_CASE("Factors may be one, several, or a dict") {
   CHECK(checked.call.factors("SPOT")[1].texts("GROUP") == std::vector<std::string>{"TOP"});
 }
 
+TEST_CASE("The number that an editor gives a command passes with any") {
+  Checker checker;
+  CHECK(checker.check("LOAD", {{"identifier", Value("3:1")}, {"MODEL", Value(checker.model)}, {"PRES", Value(3)}}).complete);
+  CHECK(checker.diagnostics.items().empty());
+}
+
 TEST_CASE("None leaves a keyword out") {
   Checker checker;
   const CheckedCall checked =
