@@ -310,8 +310,9 @@ class NameCheck {
     return models;
   }
 
-  /// Whether every call before this one that changes the concept has been run.
+  /// Whether every call before this one that changes the concept has been run, and none of them is wrong.
   bool is_up_to_date(const Concept& handle) const {
+    if (graph_.is_spoiled(handle)) return false;
     for (const CommandNode& other : graph_.nodes()) {
       if (other.id >= node_.id) break;
       const bool changes_names = other.product.get() == &handle && other.call.command != "MODI_MAILLAGE";

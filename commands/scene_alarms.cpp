@@ -161,6 +161,8 @@ void warn_of_initial_strains(const interpreter::Call& call, const solver::Static
 void warn_of_missing_state(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.initial || !call.factor("ETAT_INIT").has("EVOL_NOLI")) return;
   const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const auto is_computed = [](const solver::ResultStep& step) { return step.parameters.contains("ITER_GLOB"); };
+  if (std::ranges::none_of(given.data<ResultConcept>("EVOL_NOLI").result.steps, is_computed)) return;  // CREA_RESU makes what is meant
   const auto warn = [&](const char* field, const char* what, const char* keyword) {
     context.diagnostics.alarm("no-initial-field", fmt::format("{}: the step of {} that it starts from holds no {}: {} begin at zero", call.command, given.concept_of("EVOL_NOLI")->name, field, what),
                               given.span_of("EVOL_NOLI"), fmt::format("keep {} in the result (ARCHIVAGE, CHAM_EXCLU), or give the field by {}", field, keyword));

@@ -132,6 +132,11 @@ void CommandGraph::spoil(const Concept& changed) {
   histories_[changed.id].is_spoiled = true;
 }
 
+bool CommandGraph::is_spoiled(const Concept& handle) const {
+  const auto found = histories_.find(handle.id);
+  return found != histories_.end() && found->second.is_spoiled;
+}
+
 /// From the first change on, whoever reads something made from the concept counts among its readers.
 void CommandGraph::note_change(const Concept& changed) {
   History& own = histories_[changed.id];

@@ -62,6 +62,8 @@ class CommandGraph {
 
   /// A call that was to change the concept in place is wrong: what reads it from here on, or something made from it, is not complete.
   void spoil(const Concept& changed);
+  /// Whether such a call was to change it.
+  bool is_spoiled(const Concept& handle) const;
 
   std::vector<CommandNode>& nodes() { return nodes_; }
   const std::vector<CommandNode>& nodes() const { return nodes_; }

@@ -286,7 +286,7 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
     const Formulation formulation = model_.formulations[cell];
     if (continuum_dimension(formulation) == 0 || mixed_field_count(formulation) > 0) {
       try {
-        block->add_geometric_stiffness(stresses_of(*block, u, state_, imposed_.get()), state_, starts, matrix.valuePtr());
+        block->add_geometric_stiffness(stresses_in(*block, u, imposed_.get()), state_, starts, matrix.valuePtr());
       } catch (const Error& error) {
         throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)), error.hint());
       }
@@ -317,9 +317,20 @@ SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
   return matrix;
 }
 
-Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_internal_forces, u, state_); }
+Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const { return with_initial(blocks_->sum(&ElementBlock::add_internal_forces, u, state_)); }
 
-Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_forces, u, state_); }
+Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const { return with_initial(blocks_->sum(&ElementBlock::add_starting_forces, u, state_)); }
+
+Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
+  if (initial_forces_.size() > 0) forces += initial_forces_;
+  return forces;
+}
+
+std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u, const ImposedStrains* imposed) const {
+  std::vector<double> values = stresses_of(block, u, state_, imposed);
+  if (const auto found = initial_stresses_.find(&block); found != initial_stresses_.end()) std::ranges::transform(values, found->second, values.begin(), std::plus<>());
+  return values;
+}
 
 Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
   return state_.empty() && !imposed_ ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
@@ -335,9 +346,13 @@ Eigen::VectorXd Assembler::residual_weights() const {
 Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) {
-    std::vector<double> values;
-    if (block->has_memory()) values = read_block(*block, stress_names(*block), &stresses, *model_.mesh);
-    block->add_forces_of_stresses(u, state_, values, sums);
+    if (block->has_memory()) {
+      block->add_forces_of_stresses(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh), sums);
+      continue;
+    }
+    block->add_internal_forces(u, state_, sums);
+    if (!block->takes_initial_stresses()) continue;
+    if (const std::vector<double> excess = excess_of(*block, u, stresses); !excess.empty()) block->add_forces_of_stresses(u, state_, excess, sums);
   }
   return rounded(sums);
 }
@@ -355,29 +370,58 @@ void Assembler::accept(const Eigen::VectorXd& u) {
 }
 
 void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables) {
+  initial_stresses_.clear();
+  initial_forces_.resize(0);
   for (const auto& block : blocks_->list) {
     if (!block->has_memory()) {
-      if (stresses != nullptr) check_initial_stresses(*block, u, *stresses);
+      if (stresses != nullptr) take_initial_stresses(*block, u, *stresses);
       continue;
     }
     block->resume(u, state_, read_block(*block, stress_names(*block), stresses, *model_.mesh),
                   read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
   }
+  if (initial_stresses_.empty()) return;
+  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
+  for (const auto& [block, values] : initial_stresses_) block->add_forces_of_stresses(u, state_, values, sums);
+  initial_forces_ = rounded(sums);
 }
 
-void Assembler::check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
+// What the field has beyond the stresses of the displacements; empty where that is nothing.
+std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
   const bool has_forces = block.force_point_count(PlatePlaces::corners) > 0;
-  const ElementField of_plates = has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, nullptr)) : ElementField();
-  const std::vector<double> wanted = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh) : read_block(block, stress_names(block), &given, *model_.mesh);
-  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh) : stresses_of(block, u, state_, nullptr);
+  const ElementField of_plates = has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get())) : ElementField();
+  std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh) : read_block(block, stress_names(block), &given, *model_.mesh);
+  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh) : stresses_of(block, u, state_, imposed_.get());
   double largest = 0.0;
   for (const double each : known) largest = std::max(largest, std::abs(each));
+  bool is_all = true;
   for (std::size_t k = 0; k < known.size(); ++k) {
-    if (std::abs(wanted[k] - known[k]) <= initial_stress_tolerance * std::max(largest, std::abs(wanted[k]))) continue;
-    const std::size_t each = known.size() / block.cells().size();
-    throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[k / each])),
-                "only isotropic continua in small or logarithmic strains take up stresses of another origin");
+    const double difference = excess[k] - known[k];
+    const bool is_rounding = std::abs(difference) <= initial_stress_tolerance * std::max(largest, std::abs(excess[k]));
+    excess[k] = is_rounding ? 0.0 : difference;
+    is_all = is_all && is_rounding;
   }
+  return is_all ? std::vector<double>() : excess;
+}
+
+void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) {
+  std::vector<double> excess = excess_of(block, u, given);
+  if (excess.empty()) return;
+  if (!block.takes_initial_stresses()) {
+    const std::size_t each = excess.size() / block.cells().size();
+    const auto first = static_cast<std::size_t>(std::ranges::find_if(excess, [](double value) { return value != 0.0; }) - excess.begin());
+    throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[first / each])),
+                "only isotropic continua in small or logarithmic strains, bars and beams take up stresses of another origin");
+  }
+  initial_stresses_.emplace(&block, std::move(excess));
+}
+
+bool Assembler::takes_initial_stresses() const {
+  return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->takes_initial_stresses() && !block->has_memory(); });
+}
+
+bool Assembler::has_initial_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
+  return std::ranges::any_of(blocks_->list, [&](const auto& block) { return block->takes_initial_stresses() && !block->has_memory() && !excess_of(*block, u, stresses).empty(); });
 }
 
 ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
@@ -458,7 +502,7 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
     }
   }
   ElementField field = field_at_points("SIEF_R", std::move(components));
-  for (const auto& block : blocks_->list) write_block(*block, stress_names(*block), stresses_of(*block, u, state_, imposed), field);
+  for (const auto& block : blocks_->list) write_block(*block, stress_names(*block), stresses_in(*block, u, imposed), field);
   if (!has_plates()) return field;
   return side_by_side(field, plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed)));
 }

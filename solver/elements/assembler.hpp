@@ -1,6 +1,7 @@
 // From elements to the global system: stiffness, internal forces, external forces, stresses.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,7 +76,12 @@ class Assembler {
   /// where all are forces.
   Eigen::VectorXd residual_weights() const;
 
-  /// The internal forces (n) of a field of stresses as stresses() gives it. Where materials have no memory, those of u.
+  /// Whether there are elements without a memory that may have stresses beside those of their displacements: bars and beams.
+  bool takes_initial_stresses() const;
+  /// Whether they have some in the field.
+  bool has_initial_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
+
+  /// The internal forces (n) of a field of stresses as stresses() gives it. Where materials have no memory, those of u, with what bars and beams have besides.
   Eigen::VectorXd forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
 
   /// Whether stresses depend on more than the displacements of the moment: then stiffness(), internal_forces() and the fields are those of
@@ -88,7 +94,7 @@ class Assembler {
   void accept(const Eigen::VectorXd& u);
   /// A step begins at u, at the assembler's instant. `stresses`, `variables`: as stresses() and internal_variables() give them; null: zero.
   /// Throws Error `incompatible-field` where a field lacks a cell, a point or a component; `unsupported` for stresses that an element without
-  /// memory does not have at u.
+  /// memory does not have at u, but for bars and beams: what they have besides stays, in internal_forces() and stresses().
   void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other components.
   ElementField internal_variables(const Eigen::VectorXd& u) const;
@@ -140,8 +146,11 @@ class Assembler {
   ElementField stresses(const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
   ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, const ImposedStrains* imposed) const;
   bool has_plates() const;
+  Eigen::VectorXd with_initial(Eigen::VectorXd forces) const;
+  std::vector<double> stresses_in(const ElementBlock& block, const Eigen::VectorXd& u, const ImposedStrains* imposed) const;
+  std::vector<double> excess_of(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
   void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
-  void check_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
+  void take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given);
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
 
   struct Blocks;
@@ -152,6 +161,8 @@ class Assembler {
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
+  std::map<const ElementBlock*, std::vector<double>> initial_stresses_;  ///< that elements without a memory have beside those of their displacements
+  Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };
 

@@ -64,6 +64,9 @@ class ElementBlock {
   virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {
     add_internal_forces(u, state, forces);
   }
+  /// Whether an element without a memory may start from stresses that are not those of its displacements, and has them beside these from there on:
+  /// add_forces_of_stresses() then takes the stresses for what they are.
+  virtual bool takes_initial_stresses() const { return false; }
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
   /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent unless an element knows a better one.

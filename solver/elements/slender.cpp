@@ -142,6 +142,29 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
+  bool takes_initial_stresses() const override { return true; }
+  /// Forces at the ends: see stresses().
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> stresses, ForceSum forces) const override {
+    if (stresses.empty()) return add_internal_forces(u, state, forces);
+    const std::size_t each = static_cast<std::size_t>(point_count()) * stress_names().size();
+    std::array<int, size> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const double* own = stresses.data() + static_cast<std::size_t>(element) * each;
+      if constexpr (is_beam) {
+        for (int part = 0; part < 4; ++part) {  // force and moment at the first end, then at the second
+          const Eigen::Vector3d global = axes(element).transpose() * Eigen::Map<const Eigen::Vector3d>(own + 3 * part);
+          for (int i = 0; i < 3; ++i) forces[dofs[3 * part + i]] += part < 2 ? -global[i] : global[i];
+        }
+      } else {
+        for (int i = 0; i < Components; ++i) {
+          forces[dofs[i]] -= own[0] * axes(element)(0, i);
+          forces[dofs[Components + i]] += own[0] * axes(element)(0, i);
+        }
+      }
+    }
+  }
+
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return is_beam ? 2 : 1; }
   std::span<const std::string_view> stress_names() const override {

@@ -212,11 +212,21 @@ const Field& FieldComputation::remembered(std::string_view name, std::size_t ste
 }
 
 const ElementField* FieldComputation::remembered_stresses(std::size_t step) const {
-  return assembler_.has_memory() ? &std::get<ElementField>(remembered("SIEF_ELGA", step)) : nullptr;
+  const bool is_held = assembler_.takes_initial_stresses() && result_.steps[step].fields.contains("SIEF_ELGA");
+  return is_held || assembler_.has_memory() || began_with_stresses() ? &std::get<ElementField>(remembered("SIEF_ELGA", step)) : nullptr;
+}
+
+bool FieldComputation::began_with_stresses() const { return assembler_.takes_initial_stresses() && problem_.initial && problem_.initial->stresses; }
+
+// What bars and beams have beside the stresses of their displacements is in no energy, nor in the strains that follow from forces.
+void FieldComputation::require_no_initial_stresses(std::string_view name, std::size_t step) {
+  const ElementField* known = remembered_stresses(step);
+  if (known == nullptr || !assembler_.has_initial_stresses(to_dofs(displacement(step), dofs_), *known)) return;
+  throw Error("unsupported", fmt::format("{} of bars and beams is not known beside initial stresses", name), "begin without SIGM in ETAT_INIT, or take fields of forces (EFGE_ELNO)");
 }
 
 Field FieldComputation::stresses(std::size_t step) {
-  if (assembler_.has_memory()) return remembered("SIEF_ELGA", step);
+  if (assembler_.has_memory() || began_with_stresses()) return remembered("SIEF_ELGA", step);
   return assembler_.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
 }
 
@@ -296,6 +306,7 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
+  require_no_initial_stresses("DEGE_ELNO", step);
   const ElementField forces = section_forces(forces_at_nodes(step));
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
@@ -306,6 +317,7 @@ Field FieldComputation::section_strains(std::size_t step) {
 }
 
 Field FieldComputation::section_strains_at_points(std::size_t step) {
+  require_no_initial_stresses("DEGE_ELGA", step);
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   return generalised_strains(input(), element_field("EFGE_ELGA", step), &imposed);
 }
@@ -403,6 +415,7 @@ bool FieldComputation::has_bars_with_memory() const {
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
   if (has_bars_with_memory()) assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
+  require_no_initial_stresses("the elastic energy", step);
   Field energies = assembler_.elastic_energies(u);
   const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
@@ -413,6 +426,7 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
   if (assembler_.has_memory())
     throw Error("unsupported", "the potential energy of a material with a memory does not follow from its displacements",
                 "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
+  require_no_initial_stresses("the potential energy", step);
   return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
 }
 
@@ -445,6 +459,7 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
     (is_bar(model.formulations[cell]) ? bars : others).push_back(cell);
   }
   if (!others.empty()) {
+    require_no_initial_stresses("the total energy", step);
     if (!assembler_.state().empty() || strains_act_on(step, others))
       throw Error("unsupported", "the total energy of beams, plates and discrete elements is not known beside strains of command variables or of loads",
                   "take the elastic energy (ENEL_ELEM, ENER_ELAS)");

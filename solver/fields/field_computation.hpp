@@ -94,6 +94,8 @@ class FieldComputation {
   Field energy_of_loading(std::size_t step);
   const Field& remembered(std::string_view name, std::size_t step) const;
   const ElementField* remembered_stresses(std::size_t step) const;
+  bool began_with_stresses() const;
+  void require_no_initial_stresses(std::string_view name, std::size_t step);
   Field internal_forces(std::size_t step);
   Field internal_forces_of(std::span<const int> cells, std::size_t step);
   Field reactions(std::size_t step);
