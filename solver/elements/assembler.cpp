@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -328,7 +329,8 @@ Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
 
 std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u, const ImposedStrains* imposed) const {
   std::vector<double> values = stresses_of(block, u, state_, imposed);
-  if (const auto found = initial_stresses_.find(&block); found != initial_stresses_.end()) std::ranges::transform(values, found->second, values.begin(), std::plus<>());
+  for (const auto& [other, initial] : initial_stresses_)
+    if (other == &block) std::ranges::transform(values, initial, values.begin(), std::plus<>());
   return values;
 }
 
@@ -413,7 +415,7 @@ void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::Ve
     throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[first / each])),
                 "only isotropic continua in small or logarithmic strains, bars and beams take up stresses of another origin");
   }
-  initial_stresses_.emplace(&block, std::move(excess));
+  initial_stresses_.emplace_back(&block, std::move(excess));
 }
 
 bool Assembler::takes_initial_stresses() const {

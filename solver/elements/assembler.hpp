@@ -1,10 +1,11 @@
 // From elements to the global system: stiffness, internal forces, external forces, stresses.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -161,7 +162,7 @@ class Assembler {
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
-  std::map<const ElementBlock*, std::vector<double>> initial_stresses_;  ///< that elements without a memory have beside those of their displacements
+  std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;  ///< that elements without a memory have beside those of their displacements
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };
