@@ -109,13 +109,20 @@ void take_state(ResultConcept& product, const Keywords& occurrence) {
   product.problem.behaviours = behaviours_of(occurrence, *product.problem.model, false);
 }
 
-void add_field(ResultConcept& product, const Keywords& occurrence) {
+// The name of the field stands in the occurrence, in older files once beside them.
+const std::string& field_name(const Call& call, const Keywords& occurrence) {
+  if (occurrence.has("NOM_CHAM")) return occurrence.text("NOM_CHAM");
+  if (call.has("NOM_CHAM")) return call.text("NOM_CHAM");
+  throw DiagnosticError("missing-keyword", "CREA_RESU/AFFE needs NOM_CHAM", occurrence.span, "give the name of the field in the result, such as DEPL or SIEF_ELGA");
+}
+
+void add_field(ResultConcept& product, const Call& call, const Keywords& occurrence) {
   const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
   take_support(product, occurrence, data);
   take_state(product, occurrence);
   for (const double instant : instants_of(occurrence)) {
     solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
-    step.fields.insert_or_assign(occurrence.text("NOM_CHAM"), at_instant(data, instant, occurrence.span));
+    step.fields.insert_or_assign(field_name(call, occurrence), at_instant(data, instant, occurrence.span));
   }
 }
 
@@ -148,7 +155,7 @@ Product crea_resu(const Call& call, Context&) {
                             : std::make_shared<ResultConcept>();
   for (const Keywords& occurrence : call.factors("ASSE")) append(*product, occurrence);
   int order = product->result.steps.empty() ? 1 : product->result.steps.front().order;
-  for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, occurrence);
+  for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, call, occurrence);
   for (solver::ResultStep& step : product->result.steps) step.order = order++;
   if (!product->problem.properties) product->problem.properties = std::make_shared<const solver::ElementProperties>();
   if (!call.reuse) return product;
