@@ -413,7 +413,7 @@ void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::Ve
     const std::size_t each = excess.size() / block.cells().size();
     const auto first = static_cast<std::size_t>(std::ranges::find_if(excess, [](double value) { return value != 0.0; }) - excess.begin());
     throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[first / each])),
-                "only isotropic continua in small or logarithmic strains, bars and beams take up stresses of another origin");
+                "only isotropic continua in small or logarithmic strains, and bars and beams in small displacements, take up stresses of another origin");
   }
   initial_stresses_.emplace_back(&block, std::move(excess));
 }
