@@ -60,7 +60,7 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("take COEF_PENA = {:.0e}, or ALGO_CONT='CONTRAINTE'", doubt.wanted)};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",
-              fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without contact: "
+              fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they would slip without friction: "
                           "friction comes out too small by about that share",
                           friction_penalty, doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
               fmt::format("take {} = {:.0e}, or {}, where what sticks does not creep", friction_penalty, doubt.wanted,

@@ -18,7 +18,7 @@ enum class DoubtKind : std::uint8_t {
   soft_penalty,   ///< slave points sink in by a good part of what they would without contact
   deep_penalty,   ///< they sink in by a good part of the size of the slave side
   soft_bound,     ///< bounds that give way are passed by a good part of what they would be without
-  soft_friction,  ///< points that stick creep by a good part of what they would slip without contact
+  soft_friction,  ///< points that stick creep by a good part of what they would slip without friction
   unshared_friction,  ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having been found
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with that
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force

@@ -28,17 +28,25 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
-  const Eigen::VectorXd without = jumps_without_contact(u);
+  const Eigen::VectorXd without = jumps_without(forces_, u);
   note_held_overlaps(now, doubts);
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     if (definition_.zones[zone].mixed.penalised) note_depth(static_cast<int>(zone), now, without, doubts);
-    if (definition_.zones[zone].mixed.friction_penalised) note_creep(static_cast<int>(zone), u, now, without, doubts);
+    if (definition_.zones[zone].mixed.friction_penalised) note_creep(static_cast<int>(zone), u, now, jumps_without(shears(), u), doubts);
   }
 }
 
-/// Where the present loads would take the points if contact forces did not hold them.
-Eigen::VectorXd MixedContact::jumps_without_contact(const Eigen::VectorXd& u) {
-  Eigen::MatrixXd push = forces();
+/// The part of the contact forces along the surfaces.
+Eigen::VectorXd MixedContact::shears() const {
+  Eigen::VectorXd shears = forces_;
+  for (const CondensedPoint& point : problem_.points)
+    if (point.rows > 0) shears[point.first_row] = 0.0;
+  return shears;
+}
+
+/// Where the present loads and the rest of the contact forces would take the points if these did not hold them.
+Eigen::VectorXd MixedContact::jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u) {
+  Eigen::MatrixXd push = reduced_rows_.transpose() * contact_forces;
   tangent_.solve_once(push);
   return jumps(u) - reduced_rows_ * push;
 }

@@ -135,7 +135,8 @@ class MixedContact {
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
   void update_schur();
-  Eigen::VectorXd jumps_without_contact(const Eigen::VectorXd& u);
+  Eigen::VectorXd shears() const;
+  Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
