@@ -16,9 +16,10 @@ constexpr std::size_t cycle_length_limit = 4;
 /// Updates in which the geometry should come twice as near to rest.
 constexpr std::size_t patience = 10;
 /// After this many updates they are relaxed where the last one moves the geometry by more than half of any before, and points keep their facets within a margin: within the
-/// widest one after `updates_to_widest`, and a hundredth less in each before.
+/// widest one after `updates_to_widest`, and a hundredth less in each before. That leaves `updates_at_widest` at least to settle.
 constexpr int free_updates = 5;
 constexpr int updates_to_widest = 11;
+constexpr int updates_at_widest = 3;
 constexpr double widest_margin = 0.05;
 /// A margin beyond which points that were kept are told of.
 constexpr double telling_margin = 1e-3;
@@ -81,7 +82,7 @@ double GeometryUpdates::margin() const { return margin_of(static_cast<int>(histo
 
 double GeometryUpdates::margin_of(int done) const {
   if (contact_.geometry_update != GeometryUpdate::automatic || done < free_updates) return 0.0;
-  const int to_go = std::min(updates_to_widest, contact_.max_geometry_updates - 1) - done;
+  const int to_go = std::min(updates_to_widest, contact_.max_geometry_updates - updates_at_widest) - done;
   return widest_margin * std::pow(100.0, -std::max(0, to_go));
 }
 

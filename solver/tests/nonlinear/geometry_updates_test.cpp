@@ -130,11 +130,12 @@ TEST_CASE("Points keep their facets within a margin that grows with updates that
   corner.contact.max_geometry_updates = 10;
   const Eigen::VectorXd start = corner.at(0.0);
   GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
-  for (int update = 0; update < 9; ++update) {
+  for (int update = 0; update < 10; ++update) {
     if (update < 5) CHECK(updates.margin() == 0.0);
+    // Three updates are left to settle within the widest one.
+    if (update >= 7) CHECK(updates.margin() == exactly(0.05));
     updates.settled(corner.at(update % 2), corner.at(1 - update % 2));
   }
-  CHECK(updates.margin() == exactly(0.05));
   corner.contact.geometry_update = GeometryUpdate::controlled;
   CHECK(updates.margin() == 0.0);
 }
