@@ -138,14 +138,20 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
   if (problem.initial || !problem.materials || problem.materials->variables.empty()) return;
   const solver::VariableState state(*problem.model->mesh, problem.materials->variables, instant);
   const solver::FieldInput input{*problem.model, *problem.materials, *problem.properties, state};
-  const solver::ElementField strains = solver::variable_strain_field(input);
   constexpr double rounding = 1e-12;
-  const auto found = std::ranges::find_if(strains.values, [](double value) { return std::abs(value) > rounding; });
-  if (found == strains.values.end()) return;
+  const auto first_strain = [](const solver::ElementField& field, std::string_view prefix) {
+    const std::size_t width = field.components.size();
+    for (std::size_t k = 0; k < field.values.size(); ++k)
+      if (field.components[k % width].starts_with(prefix) && std::abs(field.values[k]) > rounding) return field.values[k];
+    return 0.0;
+  };
+  const double by_variables = first_strain(solver::variable_strain_field(input), "EP");
+  const double strain = by_variables != 0.0 ? by_variables : first_strain(solver::command_variable_field(input), "EPSA");
+  if (strain == 0.0) return;
   context.diagnostics.alarm("strained-start",
                             fmt::format("{}: at the first instant, {:.6g}, command variables differ from their reference values (strain {:.3g}): elasticity without a memory takes the whole strain, "
                                         "laws with a memory and large strains what changes from there",
-                                        call.command, instant, *found),
+                                        call.command, instant, strain),
                             call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
 }
 
@@ -212,8 +218,9 @@ void warn_of_released_points(const interpreter::Call& call, const solver::Static
                             call.factor("ETAT_INIT").span, "give the result and its step (EVOL_NOLI)");
 }
 
-void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context) {
-  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return;
+/// Whether it has warned.
+bool warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before, const solver::StaticProblem& problem, Context& context) {
+  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return false;
   const solver::BehaviourOfCells& now = *problem.behaviours;
   const std::vector<std::string> none = {"VIDE"};
   for (std::size_t cell = 0; cell < std::min(before->size(), now.size()); ++cell) {
@@ -224,7 +231,36 @@ void warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOf
                               fmt::format("{}: the law of cell {} had the internal variables {} and now has {}: they are taken by their numbers", call.command,
                                           problem.model->mesh->cell_name(static_cast<int>(cell)), fmt::join(had, ", "), fmt::join(has, ", ")),
                               call.factor("ETAT_INIT").span, "go on with the same law, or give VARI that belong to the new one");
-    return;
+    return true;
+  }
+  return false;
+}
+
+// Fields of another law, or brought from nodes to points, may hold what no law leaves behind.
+void warn_of_odd_variables(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !problem.initial->variables || !problem.behaviours || problem.behaviours->empty()) return;
+  const solver::ElementField& variables = *problem.initial->variables;
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const auto warn = [&](int cell, const std::string& what, const char* effect, const char* hint) {
+    context.diagnostics.alarm("odd-variables", fmt::format("{}: the initial state has {} in cell {}: {}", call.command, what, problem.model->mesh->cell_name(cell), effect),
+                              given.span_of(given.has("VARI") ? "VARI" : "EVOL_NOLI"), hint);
+  };
+  constexpr double rounding = 1e-12;
+  const int width = static_cast<int>(variables.components.size());
+  for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
+    const auto names = solver::variable_names((*problem.behaviours)[static_cast<std::size_t>(cell)]);
+    if (names.empty() || names.front() == "VIDE" || problem.model->components_of(cell) == 0) continue;
+    for (int point = 0; point < variables.points(cell); ++point) {
+      for (int k = static_cast<int>(names.size()); k < width; ++k) {
+        if (!(std::abs(variables.at(cell, point, k)) > 0.0)) continue;
+        return warn(cell, fmt::format("{} = {:.6g}", variables.components[static_cast<std::size_t>(k)], variables.at(cell, point, k)), fmt::format("its law has {} internal variables, and what is beyond them counts for nothing", names.size()).c_str(),
+                    "give the internal variables of the law of COMPORTEMENT");
+      }
+      const int strain = names.front() == "EPSPEQ" ? variables.component("V1") : -1;
+      if (strain < 0 || !(variables.at(cell, point, strain) < -rounding)) continue;
+      return warn(cell, fmt::format("a cumulated plastic strain of {:.6g}", variables.at(cell, point, strain)), "it cannot be below zero",
+                  "give VARI_ELGA as it was computed: what was brought to nodes (VARI_ELNO) or interpolated overshoots");
+    }
   }
 }
 
@@ -281,7 +317,7 @@ void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::Static
   warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
-  warn_of_other_laws(call, before, problem, context);
+  if (!warn_of_other_laws(call, before, problem, context)) warn_of_odd_variables(call, problem, context);
 }
 
 }  // namespace comma::commands

@@ -23,10 +23,11 @@ double plastic_modulus(double young, double slope) {
   return slope / (1.0 - slope / young);  // young * slope would overflow before the modulus, which is above -young, does
 }
 
+/// Below the first point the first piece goes on.
 std::pair<double, double> on_piece(const PiecewiseCurve& curve, double p) {
   const auto& points = curve.points;
   const auto next = std::upper_bound(points.begin(), points.end(), p, [](double at, const auto& point) { return at < point.first; });
-  if (next == points.end()) {
+  if (next == points.end() || points.size() == 1) {
     if (curve.ends && p > points.back().first) {
       throw Error("out-of-function", fmt::format("the plastic strain reaches {:.6g}, beyond the last point ({:.6g}) of the traction curve", p, points.back().first),
                   "give more points, or say how the curve goes on (PROL_DROITE)");

@@ -46,3 +46,10 @@ TEST_CASE("along Lueders' plateau the yield stress is that at its end, and from 
   }
   for (const double p : {end, 1.5 * end}) CHECK(hardening(law, p) == hardening(saturating, p));
 }
+
+TEST_CASE("below zero, where rounding or interpolation may leave a plastic strain, the first piece of R(p) goes on") {
+  const PiecewiseCurve line{{{0.0, 100.0}}, 50.0, true};
+  CHECK(hardening(line, -1e-16) == std::pair(100.0 - 50.0 * 1e-16, 50.0));
+  CHECK(hardening(line, -0.5) == std::pair(75.0, 50.0));
+  CHECK(hardening(PiecewiseCurve{{{0.0, 100.0}, {1.0, 120.0}}, 0.0, false}, -0.5) == std::pair(90.0, 20.0));
+}
