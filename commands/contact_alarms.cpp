@@ -88,13 +88,13 @@ bool lies_in_plane(const solver::Mesh& mesh) {
   return std::ranges::all_of(mesh.nodes, [](const auto& place) { return place[2] == 0.0; });
 }
 
-/// Whether a direction that stands for the outward normal of all these cells points into the body everywhere.
+/// Whether a direction that stands for the outward normal of all these cells points into the bodies behind them everywhere. Plates, beams and rigid faces have no inside.
 bool points_inward(const std::array<double, 3>& direction, std::span<const int> cells, const solver::Mesh& mesh) {
   std::vector<Eigen::Vector3d> places;
   for (const auto& place : mesh.nodes) places.emplace_back(place[0], place[1], place[2]);
   const Eigen::Vector2d inside(0.25, 0.25);
   const auto is_against = [&](int cell) { return solver::outward_normal(mesh, cell, inside, places).dot(Eigen::Vector3d(direction.data())) < 0.0; };
-  return std::ranges::all_of(cells, is_against);
+  return solver::loose_skin(mesh, cells).empty() && std::ranges::all_of(cells, is_against);
 }
 
 // A fixed direction stands for the outward normal: along one that points into the body bodies go through each other.
@@ -129,6 +129,22 @@ void warn_of_inward_normals(const Call& call, const solver::ContactDefinition& d
   }
 }
 
+// Lines of solids are integrated along their length, faces over their area: where both meet, pressures are shared between them.
+void warn_of_mixed_faces(const Call& call, const solver::ContactDefinition& definition, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+  if (definition.formulation != solver::ContactFormulation::mixed) return;
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const std::vector<int>& cells = definition.zones[k].slave_cells;
+    const auto has_dimension = [&](int wanted) { return [&, wanted](int cell) { return solver::dimension(model.mesh->cell_types[static_cast<std::size_t>(cell)]) == wanted; }; };
+    const auto line = std::ranges::find_if(cells, [&](int cell) { return has_dimension(1)(cell) && solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 3; });
+    if (line == cells.end() || std::ranges::none_of(cells, has_dimension(2))) continue;
+    diagnostics.alarm("mixed-faces",
+                      fmt::format("DEFI_CONTACT: the slave surface holds lines beside faces, {} the first: each presses over its length as faces do over their areas, and LAGS_C at its nodes is neither a pressure nor a force per length",
+                                  model.mesh->cell_name(*line)),
+                      zones[k].span_of("GROUP_MA_ESCL"), "name a group of the faces alone (DEFI_GROUP, CREA_GROUP_MA with TYPE_MAILLE='2D')");
+  }
+}
+
 // Coefficients of a weak formulation that the zone does not take are in no equation.
 void warn_of_idle_coefficients(const Call& call, const solver::ContactDefinition& definition, interpreter::Diagnostics& diagnostics) {
   if (definition.formulation != solver::ContactFormulation::mixed) return;
@@ -154,7 +170,9 @@ void warn_of_idle_coefficients(const Call& call, const solver::ContactDefinition
 
 }  // namespace
 
-void warn_of_contact(const Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+void warn_of_contact(const Call& call, const solver::ContactDefinition& definition, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+  const solver::Mesh& mesh = *model.mesh;
+  warn_of_mixed_faces(call, definition, model, diagnostics);
   warn_of_few_points(call, definition, mesh, diagnostics);
   warn_of_shared_nodes(call, definition, mesh, diagnostics);
   warn_of_idle_exclusions(call, definition, mesh, diagnostics);

@@ -4,11 +4,11 @@
 #include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/definition.hpp"
-#include "solver/mesh/mesh.hpp"
+#include "solver/model/model.hpp"
 
 namespace comma::commands {
 
-/// Alarms `few-points`, `shared-slave-nodes`, `idle-exclusion`, `inward-normals`.
-void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& definition, const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics);
+/// Alarms `few-points`, `shared-slave-nodes`, `idle-exclusion`, `inward-normals`, `mixed-faces`, `idle-coefficient`.
+void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& definition, const solver::Model& model, interpreter::Diagnostics& diagnostics);
 
 }  // namespace comma::commands

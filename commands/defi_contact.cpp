@@ -357,7 +357,7 @@ Product defi_contact(const Call& call, Context& context) {
     product->conditions = std::move(conditions);
   } else {
     solver::ContactDefinition definition = contact(call, model);
-    warn_of_contact(call, definition, *model.mesh, context.diagnostics);
+    warn_of_contact(call, definition, model, context.diagnostics);
     product->conditions = std::move(definition);
   }
   return product;

@@ -8,6 +8,7 @@
 
 #include "solver/contact/straight_faces.hpp"
 #include "solver/error.hpp"
+#include "solver/nonlinear/carried_surfaces.hpp"
 #include "solver/nonlinear/combinations.hpp"
 #include "solver/nonlinear/critical_modes.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -45,6 +46,7 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
     newton_.follow(followers_);
   }
   require_known_combination(problem, options, assembler_, !links_.empty());
+  require_carried_surfaces(problem);
   if (!links_.empty()) let_links_turn();
   if (options.path) path_ = std::make_unique<PathFollowing>(problem, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, observer);
   if (!is_mixed()) return;
