@@ -243,7 +243,19 @@ Scene scene_of(const Call& call) {
   return {initial, product, options, steps};
 }
 
+// INST= then names several steps of the result.
+void warn_of_instants_that_go_back(const Call& call, const Scene& scene, Context& context) {
+  const std::vector<solver::ResultStep>& kept = scene.product->result.steps;
+  if (kept.empty()) return;
+  const double reached = kept.back().instant, next = scene.steps.instants[1];
+  if (next > reached + call.factor("INCREMENT").real("PRECISION") * std::abs(reached)) return;
+  context.diagnostics.alarm("instants-go-back",
+                            fmt::format("STAT_NON_LINE: {} goes on to the instant {:.6g}, and its steps reach {:.6g} already: what asks for an instant in between finds the earlier step", call.result->name, next, reached),
+                            call.factor("INCREMENT").span, "start from the step of that instant (ETAT_INIT, INST), which takes the place of later ones, or make another result");
+}
+
 void warn_of(const Call& call, const Scene& scene, Context& context) {
+  warn_of_instants_that_go_back(call, scene, context);
   warn_of_nonlinear_scene(call, scene.product->problem, scene.steps.instants.front(), scene.initial.behaviours.get(), context);
 }
 
