@@ -123,6 +123,7 @@ solver::CommandVariable command_variable(const Assigned<Keywords>& assigned) {
   if (assignment.has("VALE_REF")) variable.reference = assignment.real("VALE_REF");
   if (assignment.has("CHAM_GD")) {
     variable.snapshots.push_back({0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
+    variable.left = variable.right = solver::Extension::constant;
     return variable;
   }
   variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name.field);
@@ -182,27 +183,36 @@ std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssign
 }
 
 // A cell has the variable where all of its nodes have.
+solver::Coverage coverage(const solver::CommandVariable& variable, const solver::Mesh& mesh, int cell) {
+  std::size_t given = 0, possible = 0;
+  for (const solver::VariableSnapshot& snapshot : variable.snapshots) {
+    if (const auto* nodal = std::get_if<solver::NodalField>(snapshot.field.get())) {
+      for (const int node : mesh.cell(cell)) given += std::isnan(nodal->at(node, 0)) ? 0 : 1;
+      possible += mesh.cell(cell).size();
+    } else {
+      const auto& on_cells = std::get<solver::ElementField>(*snapshot.field);
+      given += on_cells.points(cell) > 0 && !std::isnan(on_cells.at(cell, 0, 0)) ? 1 : 0;
+      ++possible;
+    }
+  }
+  if (given == 0) return solver::Coverage::none;
+  return given == possible ? solver::Coverage::whole : solver::Coverage::partial;
+}
+
 void warn_of_partial_variables(const MaterialAssignments& assignments, const solver::MaterialField& field, const solver::Mesh& mesh, Context& context) {
   for (std::size_t k = 0; k < field.variables.size() && k < assignments.variables.size(); ++k) {
     if (assignments.variables[k].what.text("NOM_VARC") == "EPSA") return;  // one assignment makes several variables
     const solver::CommandVariable& variable = field.variables[k];
-    const auto* nodal = variable.snapshots.empty() ? nullptr : std::get_if<solver::NodalField>(variable.snapshots.back().field.get());
-    if (nodal == nullptr) continue;
-    std::vector<char> chosen(static_cast<std::size_t>(mesh.cell_count()), variable.cells.empty() ? 1 : 0);
-    for (const int cell : variable.cells) chosen[static_cast<std::size_t>(cell)] = 1;
-    std::vector<int> partial;
-    for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-      if (chosen[static_cast<std::size_t>(cell)] == 0) continue;
-      const auto nodes = mesh.cell(cell);
-      const auto absent = std::ranges::count_if(nodes, [&](int node) { return std::isnan(nodal->at(node, 0)); });
-      if (absent > 0 && absent < static_cast<std::ptrdiff_t>(nodes.size())) partial.push_back(cell);
-    }
-    if (partial.empty()) continue;
+    std::vector<int> cells = variable.cells;
+    if (cells.empty())
+      for (int cell = 0; cell < mesh.cell_count(); ++cell) cells.push_back(cell);
+    std::erase_if(cells, [&](int cell) { return coverage(variable, mesh, cell) != solver::Coverage::partial; });
+    if (cells.empty()) continue;
     const Keywords& assignment = assignments.variables[k].what;
     context.diagnostics.alarm("partial-variable",
-                              fmt::format("AFFE_VARC: {} is given at some of the nodes alone of {} cells, {} for one: these have their reference value", assignment.text("NOM_VARC"), partial.size(),
-                                          mesh.cell_name(partial.front())),
-                              assignment.span, "give the field at all nodes of the cells, or name the cells that have it");
+                              fmt::format("AFFE_VARC: {} is given at some of the nodes or instants alone of {} cell{}, {} the first: wherever a value is missing they have their reference value",
+                                          assignment.text("NOM_VARC"), cells.size(), cells.size() == 1 ? "" : "s", mesh.cell_name(cells.front())),
+                              assignment.span, "give the field at all nodes of the cells and at all instants, or name the cells that have it");
   }
 }
 

@@ -1,6 +1,7 @@
 // Fields on nodes and on elements, and the results that hold them.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -57,6 +58,9 @@ inline const std::vector<double>& values_of(const Field& field) {
 inline std::vector<double>& values_of(Field& field) {
   return std::visit([](auto& any) -> std::vector<double>& { return any.values; }, field);
 }
+
+/// At how many instants, of fields in time, a place has a value.
+enum class Coverage : std::uint8_t { none, partial, whole };
 
 struct ContactMemory;
 

@@ -17,7 +17,6 @@ constexpr double same_instant = 1e-10;
 }  // namespace
 
 TimeBracket time_bracket(std::span<const double> instants, double time, Extension left, Extension right, std::string_view what) {
-  if (instants.size() == 1) return {};
   const double first = instants.front();
   const double last = instants.back();
   const double margin = same_instant * std::max(std::abs(first), std::abs(last));
@@ -25,10 +24,10 @@ TimeBracket time_bracket(std::span<const double> instants, double time, Extensio
   const bool after = time > last + margin;
   const Extension extension = before ? left : right;
   if ((before || after) && extension == Extension::excluded) {
-    throw Error("out-of-function", fmt::format("{} is asked for at time {}, but it is given from {} to {}", what, time, first, last),
+    throw Error("out-of-function", fmt::format("{} is asked for at time {}, but it is given {}", what, time, instants.size() == 1 ? fmt::format("at {} alone", first) : fmt::format("from {} to {}", first, last)),
                 fmt::format("extend it on the {}", before ? "left" : "right"));
   }
-  const bool constant = extension == Extension::constant;
+  const bool constant = extension == Extension::constant || instants.size() == 1;
   if (time <= first && (!before || constant)) return {};
   if (time >= last && (!after || constant)) return {instants.size() - 1, 0.0};
   const auto next = std::lower_bound(instants.begin() + 1, instants.end() - 1, time);

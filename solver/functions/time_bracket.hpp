@@ -16,7 +16,7 @@ struct TimeBracket {
   double share = 0.0;
 };
 
-/// `instants`: rising, at least one; a single one holds at all times. A time that misses the first or the last instant by rounding is that
+/// `instants`: rising, at least one; a single one is continued as a constant. A time that misses the first or the last instant by rounding is that
 /// instant. Throws Error `out-of-function` naming `what` for a time before or after them where that is excluded.
 TimeBracket time_bracket(std::span<const double> instants, double time, Extension left, Extension right, std::string_view what);
 

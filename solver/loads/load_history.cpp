@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "solver/functions/time_bracket.hpp"
@@ -22,20 +23,20 @@ double LoadHistory::Entry::value(int cell, int local, int node) const {
   return point < on_cells.points(cell) ? on_cells.at(cell, point, component) : absent;
 }
 
-bool LoadHistory::covers(int node) const {
-  return std::ranges::none_of(entries_, [&](const Entry& entry) { return std::isnan(entry.value(-1, 0, node)); });
-}
-
-bool LoadHistory::covers(int cell, std::span<const int> nodes) const {
-  return std::ranges::none_of(entries_, [&](const Entry& entry) {
+Coverage LoadHistory::coverage(int cell, std::span<const int> nodes) const {
+  const auto is_covered = [&](const Entry& entry) {
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      if (std::isnan(entry.value(cell, static_cast<int>(a), nodes[a]))) return true;
-    return false;
-  });
+      if (std::isnan(entry.value(cell, static_cast<int>(a), nodes[a]))) return false;
+    return true;
+  };
+  const auto count = std::ranges::count_if(entries_, is_covered);
+  if (count == 0) return Coverage::none;
+  return count == std::ssize(entries_) ? Coverage::whole : Coverage::partial;
 }
 
 double LoadHistory::at(int cell, int local, int node, double time) const {
-  const auto [first, share] = time_bracket(instants_, time, Extension::excluded, Extension::excluded, "the load that a result holds");
+  const Extension beyond = instants_.size() == 1 ? Extension::constant : Extension::excluded;
+  const auto [first, share] = time_bracket(instants_, time, beyond, beyond, "the load that a result holds");
   const double before = entries_[first].value(cell, local, node);
   return share == 0.0 ? before : before + share * (entries_[first + 1].value(cell, local, node) - before);
 }

@@ -14,10 +14,10 @@ class LoadHistory {
  public:
   void add(double instant, Field field, int component);
   bool empty() const { return entries_.empty(); }
-  /// Whether the node has a value at every instant.
-  bool covers(int node) const;
-  /// Whether all nodes of the cell have one there.
-  bool covers(int cell, std::span<const int> nodes) const;
+  /// At which instants the node has a value, of fields at nodes.
+  Coverage coverage(int node) const { return coverage(-1, {&node, 1}); }
+  /// At which instants all nodes of the cell have one there.
+  Coverage coverage(int cell, std::span<const int> nodes) const;
   /// At a node, of fields at nodes. Throws Error `out-of-function` for a time before the first or after the last instant.
   double at(int node, double time) const { return at(-1, 0, node, time); }
   /// At node number `local` of a cell, which is `node` of the mesh.

@@ -19,7 +19,7 @@ struct VariableSnapshot {
   std::shared_ptr<const Field> field;
 };
 
-/// One variable on some cells. Between two snapshots it is linear in time; a single snapshot holds at all times.
+/// One variable on some cells. Between two snapshots it is linear in time.
 struct CommandVariable {
   Parameter variable = Parameter::temperature;
   std::vector<int> cells;  ///< empty: all

@@ -28,6 +28,7 @@ std::shared_ptr<const Material> expanding(Property modulus = young) {
 /// 20 degrees of reference, and everywhere `rise` more.
 CommandVariable uniform_heating(const Mesh& mesh) {
   CommandVariable variable;
+  variable.right = Extension::constant;
   variable.reference = 20.0;
   NodalField field{"TEMP_R", {"TEMP"}, std::vector<double>(mesh.nodes.size(), 20.0 + rise)};
   variable.snapshots = {{0.0, std::make_shared<const Field>(field)}};

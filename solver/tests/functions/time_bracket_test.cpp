@@ -43,11 +43,15 @@ TEST_CASE("an instant that is a sum of steps meets the last one although it miss
   CHECK(square_between(time, Extension::excluded, Extension::excluded) == 16.0);
 }
 
-TEST_CASE("a single instant holds at all times") {
+TEST_CASE("a single instant is continued as a constant, where that is not excluded") {
   constexpr std::array<double, 1> one = {3.0};
-  for (const double time : {-1.0, 3.0, 8.0}) {
-    const TimeBracket bracket = time_bracket(one, time, Extension::excluded, Extension::excluded, "it");
-    CHECK(bracket.first == 0);
-    CHECK(bracket.share == 0.0);
+  for (const Extension extension : {Extension::constant, Extension::linear}) {
+    for (const double time : {-1.0, 3.0, 8.0}) {
+      const TimeBracket bracket = time_bracket(one, time, extension, extension, "it");
+      CHECK(bracket.first == 0);
+      CHECK(bracket.share == 0.0);
+    }
   }
+  CHECK_NOTHROW(time_bracket(one, 3.0, Extension::excluded, Extension::excluded, "it"));
+  CHECK_THROWS_WITH(time_bracket(one, 3.1, Extension::constant, Extension::excluded, "it"), Catch::Contains("it is given at 3 alone"));
 }

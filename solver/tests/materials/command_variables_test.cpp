@@ -78,6 +78,7 @@ TEST_CASE("outside its instants a command variable is refused unless it is exten
 TEST_CASE("a later variable replaces an earlier one on its cells alone", "[materials]") {
   const Mesh mesh = two_bars();
   CommandVariable local;
+  local.right = Extension::constant;
   local.cells = {1};
   local.snapshots = {
       {0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::cell, {"TEMP"}, {0, 0, 1}, {77.0}})}};
