@@ -8,10 +8,15 @@
 
 namespace comma::solver {
 
-/// At the end of a step. A contact that is defined otherwise begins anew.
+struct ZoneMemory {
+  bool bilateral = false;                ///< GLISSIERE
+  std::vector<char> closed;              ///< its points, in their order: those of bilateral zones do not open again
+  std::array<double, 5> penalties = {};  ///< of contact and of friction, as given, 0 where there is none; 1 where either grows by a limit; 1 of the mixed formulation
+};
+
+/// At the end of a step, zone by zone. What a zone remembers counts where it is defined alike: elsewhere it begins anew.
 struct ContactMemory {
-  std::vector<std::array<double, 3>> zones;  ///< how each is defined: 1 if it is bilateral, its penalties of contact and of friction as given
-  std::vector<char> closed;                  ///< points, in their order: those of bilateral zones (GLISSIERE) do not open again
+  std::vector<ZoneMemory> zones;
   RaisedPenalties penalties;
 };
 

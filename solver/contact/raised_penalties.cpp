@@ -52,9 +52,9 @@ bool RaisedPenalties::are_raised() const {
   return std::ranges::any_of(contact_, is_raised) || std::ranges::any_of(friction_, is_raised);
 }
 
-void RaisedPenalties::go_on_from(const RaisedPenalties& others) {
-  contact_ = others.contact_;
-  friction_ = others.friction_;
+void RaisedPenalties::go_on_from(const RaisedPenalties& others, std::size_t zone) {
+  contact_[zone] = others.contact_[zone];
+  friction_[zone] = others.friction_[zone];
 }
 
 void RaisedPenalties::apply(const MixedZone& zone, int number, CondensedPoint& point) const {

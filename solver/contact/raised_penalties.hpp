@@ -28,8 +28,8 @@ class RaisedPenalties {
 
   /// Whether any is not as it was given.
   bool are_raised() const;
-  /// Raised as much as others, of the same zones, are; what limits them stays.
-  void go_on_from(const RaisedPenalties& others);
+  /// Those of a zone raised as much as in others; what limits them stays.
+  void go_on_from(const RaisedPenalties& others, std::size_t zone);
 
   /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence` where factors have
   /// become too large.

@@ -340,36 +340,60 @@ void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
   }
 }
 
-std::vector<std::array<double, 3>> MixedContact::zone_definitions() const {
-  std::vector<std::array<double, 3>> zones;
-  for (const ContactZone& zone : definition_.zones)
-    zones.push_back({zone.mixed.bilateral ? 1.0 : 0.0, zone.mixed.augmentation, zone.mixed.friction_penalty});
+/// How zones are defined, without points.
+std::vector<ZoneMemory> MixedContact::zone_definitions() const {
+  std::vector<ZoneMemory> zones;
+  for (const ContactZone& zone : definition_.zones) {
+    const MixedZone& mixed = zone.mixed;
+    zones.push_back({mixed.bilateral,
+                     {},
+                     {mixed.penalised ? mixed.augmentation : 0.0, mixed.friction_penalised ? mixed.friction_penalty : 0.0, mixed.largest_depth ? 1.0 : 0.0, mixed.largest_slip ? 1.0 : 0.0,
+                      definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0}});
+  }
   return zones;
 }
 
 std::shared_ptr<const ContactMemory> MixedContact::memory() const {
   const bool is_bilateral = std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
   if (!is_bilateral && !penalties_.are_raised()) return nullptr;
-  return std::make_shared<const ContactMemory>(ContactMemory{zone_definitions(), closed_points(), penalties_});
+  std::vector<ZoneMemory> zones = zone_definitions();
+  for (std::size_t p = 0; p < points_.size(); ++p) zones[static_cast<std::size_t>(points_[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
+  return std::make_shared<const ContactMemory>(ContactMemory{std::move(zones), penalties_});
 }
 
-void MixedContact::resume(std::shared_ptr<const ContactMemory> memory) {
-  if (!memory || memory->zones != zone_definitions()) return;
-  penalties_.go_on_from(memory->penalties);
+void MixedContact::begin_at(const Eigen::VectorXd& u, std::shared_ptr<const ContactMemory> memory) {
+  reference_ = u;
+  if (!memory) return;
+  const std::vector<ZoneMemory> now = zone_definitions();
+  for (std::size_t zone = 0; zone < std::min(now.size(), memory->zones.size()); ++zone)
+    if (now[zone].penalties == memory->zones[zone].penalties) penalties_.go_on_from(memory->penalties, zone);
   resumed_ = std::move(memory);
+}
+
+/// Which of the points, zone by zone, the computation before left closed where they cannot open again.
+std::vector<char> MixedContact::held_points() {
+  std::vector<char> held(points_.size(), 0);
+  const auto memory = std::exchange(resumed_, nullptr);
+  if (!memory) return held;
+  std::vector<std::vector<std::size_t>> points(definition_.zones.size());
+  for (std::size_t p = 0; p < points_.size(); ++p) points[static_cast<std::size_t>(points_[p].zone)].push_back(p);
+  for (std::size_t zone = 0; zone < std::min(points.size(), memory->zones.size()); ++zone) {
+    const ZoneMemory& before = memory->zones[zone];
+    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != points[zone].size()) continue;
+    for (std::size_t k = 0; k < points[zone].size(); ++k) held[points[zone][k]] = before.closed[k];
+  }
+  return held;
 }
 
 void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
   state_.statuses.assign(points_.size(), ContactStatus::open);
-  const auto resumed = std::exchange(resumed_, nullptr);
-  const bool is_same = resumed && resumed->closed.size() == points_.size();
+  const std::vector<char> held = held_points();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
     const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points_[p].cell);
-    const bool was_closed = is_same && zone.bilateral && resumed->closed[p] != 0;
-    if (was_closed || zone.initial == InitialContact::all || (zone.initial == InitialContact::interpenetrating && touches))
+    if (held[p] != 0 || zone.initial == InitialContact::all || (zone.initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }

@@ -45,8 +45,8 @@ class MixedContact {
   void restore() { std::tie(state_, penalties_, started_) = remembered_; }
   /// What a later computation must know of a step that has been accepted; null where its fields say all.
   std::shared_ptr<const ContactMemory> memory() const;
-  /// Goes on from there; before any point is faced.
-  void resume(std::shared_ptr<const ContactMemory> memory);
+  /// Starts from displacements u, and goes on from what an earlier computation remembers (may be null); before any point is faced.
+  void begin_at(const Eigen::VectorXd& u, std::shared_ptr<const ContactMemory> memory);
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
   /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being settled within it: standard
@@ -112,7 +112,8 @@ class MixedContact {
   double initial_gap(const ContactPoint& point) const;
   void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
-  std::vector<std::array<double, 3>> zone_definitions() const;
+  std::vector<ZoneMemory> zone_definitions() const;
+  std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
   void apply_penalties(int zone, CondensedPoint& point) const;

@@ -30,7 +30,7 @@ void StaticRun::start(double instant) {
   assembler_.impose_strains(loads_so_far(), instant);
   resume();
   if (problem_.initial || !result_.steps.empty()) newton_.begin_with(assembler_.external_forces(loads_so_far(), instant), assembler_.internal_forces(now_.state.u));
-  if (mixed_) mixed_->resume(contact_so_far());
+  if (mixed_) mixed_->begin_at(now_.state.u, contact_so_far());
   go_on_with_path();
   if (!result_.steps.empty()) {
     watch_->take(result_.steps.back());
