@@ -16,6 +16,7 @@ inline constexpr int component_count = 8;
 inline constexpr int motion_count = 6;
 
 inline constexpr std::array translation_components = {Component::dx, Component::dy, Component::dz};
+constexpr bool is_rotation(Component component) { return component == Component::drx || component == Component::dry || component == Component::drz; }
 
 std::string_view name_of(Component component);               ///< "DX" ...
 std::optional<Component> component_named(std::string_view name);

@@ -188,9 +188,7 @@ ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) c
 /// that nothing holds has flown away.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
   if (applied_ > 0.0 && largest_component(residual_) > lost_load * applied_) return false;
-  const Eigen::VectorXd& sizes = tangent_.row_sizes();
-  return sizes.size() == residual_.size() && !tangent_.is_saddle() &&
-         (residual_.array().abs() <= rounding_share * largest_component(state.u) * sizes.array()).all();
+  return tangent_.row_sizes().size() == residual_.size() && !tangent_.is_saddle() && (residual_.array().abs() <= rounding_share * tangent_.sizes_times(state.u).array()).all();
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {

@@ -212,14 +212,27 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& 
   factorised_ = true;
 }
 
-/// Bounds what rounding of u alone does to the residual: a row of |K| times the largest displacement.
 void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
-  row_sizes_ = Eigen::VectorXd::Zero(reduced.rows());
+  row_sizes_ = rotation_sizes_ = Eigen::VectorXd::Zero(reduced.rows());
+  const std::span<const int> kept = elimination_.kept();
+  const auto add = [&](Eigen::Index row, Eigen::Index column, double size) {
+    row_sizes_[row] += size;
+    if (is_rotation(dofs_.component_of(kept[static_cast<std::size_t>(column)]))) rotation_sizes_[row] += size;
+  };
   for (int column = 0; column < reduced.outerSize(); ++column)
     for (SymmetricMatrix::InnerIterator it(reduced, column); it; ++it) {
-      row_sizes_[it.row()] += std::abs(it.value());
-      if (it.row() != column) row_sizes_[column] += std::abs(it.value());
+      add(it.row(), column, std::abs(it.value()));
+      if (it.row() != column) add(column, it.row(), std::abs(it.value()));
     }
+}
+
+Eigen::VectorXd TangentSystem::sizes_times(const Eigen::VectorXd& u) const {
+  double translation = 0.0, rotation = 0.0;
+  for (int dof = 0; dof < dofs_.size(); ++dof) {
+    double& largest = is_rotation(dofs_.component_of(dof)) ? rotation : translation;
+    largest = std::max(largest, std::abs(u[dof]));
+  }
+  return translation * (row_sizes_ - rotation_sizes_) + rotation * rotation_sizes_;
 }
 
 Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {

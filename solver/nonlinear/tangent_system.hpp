@@ -93,6 +93,9 @@ class TangentSystem {
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
+  /// |K| |u| with the largest of the translations (and what else is no rotation) in place of each, and the largest rotation in place of each of these:
+  /// bounds what a share of u, its rounding, does to the residual, whatever the unit of length. All unknowns in, reduced_size out.
+  Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
@@ -120,7 +123,7 @@ class TangentSystem {
   std::unique_ptr<LinearSolver> solver_;
   KnownSolutions known_;  ///< of the symmetric factor
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
-  Eigen::VectorXd row_sizes_;
+  Eigen::VectorXd row_sizes_, rotation_sizes_;
   int lost_digits_ = 0;
   bool is_indefinite_ = false;
   bool factorised_ = false;
