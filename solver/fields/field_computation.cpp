@@ -430,9 +430,19 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
   return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
 }
 
+// What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep as there are steps.
+void FieldComputation::know_earlier(const std::string& name, std::size_t step) {
+  const auto is_known = [&](std::size_t earlier) { return result_.steps[earlier].fields.contains(name) || known_.contains(Key(earlier, name)); };
+  std::size_t next = step;
+  while (next > 0 && !is_known(next - 1)) --next;
+  for (; next < step; ++next) needed(name, next);
+  move_to(step);
+}
+
 // The work of stresses adds up from step to step.
 Field FieldComputation::total_energy(std::size_t step) {
   require_small_strains("ETOT_ELGA");
+  know_earlier("ETOT_ELGA", step);
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
   const NodalField* displacement_before = nullptr;
   if (step > 0) {
@@ -470,6 +480,7 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
     energies = beside(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
   }
   if (bars.empty()) return energies;
+  know_earlier("ETOT_ELEM", step);
   ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step), step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
                                   step > 0 ? &displacement(step - 1) : nullptr);
   if (step > 0) {
@@ -497,7 +508,20 @@ Field FieldComputation::energy_of_loading(std::size_t step) {
   return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
+// Forces act along the axes of beams as the step left them, which their variables hold.
+void FieldComputation::turn_beams(Assembler& assembler, const DofMap& dofs, std::size_t step) const {
+  if (!problem_.behaviours) return;
+  const auto& fields = result_.steps[step].fields;
+  const auto stresses = fields.find("SIEF_ELGA"), variables = fields.find("VARI_ELGA");
+  if (stresses == fields.end() || variables == fields.end()) return;
+  for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell) {
+    if ((*problem_.behaviours)[cell].kinematics != Kinematics::large_rotations || !is_beam(problem_.model->formulations[cell])) continue;
+    return assembler.resume(to_dofs(std::get<NodalField>(fields.at("DEPL")), dofs), &std::get<ElementField>(stresses->second), &std::get<ElementField>(variables->second));
+  }
+}
+
 Field FieldComputation::internal_forces(std::size_t step) {
+  turn_beams(assembler_, dofs_, step);
   return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
 }
 
@@ -510,6 +534,7 @@ Field FieldComputation::internal_forces_of(std::span<const int> cells, std::size
   const double time = result_.steps[step].instant;
   assembler.set_time(time);
   assembler.impose_strains(problem_.loads, time);
+  turn_beams(assembler, dofs, step);
   return nodal_forces(assembler, dofs, displacement(step), problem_.loads, time, remembered_stresses(step));
 }
 
@@ -517,6 +542,7 @@ Field FieldComputation::reactions(std::size_t step) {
   const double time = result_.steps[step].instant;
   FollowerForces followers(*problem_.model, dofs_, problem_.followers);
   followers.set_time(time);
+  turn_beams(assembler_, dofs_, step);
   return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time, remembered_stresses(step));
 }
 

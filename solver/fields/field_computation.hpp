@@ -86,6 +86,7 @@ class FieldComputation {
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);
+  void know_earlier(const std::string& name, std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
   Field internal_variables(std::size_t step);
@@ -97,6 +98,7 @@ class FieldComputation {
   bool began_with_stresses() const;
   void require_no_initial_stresses(std::string_view name, std::size_t step);
   Field internal_forces(std::size_t step);
+  void turn_beams(Assembler& assembler, const DofMap& dofs, std::size_t step) const;
   Field internal_forces_of(std::span<const int> cells, std::size_t step);
   Field reactions(std::size_t step);
   Field reactions_of(std::span<const int> cells, std::size_t step);
