@@ -129,7 +129,8 @@ FormulaConcept::FormulaConcept(interpreter::Formula formula, Span span) : formul
 
 void FormulaConcept::fail(const DiagnosticError& error, const std::string& arguments) const {
   Diagnostic found = error.diagnostic();
-  found.message = fmt::format("the formula {} at {}: {}", formula_.text(), arguments, found.message);
+  // Of formulas that call each other the innermost one says it.
+  if (!found.message.starts_with("the formula ")) found.message = fmt::format("the formula {} at {}: {}", formula_.text(), arguments, found.message);
   found.span = span_;
   throw DiagnosticError(std::move(found));
 }

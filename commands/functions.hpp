@@ -59,6 +59,7 @@ class FormulaConcept : public FunctionConcept {
   FormulaConcept(interpreter::Formula formula, interpreter::Span span);
   const std::vector<std::string>& parameters() const override { return formula_.parameters(); }
   double evaluate(std::span<const double> at) const override;
+  int nesting() const override { return formula_.nesting(); }
   /// getVariables(): the names of the parameters; getExpression(): the text.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;

@@ -24,6 +24,8 @@ struct RealFunction {
   virtual const std::vector<std::string>& parameters() const = 0;
   /// One argument a parameter. Throws where the function is not defined.
   virtual double evaluate(std::span<const double> arguments) const = 0;
+  /// How many functions deep its evaluation calls others.
+  virtual int nesting() const { return 0; }
 };
 
 /// The filled inside of a concept. Commands derive from it. The three functions are what the language can do with a

@@ -13,6 +13,7 @@ namespace comma::interpreter {
 Formula::Formula(std::string text, std::vector<std::string> parameters, FormulaBindings bindings, std::string origin)
     : expression_(std::move(text), std::move(origin)), parameters_(std::move(parameters)), bindings_(std::move(bindings)) {
   check_names();
+  measure_nesting();
   program_ = compile_formula(expression_, parameters_, bindings_);
 }
 
@@ -26,6 +27,18 @@ void Formula::check_names() const {
                           {expression_.file(), 0, static_cast<std::uint32_t>(text().size())},
                           did_you_mean(name, candidates));
   }
+}
+
+/// Each level takes of the native stack when it is evaluated and when it is given up.
+void Formula::measure_nesting() {
+  constexpr int deepest = 500;
+  for (const auto& [name, value] : bindings_) {
+    const RealFunction* function = value.is_concept() && value.as_concept()->data ? value.as_concept()->data->real_function() : nullptr;
+    if (function != nullptr) nesting_ = std::max(nesting_, function->nesting() + 1);
+  }
+  if (nesting_ <= deepest) return;
+  throw DiagnosticError("limit-depth", fmt::format("the formula {} calls a formula that calls another, more than {} deep", text(), deepest), {expression_.file(), 0, static_cast<std::uint32_t>(text().size())},
+                        "tabulate what is inside (CALC_FONC_INTERP)");
 }
 
 double Formula::evaluate(std::span<const double> arguments) const {

@@ -18,7 +18,7 @@ class Formula : public RealFunction {
  public:
   /// `bindings` gives what the expression uses beside its parameters, the builtins and the names of `math`; a parameter
   /// hides a binding, a binding hides a builtin. Functions of concepts among them must have been computed. Throws
-  /// DiagnosticError `syntax`, or `unknown-name`.
+  /// DiagnosticError `syntax`, `unknown-name`, or `limit-depth` where formulas call each other too deep.
   Formula(std::string text, std::vector<std::string> parameters, FormulaBindings bindings = {},
           std::string origin = "<formula>");
 
@@ -31,18 +31,21 @@ class Formula : public RealFunction {
   Value evaluate_values(std::span<const Value> arguments) const;
 
   const std::vector<std::string>& parameters() const override { return parameters_; }
+  int nesting() const override { return nesting_; }
   const std::string& text() const { return expression_.text(); }
   /// Whether it runs as a program; else its tree is walked each time.
   bool is_compiled() const { return !program_.empty(); }
 
  private:
   void check_names() const;
+  void measure_nesting();
   double evaluate_tree(std::span<const double> arguments) const;
 
   Expression expression_;
   std::vector<std::string> parameters_;
   FormulaBindings bindings_;
   FormulaProgram program_;
+  int nesting_ = 0;
 };
 
 }  // namespace comma::interpreter

@@ -27,14 +27,15 @@ double python_floor_divide(double a, double b) {
   return quotient - below > 0.5 ? below + 1.0 : below;
 }
 
+/// An error of the function is that of the formula: what has been called once is not called again to find it.
 bool call_in_file(const FunctionObject& function, std::span<const double> arguments, double& result) {
   CallArguments values;
   for (const double argument : arguments) values.positional.emplace_back(argument);
   Value value;
   try {
     value = Evaluator::call_from_outside(function, values);
-  } catch (const RaisedError&) {
-    return false;
+  } catch (const RaisedError& error) {
+    throw DiagnosticError(error.object()->diagnostic());
   }
   if (!value.is_number() && !value.is_bool()) return false;
   result = value.is_bool() ? static_cast<double>(value.as_bool()) : value.as_real();

@@ -233,3 +233,33 @@ TEST_CASE("A formula calls the functions of concepts") {
   CHECK(formula.is_compiled());
   CHECK(formula(std::array{3.0}) == 21.0);
 }
+
+namespace {
+
+/// One whose evaluation calls so many others in turn.
+struct Deep : Line {
+  int nesting() const override { return 500; }
+};
+
+}  // namespace
+
+TEST_CASE("Formulas within formulas end at a depth that the stack bears") {
+  auto deep = std::make_shared<Concept>();
+  deep->type = "fonction_sdaster";
+  deep->data = std::make_shared<Line>();
+  CHECK(Formula("L(X)", {"X"}, {{"L", Value(deep)}}).nesting() == 1);
+  deep->data = std::make_shared<Deep>();
+  CHECK_THROWS_WITH(Formula("L(X)", {"X"}, {{"L", Value(deep)}}), Catch::Contains("500 deep"));
+}
+
+TEST_CASE("A function of the file that fails in a formula has been called once") {
+  Diagnostics diagnostics;
+  RecordingHost host;
+  Evaluator evaluator(host, diagnostics, [](std::string_view) {});
+  const auto file = std::make_shared<const SourceFile>("f.comm", "calls = []\ndef f(x):\n  calls.append(x)\n  raise ValueError('no')\n");
+  evaluator.run(parse(file, diagnostics));
+  const Formula formula("f(X) + 1.0", {"X"}, {{"f", *evaluator.global("f")}});
+  REQUIRE(formula.is_compiled());
+  CHECK_THROWS_AS(formula(std::array{2.0}), DiagnosticError);
+  CHECK(evaluator.global("calls")->items().size() == 1);
+}
