@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 
 #include "commands/behaviour_reading.hpp"
@@ -31,16 +32,76 @@ solver::Field at_instant(const FieldConcept& data, double instant, const interpr
   return made;
 }
 
-// The step at an instant, made in its place among the others if there is none so near.
-solver::ResultStep& step_at(solver::Result& result, double instant, double reach) {
-  auto& steps = result.steps;
-  const auto found = std::ranges::find_if(steps, [&](const auto& step) { return std::abs(step.instant - instant) <= reach; });
-  if (found != steps.end()) return *found;
-  const auto later = std::ranges::find_if(steps, [&](const auto& step) { return step.instant > instant; });
-  solver::ResultStep& made = *steps.insert(later, solver::ResultStep{});
-  made.instant = instant;
-  return made;
-}
+using Origin = std::shared_ptr<const solver::StaticProblem>;
+
+// What EXCIT and COMPORTEMENT say, so that occurrences that say the same share what their steps were computed from.
+struct StateWords {
+  std::vector<std::tuple<const interpreter::Concept*, const interpreter::Concept*, std::string>> loads;
+  solver::BehaviourOfCells behaviours;
+
+  bool operator==(const StateWords&) const = default;
+};
+
+// A result in the making: what each of its steps was computed from; null where that is `product.problem`, which occurrences fill.
+struct Making {
+  ResultConcept& product;
+  std::vector<Origin> origins;
+  Origin current = {};  ///< of new steps: what the last occurrence with EXCIT or COMPORTEMENT says
+  StateWords words = {};
+  int first_order = 1;
+
+  explicit Making(ResultConcept& made) : product(made) {
+    std::size_t phase = 0;
+    Origin of_phase;
+    for (const solver::ResultStep& step : product.result.steps) {
+      while (phase < product.earlier.size() && step.order > product.earlier[phase].last_order) {
+        ++phase;
+        of_phase.reset();
+      }
+      if (phase < product.earlier.size() && !of_phase) of_phase = std::make_shared<const solver::StaticProblem>(product.earlier[phase].problem);
+      origins.push_back(of_phase);
+    }
+  }
+
+  // The step at an instant, made in its place among the others if there is none so near. `state`: what it goes on from; null: as it was.
+  solver::ResultStep& step_at(double instant, double reach, const Origin& state) {
+    auto& steps = product.result.steps;
+    const auto found = std::ranges::find_if(steps, [&](const auto& step) { return std::abs(step.instant - instant) <= reach; });
+    if (found != steps.end()) {
+      if (state) origins[static_cast<std::size_t>(found - steps.begin())] = state;
+      return *found;
+    }
+    const auto later = std::ranges::find_if(steps, [&](const auto& step) { return step.instant > instant; });
+    origins.insert(origins.begin() + (later - steps.begin()), current);
+    solver::ResultStep& made = *steps.insert(later, solver::ResultStep{});
+    made.instant = instant;
+    return made;
+  }
+
+  // Numbers the steps, and makes phases of those in a row that have one origin.
+  void settle() {
+    auto& steps = product.result.steps;
+    solver::StaticProblem& own = product.problem;
+    if (!own.properties) own.properties = std::make_shared<const solver::ElementProperties>();
+    if (current && own.loads.empty() && !own.behaviours) own = completed(*current);  // also of steps that came before it
+    const solver::StaticProblem whole = own;
+    product.earlier.clear();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      steps[k].order = first_order + static_cast<int>(k);
+      const solver::StaticProblem problem = origins[k] ? completed(*origins[k]) : whole;
+      if (k + 1 == steps.size()) own = problem;
+      else if (origins[k + 1] != origins[k]) product.earlier.push_back({steps[k].order, problem});
+    }
+  }
+
+  // With what later occurrences said of the whole result.
+  solver::StaticProblem completed(solver::StaticProblem problem) const {
+    if (!problem.model) problem.model = product.problem.model;
+    if (!problem.materials) problem.materials = product.problem.materials;
+    if (!problem.properties) problem.properties = product.problem.properties;
+    return problem;
+  }
+};
 
 // A result has one model, one material field and so on for all of its steps.
 void require_one(bool is_same, const Keywords& occurrence, const char* keyword) {
@@ -95,18 +156,32 @@ std::vector<double> instants_of(const Keywords& occurrence) {
   return {all.begin() + first - 1, all.begin() + last};
 }
 
-// What computations on the result go on from: loads and behaviour.
-void take_state(ResultConcept& product, const Keywords& occurrence) {
-  if (occurrence.has("EXCIT")) {
-    const auto before = product.problem.loads;
-    take_loads(occurrence, product.problem);
-    require_one(before.empty() || std::ranges::equal(before, product.problem.loads, {}, &solver::AppliedLoad::load, &solver::AppliedLoad::load), occurrence, "EXCIT");
+StateWords state_words(const Keywords& occurrence, const solver::StaticProblem& problem) {
+  StateWords words;
+  if (occurrence.has("EXCIT"))
+    for (const Keywords& excitation : occurrence.factors("EXCIT"))
+      words.loads.emplace_back(excitation.concept_of("CHARGE").get(), excitation.has("FONC_MULT") ? excitation.concept_of("FONC_MULT").get() : nullptr,
+                               excitation.has("TYPE_CHARGE") ? excitation.text("TYPE_CHARGE") : std::string());
+  if (problem.behaviours) words.behaviours = *problem.behaviours;
+  return words;
+}
+
+// What computations on the steps of the occurrence go on from: loads and behaviour. Null where it says nothing of them.
+Origin state_of(Making& making, const Keywords& occurrence) {
+  if (!occurrence.has("EXCIT") && !occurrence.has("COMPORTEMENT")) return nullptr;
+  auto problem = std::make_shared<solver::StaticProblem>(making.current ? *making.current : making.product.problem);
+  if (occurrence.has("EXCIT")) take_loads(occurrence, *problem);
+  if (occurrence.has("COMPORTEMENT")) {
+    problem->model = making.product.problem.model;
+    if (!problem->model) {
+      throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model", occurrence.span_of("COMPORTEMENT"), "give MODELE");
+    }
+    problem->behaviours = behaviours_of(occurrence, *problem->model, false);
   }
-  if (!occurrence.has("COMPORTEMENT")) return;
-  if (!product.problem.model) {
-    throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model", occurrence.span_of("COMPORTEMENT"), "give MODELE");
-  }
-  product.problem.behaviours = behaviours_of(occurrence, *product.problem.model, false);
+  StateWords words = state_words(occurrence, *problem);
+  if (making.current && words == making.words) return making.current;
+  making.words = std::move(words);
+  return making.current = problem;
 }
 
 // The name of the field stands in the occurrence, in older files once beside them.
@@ -116,33 +191,41 @@ const std::string& field_name(const Call& call, const Keywords& occurrence) {
   throw DiagnosticError("missing-keyword", "CREA_RESU/AFFE needs NOM_CHAM", occurrence.span, "give the name of the field in the result, such as DEPL or SIEF_ELGA");
 }
 
-void add_field(ResultConcept& product, const Call& call, const Keywords& occurrence) {
+void add_field(Making& making, const Call& call, const Keywords& occurrence) {
   const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
-  take_support(product, occurrence, data);
-  take_state(product, occurrence);
+  take_support(making.product, occurrence, data);
+  const Origin state = state_of(making, occurrence);
   for (const double instant : instants_of(occurrence)) {
-    solver::ResultStep& step = step_at(product.result, instant, instant_reach(occurrence, instant));
+    solver::ResultStep& step = making.step_at(instant, instant_reach(occurrence, instant), state);
     step.fields.insert_or_assign(field_name(call, occurrence), at_instant(data, instant, occurrence.span));
   }
 }
 
 // OPERATION='ASSE': the steps of a result, later by TRANSLATION, in place of those from its first instant on.
-void append(ResultConcept& product, const Keywords& occurrence) {
+void append(Making& making, const Keywords& occurrence) {
   const auto& source = occurrence.data<ResultConcept>("RESULTAT");
+  ResultConcept& product = making.product;
   auto& steps = product.result.steps;
   if (steps.empty()) {
     product.result = source.result;
-    product.problem = source.problem;
     steps.clear();
   } else if (&product.result.mesh() != &source.result.mesh()) {
     throw DiagnosticError("incompatible-field", "CREA_RESU: the results lie on different meshes", occurrence.span_of("RESULTAT"));
   }
+  if (product.result.model && source.result.model && product.result.model->formulations != source.result.model->formulations)
+    throw DiagnosticError("one-for-all-steps", "CREA_RESU: the results lie on models with other elements: in comma a result has one for all of its steps", occurrence.span_of("RESULTAT"), "make one result for each");
   if (source.result.steps.empty()) return;
   const double shift = occurrence.real("TRANSLATION");
   const double first = source.result.steps.front().instant + shift;
   constexpr double same_instant = 1e-9;
-  std::erase_if(steps, [&](const auto& step) { return step.instant >= first - same_instant * std::abs(first); });
+  const auto replaced = std::ranges::find_if(steps, [&](const auto& step) { return step.instant >= first - same_instant * std::abs(first); });
+  making.origins.resize(static_cast<std::size_t>(replaced - steps.begin()));
+  steps.erase(replaced, steps.end());
+  const solver::StaticProblem* before = nullptr;
   for (const solver::ResultStep& step : source.result.steps) {
+    const solver::StaticProblem& problem = source.problem_of(step);
+    making.origins.push_back(before == &problem ? making.origins.back() : std::make_shared<const solver::StaticProblem>(problem));
+    before = &problem;
     steps.push_back(step);
     steps.back().instant += shift;
   }
@@ -153,11 +236,11 @@ void append(ResultConcept& product, const Keywords& occurrence) {
 Product crea_resu(const Call& call, Context&) {
   auto product = call.reuse ? std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"))
                             : std::make_shared<ResultConcept>();
-  for (const Keywords& occurrence : call.factors("ASSE")) append(*product, occurrence);
-  int order = product->result.steps.empty() ? 1 : product->result.steps.front().order;
-  for (const Keywords& occurrence : call.factors("AFFE")) add_field(*product, call, occurrence);
-  for (solver::ResultStep& step : product->result.steps) step.order = order++;
-  if (!product->problem.properties) product->problem.properties = std::make_shared<const solver::ElementProperties>();
+  Making making(*product);
+  for (const Keywords& occurrence : call.factors("ASSE")) append(making, occurrence);
+  if (!product->result.steps.empty()) making.first_order = product->result.steps.front().order;
+  for (const Keywords& occurrence : call.factors("AFFE")) add_field(making, call, occurrence);
+  making.settle();
   if (!call.reuse) return product;
   call.result->data = product;
   return nullptr;

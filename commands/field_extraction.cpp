@@ -192,7 +192,9 @@ std::shared_ptr<FieldConcept> field_of_result(const Call& call) {
   try {
     product->field = read_result(call, result);
     product->multipliers = multipliers_beside(call);
-    product->behaviours = call.data<ResultConcept>("RESULTAT").problem.behaviours;
+    const auto& data = call.data<ResultConcept>("RESULTAT");
+    const bool of_one_step = !call.has("TYPE_MAXI") && call.text("INTERPOL") != "LIN";
+    product->behaviours = of_one_step ? data.problem_of(only_step(call, result, "a field is taken of one")).behaviours : data.problem.behaviours;
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("NOM_CHAM"), error.hint());
   }

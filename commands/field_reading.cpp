@@ -20,13 +20,13 @@ std::vector<FieldSource> field_sources(const Keywords& keywords, ValuesAPoint wa
     return {{data.field, *data.mesh, data.model.get(), {{"CHAM_GD", handle->name}}}};
   }
   const auto& handle = keywords.concept_of("RESULTAT");
-  const solver::Result& result = interpreter::data_of<ResultConcept>(handle, "RESULTAT").result;
+  const auto& data = interpreter::data_of<ResultConcept>(handle, "RESULTAT");
+  const solver::Result& result = data.result;
   std::vector<FieldSource> sources;
   const bool by_name = keywords.given("NOM_VARI");
-  const auto* behaviours = interpreter::data_of<ResultConcept>(handle, "RESULTAT").problem.behaviours.get();
   for (const solver::ResultStep* step : steps_with_field(keywords, result)) {
     const solver::Field& held = wanted == ValuesAPoint::any ? layered_field_of(keywords, *step, keywords.text("NOM_CHAM")) : field_of(keywords, *step);
-    auto made = by_name ? std::make_shared<const solver::Field>(by_variable_names(keywords, held, behaviours)) : nullptr;
+    auto made = by_name ? std::make_shared<const solver::Field>(by_variable_names(keywords, held, data.problem_of(*step).behaviours.get())) : nullptr;
     sources.push_back({made ? *made : held,
                        result.mesh(),
                        result.model.get(),

@@ -44,20 +44,20 @@ solver::ElementField layer_of(const Keywords& occurrence, const std::string& nam
 Product post_champ(const Call& call, Context&) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
   const auto cells = chosen_cells(call, source.result.mesh());
-  std::optional<solver::StaticProblem> problem;
-  if (!call.factors("COQU_EXCENT").empty()) problem = problem_of_result(call, source);
   auto product = std::make_shared<ResultConcept>();
   product->problem = source.problem;
+  product->earlier = source.earlier;
   product->result.model = source.result.model;
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     solver::ResultStep step{chosen->order, chosen->instant, {}, {}, chosen->parameters};
     for (const Keywords& occurrence : call.factors("EXTR_COQUE"))
       for (const std::string& name : occurrence.texts("NOM_CHAM")) step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));
     for (const Keywords& occurrence : call.factors("COQU_EXCENT")) {
+      const solver::StaticProblem problem = problem_of_result(call, source, chosen);
       const auto* forces = std::get_if<solver::ElementField>(&field_of(occurrence, *chosen));
       if (forces == nullptr) throw DiagnosticError("wrong-field", "COQU_EXCENT wants a field on cells", occurrence.span_of("NOM_CHAM"));
       step.fields.insert_or_assign(occurrence.text("NOM_CHAM"),
-                                   solver::forces_about_middle(*problem->model, *problem->properties, *forces, cells));
+                                   solver::forces_about_middle(*problem.model, *problem.properties, *forces, cells));
     }
     product->result.steps.push_back(std::move(step));
   }

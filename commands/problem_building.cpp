@@ -173,7 +173,9 @@ solver::StaticProblem completed(const Call& call, const ResultConcept& source, s
 
 }  // namespace
 
-solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source) { return completed(call, source, source.problem); }
+solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& source, const solver::ResultStep* step) {
+  return completed(call, source, step != nullptr ? source.problem_of(*step) : source.problem);
+}
 
 std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int> last_order) {
   auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));

@@ -22,9 +22,9 @@ solver::StaticProblem static_problem(const interpreter::Call& call);
 /// The loads of EXCIT, in place of those of the problem.
 void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& problem);
 
-/// The problem that a result (its last phase) was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws DiagnosticError
-/// `missing-keyword` where neither gives a model or materials.
-solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source);
+/// The problem that a step of a result (null: its last phase) was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws
+/// DiagnosticError `missing-keyword` where neither gives a model or materials.
+solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source, const solver::ResultStep* step = nullptr);
 
 /// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept as an earlier phase.
 std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});

@@ -88,7 +88,7 @@ double step_value(const Call& call, const solver::ResultStep& step, const solver
   if (!call.given("NOM_PARA_RESU")) {
     const solver::Field& field = layered_field_of(call, step, call.text("NOM_CHAM"));
     if (!call.given("NOM_VARI")) return carried_value(call, field, mesh);
-    return carried_value(call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem.behaviours.get()), mesh);
+    return carried_value(call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem_of(step).behaviours.get()), mesh);
   }
   const auto found = step.parameters.find(call.text("NOM_PARA_RESU"));
   if (found != step.parameters.end()) return found->second;

@@ -75,12 +75,10 @@ std::shared_ptr<Dict> fields(const solver::Result& result) {
 const solver::ResultStep& step_at(const solver::Result& result, const MethodArguments& given) {
   const std::string parameter = given.text("para", "NUME_ORDRE");
   if (!given.has("value") || (parameter != "NUME_ORDRE" && parameter != "INST")) throw DiagnosticError("type-error", "a step is named by its number or its instant", {}, "write RESULT.getField(\"DEPL\", 1), or value=1.0, para=\"INST\"");
-  const double value = given.real("value"), precision = given.real("prec", 1e-6);
-  const bool absolute = parameter == "NUME_ORDRE" || given.text("crit", "RELATIF") == "ABSOLU";
-  for (const solver::ResultStep& step : result.steps) {
-    const double own = parameter == "INST" ? step.instant : static_cast<double>(step.order);
-    if (std::abs(own - value) <= (parameter == "INST" ? precision * (absolute ? 1.0 : std::abs(value)) : 0.0)) return step;
-  }
+  const double value = given.real("value");
+  const InstantTolerance tolerance{given.real("prec", 1e-6), given.text("crit", "RELATIF") != "ABSOLU"};
+  for (const solver::ResultStep& step : result.steps)
+    if (parameter == "INST" ? tolerance.meets(value, step.instant) : static_cast<double>(step.order) == value) return step;
   throw DiagnosticError("unknown-step", fmt::format("the result has no step {}={}", parameter, value));
 }
 
@@ -93,6 +91,7 @@ Value field_handle(const ResultConcept& data, const MethodArguments& given) {
   auto field = std::make_shared<FieldConcept>();
   field->field = found->second;
   field->model = data.result.model;
+  field->behaviours = data.problem_of(step).behaviours;
   field->mesh = data.result.model ? data.result.model->mesh : data.result.bare_mesh;
   auto handle = std::make_shared<interpreter::Concept>();
   handle->name = name;

@@ -212,7 +212,7 @@ TestedValue result_value(const Keywords& test, const ResultConcept& data, const 
   if (test.given("PARA")) return parameter_value(test, step);
   const solver::Field& held = layered_field_of(test, step, test.text("NOM_CHAM"));
   const solver::Mesh& mesh = data.result.mesh();
-  if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem.behaviours.get()), mesh));
+  if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem_of(step).behaviours.get()), mesh));
   const bool all = takes_multipliers_in(test) && test.text("NOM_CHAM") == "DEPL";
   return as_reference(test, field_value(test, held, mesh, all ? multipliers_of(data, step) : Values()));
 }
