@@ -31,7 +31,7 @@ std::vector<double> new_instants(std::vector<double> instants, const solver::Res
   constexpr double same_instant = 1e-6;
   std::erase_if(instants, [&](double instant) {
     return std::ranges::any_of(result.steps, [&](const solver::ResultStep& step) {
-      return std::abs(step.instant - instant) <= same_instant * std::max(1.0, std::abs(instant));
+      return std::abs(step.instant - instant) <= same_instant * std::abs(instant);
     });
   });
   return instants;

@@ -155,6 +155,7 @@ Relations uniform_displacement(const Keywords& keywords, const LoadedModel& targ
 
 // LIAISON_SOLIDE with a given motion: u = TRAN + (R - 1) (x - CENTRE).
 Relations moved_body(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
+  constexpr double rounding = 1e-14;
   const solver::Placement motion = placement(keywords);
   Relations relations;
   for (const int node : remaining_nodes(keywords, target.mesh)) {
@@ -166,7 +167,12 @@ Relations moved_body(const Keywords& keywords, const LoadedModel& target, const 
     }
     for (int c = 0; c < 3; ++c) {
       const auto component = static_cast<Component>(c);
-      if (target.dofs.dof(node, component) >= 0) relations.push_back({{{node, component, 1.0}}, moved[c], {}, origin});
+      if (target.dofs.dof(node, component) >= 0) {
+        relations.push_back({{{node, component, 1.0}}, moved[c], {}, origin});
+      } else if (target.dofs.dof(node, Component::dx) >= 0 && std::abs(moved[c]) > rounding * (motion.translation.norm() + arm.norm())) {
+        throw DiagnosticError("unknown-component", fmt::format("LIAISON_SOLIDE: the motion takes {} by {:.6g} along {}, which it does not carry", target.mesh.node_name(node), moved[c], solver::name_of(component)),
+                              keywords.span_of(keywords.given("ANGL_NAUT") ? "ANGL_NAUT" : "TRAN"), "keep the motion in the plane of the model: the first angle of ANGL_NAUT alone turns about Z");
+      }
     }
   }
   return relations;
