@@ -205,9 +205,11 @@ class Join {
   Table run(bool restricted) {
     std::vector<bool> used(right_.rows.size(), false);
     std::vector<std::vector<Cell>> rows;
+    std::size_t first_unused = 0;  // keys mostly stand in the same order
     for (auto& row : result_.rows) {
       bool matched = false;
-      for (std::size_t i = 0; i < right_.rows.size() && !matched; ++i) {
+      while (first_unused < used.size() && used[first_unused]) ++first_unused;
+      for (std::size_t i = first_unused; i < right_.rows.size() && !matched; ++i) {
         matched = !used[i] && agree(row, right_.rows[i]);
         if (!matched) continue;
         fill(row, i);

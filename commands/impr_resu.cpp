@@ -56,9 +56,11 @@ bool choose_components(const Keywords& print, solver::Field& field) {
 // The values of cells at other nodes than these become absent.
 void keep_nodes_of_cells(solver::ElementField& field, const solver::Mesh& mesh, const std::vector<int>& nodes) {
   const std::size_t width = field.components.size();
+  std::vector<bool> is_kept(static_cast<std::size_t>(mesh.node_count()), false);
+  for (const int node : nodes) is_kept[static_cast<std::size_t>(node)] = true;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for (int point = 0; point < field.points(cell); ++point) {
-      if (std::ranges::find(nodes, mesh.cell(cell)[static_cast<std::size_t>(point)]) != nodes.end()) continue;
+      if (is_kept[static_cast<std::size_t>(mesh.cell(cell)[static_cast<std::size_t>(point)])]) continue;
       std::fill_n(field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell] + point) * width), width, solver::absent);
     }
   }

@@ -185,22 +185,19 @@ class NameCheck {
                     Groups solver::Mesh::*others) {
     const auto meshes = meshes_of(site.reach);
     if (meshes.empty()) return;
-    std::vector<std::string> known, known_others;
-    for (const solver::Mesh* mesh : meshes) {
-      std::ranges::move(keys_of(mesh->*groups), std::back_inserter(known));
-      std::ranges::move(keys_of(mesh->*others), std::back_inserter(known_others));
-    }
+    const auto has = [&](Groups solver::Mesh::*kind_of_groups, const std::string& name) {
+      return std::ranges::any_of(meshes, [&](const solver::Mesh* mesh) { return (mesh->*kind_of_groups).contains(name); });
+    };
     const auto is_own = [&](const std::string& name) {
       if (own_names_.contains(name)) return true;
       if (kind != "node") return false;
-      return own_node_groups_.contains(name) || (every_cell_group_ && std::ranges::find(known_others, name) != known_others.end());
+      return own_node_groups_.contains(name) || (every_cell_group_ && has(others, name));
     };
-    const auto exists = [&](const std::string& name) { return is_own(name) || std::ranges::find(known, name) != known.end(); };
+    const auto exists = [&](const std::string& name) { return is_own(name) || has(groups, name); };
     const auto hint = [&](const std::string& name) {
-      const bool other = std::ranges::find(known_others, name) != known_others.end();
-      if (other) return fmt::format("{} is a {} group of this mesh", name, other_kind);
-      std::vector<std::string> offered = known;
-      offered.insert(offered.end(), own_names_.begin(), own_names_.end());
+      if (has(others, name)) return fmt::format("{} is a {} group of this mesh", name, other_kind);
+      std::vector<std::string> offered(own_names_.begin(), own_names_.end());
+      for (const solver::Mesh* mesh : meshes) std::ranges::move(keys_of(mesh->*groups), std::back_inserter(offered));
       return hint_for(name, offered, fmt::format("{} group", kind));
     };
     check_each(site, "unknown-group", fmt::format("the mesh has no {} group", kind), exists, hint);

@@ -29,38 +29,57 @@ bool holds(const std::string& comparison, int order) {
   return comparison == "NE" ? order != 0 : order == 0;
 }
 
-bool holds_number(const Keywords& filter, double value, double reference) {
-  const std::string& comparison = filter.text("CRIT_COMP");
-  if (comparison != "EQ" && comparison != "NE") return holds(comparison, order(value, reference));
-  const double scale = filter.text("CRITERE") == "RELATIF" ? std::abs(reference) : 1.0;
-  const bool equal = std::abs(value - reference) <= filter.real("PRECISION") * scale;
-  return equal == (comparison == "EQ");
-}
-
-/// Several values: one of them for EQ and the orders, none of them for NE.
-template <class Values, class Test>
-bool over_values(const Keywords& filter, const Values& values, Test test) {
-  if (filter.text("CRIT_COMP") == "NE") return std::all_of(values.begin(), values.end(), test);
-  return std::any_of(values.begin(), values.end(), test);
-}
-
-bool passes(const Keywords& filter, const Cell& cell) {
-  if (filter.given("VALE_K")) {
-    const auto* text = std::get_if<std::string>(&cell);
-    if (text == nullptr) return false;
-    return over_values(filter, filter.texts("VALE_K"), [&](const std::string& wanted) {
-      return holds(filter.text("CRIT_COMP"), without_padding(*text).compare(without_padding(wanted)));
-    });
+/// What the cells of a column are compared with, read once.
+class Comparison {
+ public:
+  explicit Comparison(const Keywords& filter) : comparison_(filter.text("CRIT_COMP")) {
+    if (filter.given("VALE_K")) {
+      for (const std::string& text : filter.texts("VALE_K")) texts_.emplace_back(without_padding(text));
+      kind_ = Kind::text;
+    } else if (filter.given("VALE_I")) {
+      for (const std::int64_t number : filter.integers("VALE_I")) numbers_.push_back(static_cast<double>(number));
+      kind_ = Kind::integer;
+    } else {
+      numbers_ = filter.reals("VALE");
+      relative_ = filter.text("CRITERE") == "RELATIF";
+      precision_ = filter.real("PRECISION");
+    }
   }
-  const auto value = number_in(cell);
-  if (!value) return false;
-  if (filter.given("VALE_I")) {
-    return over_values(filter, filter.integers("VALE_I"), [&](std::int64_t wanted) {
-      return holds(filter.text("CRIT_COMP"), order(*value, static_cast<double>(wanted)));
-    });
+
+  bool passes(const Cell& cell) const {
+    if (kind_ == Kind::text) {
+      const auto* text = std::get_if<std::string>(&cell);
+      if (text == nullptr) return false;
+      const std::string_view own = without_padding(*text);
+      return over_values(texts_, [&](const std::string& wanted) { return holds(comparison_, own.compare(wanted)); });
+    }
+    const auto value = number_in(cell);
+    return value && over_values(numbers_, [&](double wanted) { return kind_ == Kind::integer ? holds(comparison_, order(*value, wanted)) : holds_real(*value, wanted); });
   }
-  return over_values(filter, filter.reals("VALE"), [&](double wanted) { return holds_number(filter, *value, wanted); });
-}
+
+ private:
+  enum class Kind : std::uint8_t { text, integer, real };
+
+  bool holds_real(double value, double reference) const {
+    if (comparison_ != "EQ" && comparison_ != "NE") return holds(comparison_, order(value, reference));
+    const bool equal = std::abs(value - reference) <= precision_ * (relative_ ? std::abs(reference) : 1.0);
+    return equal == (comparison_ == "EQ");
+  }
+
+  /// Several values: one of them for EQ and the orders, none of them for NE.
+  template <class Values, class Test>
+  bool over_values(const Values& values, Test test) const {
+    if (comparison_ == "NE") return std::all_of(values.begin(), values.end(), test);
+    return std::any_of(values.begin(), values.end(), test);
+  }
+
+  const std::string& comparison_;
+  Kind kind_ = Kind::real;
+  std::vector<std::string> texts_;
+  std::vector<double> numbers_;
+  bool relative_ = false;
+  double precision_ = 0.0;
+};
 
 double ranked(const std::string& comparison, double value) {
   const double size = comparison.ends_with("_ABS") ? std::abs(value) : value;
@@ -129,10 +148,11 @@ Table filtered(const Table& table, const Keywords& filter) {
   const std::string& comparison = filter.text("CRIT_COMP");
   if (comparison.starts_with("MAXI") || comparison.starts_with("MINI")) return extremes(table, column, filter);
   Table kept{table.title, table.columns, {}};
+  const bool by_emptiness = comparison == "VIDE" || comparison == "NON_VIDE";
+  const std::optional<Comparison> compared = by_emptiness ? std::nullopt : std::optional<Comparison>(filter);
   for (const auto& row : table.rows) {
     const Cell& cell = row[static_cast<std::size_t>(column)];
-    const bool keep = comparison == "VIDE" ? is_empty(cell) : comparison == "NON_VIDE" ? !is_empty(cell) : passes(filter, cell);
-    if (keep) kept.rows.push_back(row);
+    if (compared ? compared->passes(cell) : is_empty(cell) == (comparison == "VIDE")) kept.rows.push_back(row);
   }
   return kept;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -86,9 +87,10 @@ std::string free_name(const Groups& groups, const std::string& name) {
 void append_groups(Groups& target, const Groups& source, const std::vector<int>& places, std::vector<std::pair<std::string, std::string>>& renamed) {
   for (const auto& [name, members] : source) {
     std::vector<int> kept;
+    std::unordered_set<int> seen;
     for (const int member : members) {
       const int place = places[static_cast<std::size_t>(member)];
-      if (place >= 0 && std::find(kept.begin(), kept.end(), place) == kept.end()) kept.push_back(place);
+      if (place >= 0 && seen.insert(place).second) kept.push_back(place);
     }
     if (kept.empty()) continue;
     const std::string own = free_name(target, name);

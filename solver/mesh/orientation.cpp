@@ -69,20 +69,34 @@ void reverse(std::span<int> nodes, CellType type) {
   if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners - 1);
 }
 
-std::vector<int> default_support(const Mesh& mesh, std::span<const int> skin) {
+/// Of `support`, or of all cells of one dimension more than one of the skin: those that may have a facet of the skin, whose corners are among its nodes.
+std::vector<int> cells_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
   std::array<bool, 4> wanted{};
-  for (const int cell : skin) wanted[static_cast<std::size_t>(dimension(mesh.cell_types[cell]))] = true;
-  std::vector<int> support;
+  std::vector<bool> is_of_skin(static_cast<std::size_t>(mesh.node_count()), false);
+  for (const int cell : skin) {
+    wanted[static_cast<std::size_t>(dimension(mesh.cell_types[cell]))] = true;
+    for (const int node : mesh.cell(cell)) is_of_skin[static_cast<std::size_t>(node)] = true;
+  }
+  const auto touches = [&](int cell) {
+    const int least = dimension(mesh.cell_types[cell]);  // corners of its smallest facet
+    return std::ranges::count_if(mesh.cell(cell), [&](int node) { return is_of_skin[static_cast<std::size_t>(node)]; }) >= least;
+  };
+  std::vector<int> behind;
+  const auto take = [&](int cell) {
+    if (touches(cell)) behind.push_back(cell);
+  };
+  if (!support.empty()) {
+    std::ranges::for_each(support, take);
+    return behind;
+  }
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     const int below = dimension(mesh.cell_types[cell]) - 1;
-    if (below >= 1 && wanted[static_cast<std::size_t>(below)]) support.push_back(cell);
+    if (below >= 1 && wanted[static_cast<std::size_t>(below)]) take(cell);
   }
-  return support;
+  return behind;
 }
 
-FacetMap facets_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
-  return support.empty() ? map_facets(mesh, default_support(mesh, skin)) : map_facets(mesh, support);
-}
+FacetMap facets_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support = {}) { return map_facets(mesh, cells_behind(mesh, skin, support)); }
 
 CellFacet support_of(const Mesh& mesh, int cell, const FacetMap& facets) {
   const auto found = facets.find(facet_key(mesh, cell));
@@ -134,7 +148,7 @@ std::vector<int> loose_skin(const Mesh& mesh, std::span<const int> skin, std::sp
 }
 
 std::vector<int> inward_skin(const Mesh& mesh, std::span<const int> skin) {
-  const FacetMap facets = map_facets(mesh, default_support(mesh, skin));
+  const FacetMap facets = facets_behind(mesh, skin);
   std::vector<int> inward;
   for (const int cell : skin) {
     const auto found = facets.find(facet_key(mesh, cell));
