@@ -246,7 +246,12 @@ Value Evaluator::call_command(const std::string& name, const CallArguments& argu
   command.open = arguments.open;
   command.target = arguments.target;
   command.scope = [this](std::string_view word) { return visible(word); };
-  return with_host([&] { return host_.call(command, !recovering()); });
+  Value product = with_host([&] { return host_.call(command, !recovering()); });
+  if (name != "FIN") return product;
+  // What follows it is not run (U4.11.02): as after sys.exit().
+  auto exit = make_exception(ErrorKind::system_exit, "");
+  exit->arguments.clear();
+  throw RaisedError(std::move(exit));
 }
 
 /// The variable of a name in the function that runs or, if it has none, in the file.

@@ -35,11 +35,16 @@ Value initialise(Evaluator& evaluator, const CallArguments& arguments) {
   return evaluator.call(Value(std::shared_ptr<Object>(std::make_shared<CommandObject>("DEBUT"))), kept);
 }
 
-/// code_aster.close() is FIN().
+/// code_aster.close() is FIN(), but that the file goes on.
 Value close(Evaluator& evaluator, const CallArguments& arguments) {
   CallArguments kept = arguments;
   kept.positional.clear();
-  return evaluator.call(Value(std::shared_ptr<Object>(std::make_shared<CommandObject>("FIN"))), kept);
+  try {
+    return evaluator.call(Value(std::shared_ptr<Object>(std::make_shared<CommandObject>("FIN"))), kept);
+  } catch (const RaisedError& error) {
+    if (error.object()->kind != ErrorKind::system_exit) throw;
+    return Value();
+  }
 }
 
 Value leave(Evaluator&, const CallArguments& arguments) {
