@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,29 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::
 
 }  // namespace
 
+// The unit of "fort.20", under which a file of the .export or beside the command file stands anyway.
+std::optional<int> Files::unit_in(const std::string& name) {
+  constexpr std::string_view prefix = "fort.";
+  int unit = 0;
+  if (!name.starts_with(prefix)) return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), unit);
+  return error == std::errc{} && end == name.data() + name.size() ? std::optional(unit) : std::nullopt;
+}
+
+std::optional<fs::path> Files::named_input(int unit) const {
+  const auto own = named_.find(unit);
+  if (own == named_.end() || unit_in(own->second.string())) return std::nullopt;
+  for (const ExportFile& file : exported_)
+    if (file.input && file.path.filename() == own->second) return file.path;
+  for (const fs::path& folder : {output_folder_, command_file_.parent_path()})
+    if (fs::is_regular_file(folder / own->second)) return folder / own->second;
+  throw interpreter::DiagnosticError("missing-file", fmt::format("DEFI_FICHIER gives unit {} the file {}, and there is none", unit, own->second.string()), {},
+                                     "put it beside the command file, or give the unit back (DEFI_FICHIER, ACTION='LIBERER')");
+}
+
 fs::path Files::input(int unit, const std::vector<std::string>& extensions) const {
+  if (auto named = named_input(unit)) return *named;
+  if (const auto own = named_.find(unit); own != named_.end()) unit = unit_in(own->second.string()).value_or(unit);
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }
@@ -68,6 +91,7 @@ fs::path Files::found(int unit, const std::vector<std::string>& extensions) cons
 }
 
 fs::path Files::included(int unit, const interpreter::Span& where) const {
+  if (auto named = named_input(unit)) return *named;
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }

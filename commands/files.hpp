@@ -28,7 +28,7 @@ class Files {
  public:
   Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
 
-  /// The input file of a unit: the .export's, else what has been written under that unit, else a file beside the command file with its stem and the unit or one of the extensions,
+  /// The input file of a unit: the one that DEFI_FICHIER names (beside the command file, or written before), else the .export's, else what has been written under that unit, else a file beside the command file with its stem and the unit or one of the extensions,
   /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
   /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for, or where the file stands for another unit already.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
@@ -46,11 +46,13 @@ class Files {
   /// `<stem>.<unit>.<extension>` for another, or where the file has been read.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
-  /// From now on the output file of the unit has this name, unless the .export has one for it; an empty name gives the unit back.
+  /// From now on the file of the unit has this name (of an output: unless the .export has one for it); an empty name gives the unit back.
   /// Throws DiagnosticError `unsupported` for a name that leads out of the current folder.
   void name_output(int unit, const std::string& name);
 
  private:
+  static std::optional<int> unit_in(const std::string& name);
+  std::optional<std::filesystem::path> named_input(int unit) const;
   bool is_read(const std::filesystem::path& path) const;
   std::vector<std::string> stems() const;
   std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;

@@ -471,6 +471,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 
   checked.sound = count_errors(diagnostics) == errors_before;
+  checked.left_out = page.role == Role::output && checked.sound && context.met_unsupported;
   const bool unknown_reuse = reused && reuse->value->is_unknown();
   checked.complete = checked.sound && !context.met_unsupported && !context.met_open && !unknown_reuse && !holds_unknown(checked.call);
   return checked;

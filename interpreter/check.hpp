@@ -17,6 +17,7 @@ struct CheckedCall {
   std::string product_type;  ///< type of the concept that it gives, or empty
   bool sound = true;         ///< no error was reported
   bool complete = true;      ///< it may run: no value is unknown and comma supports everything in it
+  bool left_out = false;     ///< it only writes, and asks for something that comma does not support
 };
 
 /// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count,

@@ -45,6 +45,7 @@ struct CommandNode {
   std::vector<int> reads;  ///< ids of the concepts that its keywords name
   NodeState state = NodeState::waiting;
   bool caught = false;    ///< inside try: the file itself deals with what goes wrong
+  bool left_out = false;  ///< a command that only writes, and that comma does not run
   bool forgiven = false;  ///< it failed inside try: what it left may still be read
   double seconds = 0;
   std::vector<Span> called_from;  ///< the calls of the file's functions that led to it, the innermost first

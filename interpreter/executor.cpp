@@ -20,6 +20,12 @@ bool is_readable(const CommandNode& source) {
   return source.state == NodeState::failed && source.forgiven && source.product && source.product->data;
 }
 
+/// Of a command that reads what one that was left out would have written.
+Diagnostic not_computed(const CommandNode& left_out, const CommandNode& reader) {
+  return {Severity::error, "not-computed", fmt::format("{} reads what {} (line {}) was to write or name, which comma has left out", reader.call.command, left_out.call.command, line_of(left_out)),
+          "see the alarm there", reader.call.span};
+}
+
 DiagnosticError not_computed(const CommandNode& source) {
   return {"not-computed", fmt::format("{} (line {}) has not been computed", source.call.command, line_of(source)),
           source.call.span};
@@ -70,10 +76,13 @@ void Executor::run_all(Need least) {
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting) continue;
     const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
-    if (wanted && can_run(node))
+    if (wanted && can_run(node)) {
       run_reporting(node);
-    else
-      node.state = NodeState::skipped;
+      continue;
+    }
+    node.state = NodeState::skipped;
+    // What failed has been told as an error, what was left out as an alarm alone.
+    if (const CommandNode* source = wanted ? missing_source(node) : nullptr; source != nullptr && source->left_out) diagnostics_.add(not_computed(*source, node));
   }
 }
 
@@ -87,6 +96,7 @@ void Executor::run_now(int id) {
 void Executor::run_reporting(CommandNode& node) {
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
+  node.left_out = node.left_out || (node.state == NodeState::failed && node.role == Role::output);
 }
 
 bool Executor::force(int id) {

@@ -46,6 +46,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   checked.call.result = product;
   CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
   node.caught = eager;
+  node.left_out = checked.left_out;
   node.called_from = diagnostics_.called_from();
   const int id = node.id;
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);

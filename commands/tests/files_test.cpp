@@ -47,6 +47,22 @@ TEST_CASE("What was written under a unit is what is read under it") {
   CHECK(files.input(80, {"med"}) == written);
 }
 
+TEST_CASE("A unit that the command file names is that file, whatever else could stand for it") {
+  const Folder folder, elsewhere;
+  folder.file("a.med");
+  const auto other = folder.file("other.med"), exported = folder.file("exported.med");
+  Files files(folder.path / "a.comm", {{"med", exported, true, false, 20}}, elsewhere.path);
+  files.name_output(20, "other.med");
+  CHECK(files.input(20, {"med"}) == other);
+  CHECK(files.included(20, {}) == other);
+  files.name_output(20, "nowhere.med");
+  CHECK_THROWS_WITH(files.input(20, {"med"}), Catch::Contains("nowhere.med"));
+  files.name_output(21, "fort.20");
+  files.name_output(20, "");
+  CHECK(files.input(20, {"med"}) == exported);
+  CHECK(files.input(21, {"med"}) == exported);
+}
+
 TEST_CASE("An .export names files by unit, and outputs land in the current folder") {
   const Folder folder;
   folder.file("a.comm");
