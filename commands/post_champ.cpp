@@ -41,13 +41,14 @@ solver::ElementField layer_of(const Keywords& occurrence, const std::string& nam
 }  // namespace
 
 // The new result holds the fields that are taken or moved, alone.
-Product post_champ(const Call& call, Context&) {
+Product post_champ(const Call& call, Context& context) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
   const auto cells = chosen_cells(call, source.result.mesh());
   auto product = std::make_shared<ResultConcept>();
   product->problem = source.problem;
   product->earlier = source.earlier;
   product->result.model = source.result.model;
+  warn_of_missing_instants("POST_CHAMP", call, context.diagnostics);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     solver::ResultStep step{chosen->order, chosen->instant, {}, {}, chosen->parameters};
     for (const Keywords& occurrence : call.factors("EXTR_COQUE"))

@@ -27,13 +27,15 @@ std::string known_instants(const solver::Result& result) {
                      result.steps.back().instant);
 }
 
-// Null where no step stands.
+// The nearest within the tolerance, the first of equals; null where no step stands there.
 const ResultStep* find_step(const Keywords& keywords, const solver::Result& result, double instant) {
   const InstantTolerance tolerance = instant_tolerance(keywords);
+  const ResultStep* nearest = nullptr;
   for (const ResultStep& step : result.steps) {
-    if (tolerance.meets(instant, step.instant)) return &step;
+    if (!tolerance.meets(instant, step.instant)) continue;
+    if (nearest == nullptr || std::abs(step.instant - instant) < std::abs(nearest->instant - instant)) nearest = &step;
   }
-  return nullptr;
+  return nearest;
 }
 
 const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
