@@ -452,11 +452,45 @@ void take_strains(const Keywords& occurrence, const LoadedModel& target, Initial
   }
 }
 
+/// The components of a field of initial strains that a cell has.
+std::span<const std::string_view> strains_of(const LoadedModel& target, int cell) {
+  static constexpr std::array<std::string_view, 6> of_continua = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"}, of_plates = {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"};
+  static constexpr std::array<std::string_view, 3> of_beams = {"EPXX", "KY", "KZ"};
+  const auto formulation = target.model.formulations[cell];
+  if (is_plate(target, cell)) return of_plates;
+  if (solver::is_bar(formulation)) return std::span(of_beams).first(1);
+  if (solver::is_beam(formulation)) return of_beams;
+  if (solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell)) return of_continua;
+  return {};
+}
+
+// A component that none of the cells has would be left out.
+void require_taken(const Keywords& occurrence, const solver::ElementField& field, const LoadedModel& target) {
+  for (std::size_t c = 0; c < field.components.size(); ++c) {
+    bool is_given = false, is_taken = false;
+    for (int cell = 0; cell < target.mesh.cell_count() && !is_taken; ++cell) {
+      for (int point = 0; point < field.points(cell); ++point) {
+        if (!(std::abs(field.at(cell, point, static_cast<int>(c))) > 0.0)) continue;
+        is_given = true;
+        is_taken = std::ranges::count(strains_of(target, cell), field.components[c]) > 0;
+        break;
+      }
+    }
+    if (!is_given || is_taken) continue;
+    throw DiagnosticError("no-element", fmt::format("PRE_EPSI: none of these cells can have the strain {} of the field", field.components[c]), occurrence.span_of("EPSI"),
+                          "EPXX ... are for solids and plane bodies, EPXX for bars and beams, KY and KZ for beams, EXX ... KXY for plates");
+  }
+}
+
 void add_initial_strains(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   InitialStrains strains;
   for (const Keywords& occurrence : call.factors("PRE_EPSI")) {
-    if (occurrence.given("EPSI")) load.initial_strain_fields.push_back(field_at_points(occurrence, "EPSI", target));
-    else take_strains(occurrence, target, strains);
+    if (!occurrence.given("EPSI")) {
+      take_strains(occurrence, target, strains);
+      continue;
+    }
+    load.initial_strain_fields.push_back(field_at_points(occurrence, "EPSI", target));
+    require_taken(occurrence, *load.initial_strain_fields.back(), target);
   }
   append(load.initial_strains, std::move(strains.continuum));
   append(load.initial_slender_strains, std::move(strains.slender));
