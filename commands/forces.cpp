@@ -196,13 +196,28 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
     for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate", [&](int each) { return is_plate(target, each); })) {
       if (asks_for_section(occurrence)) {
         take_plate_force(occurrence, cell, of_sections);
+        const solver::PlateForce& taken = of_sections[cell];
+        if (pulled || !taken.in_own_axes || taken.level != solver::PlateLevel::mesh) pressures.erase(cell);
+        forces.erase(cell);
+        moments.erase(cell);
         continue;
       }
+      const auto section = of_sections.find(cell);
+      const bool joins = section != of_sections.end() && (pressed || pulled) && section->second.in_own_axes && section->second.level == solver::PlateLevel::mesh;
+      if (joins) {  // the same axes and level: F3 takes the place of F3
+        const Amount along = component_of_turned({across}, -Eigen::Vector3d::UnitX());
+        std::tie(section->second.force[2], section->second.functions[2]) = std::pair(along.value, along.function);
+        continue;
+      }
+      if (section != of_sections.end()) of_sections.erase(section);
       if (pressed || pulled) {
+        forces.erase(cell);
+        moments.erase(cell);
         pressures[cell].cell = cell;
         std::tie(pressures[cell].pressure, pressures[cell].pressure_function) = std::pair(across.value, across.function);
         continue;
       }
+      pressures.erase(cell);
       forces[cell].cell = cell;
       override_given(amounts, forces[cell].force, forces[cell].functions);
       moments[cell].cell = cell;
@@ -500,7 +515,8 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
 }  // namespace
 
 bool is_in_own_axes(const Keywords& occurrence) {
-  return std::ranges::any_of(own_beam_forces, [&](const char* name) { return occurrence.given(name); });
+  const auto is_given = [&](const char* name) { return *name != '\0' && occurrence.given(name); };
+  return std::ranges::any_of(own_beam_forces, is_given) || std::ranges::any_of(own_plate_forces, is_given) || occurrence.given("PRES");
 }
 
 void add_forces_of_fields(const Keywords& call, const LoadedModel& target, solver::Load& load) {

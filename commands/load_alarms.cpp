@@ -149,21 +149,24 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
   warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads", context);
 }
 
-// Forces of a beam in own axes replace those in the axes of the mesh, and the other way round.
-void warn_of_other_axes(const Call& call, const LoadedModel& target, Context& context) {
-  std::map<int, bool> own_axes;
-  Overriding found{"FORCE_POUTRE"};
-  for (const Keywords& force : call.factors("FORCE_POUTRE")) {
-    const bool own = is_in_own_axes(force);
+// Forces of a beam or plate in own axes replace those in the axes of the mesh, and the other way round; those of a plate at one level those at another.
+void warn_of_other_axes(const Call& call, const char* keyword, const LoadedModel& target, Context& context) {
+  std::map<int, std::pair<bool, std::string>> frames;
+  Overriding found{keyword};
+  for (const Keywords& force : call.factors(keyword)) {
+    const std::pair frame(is_in_own_axes(force), force.has("PLAN") ? force.text("PLAN") : std::string());
     for (const int cell : selected_cells(force, target.mesh)) {
       if (!is_loaded(target, cell)) continue;
-      const auto [known, is_first] = own_axes.try_emplace(cell, own);
-      if (is_first || std::exchange(known->second, own) == own) continue;
+      const auto [known, is_first] = frames.try_emplace(cell, frame);
+      const auto before = std::exchange(known->second, frame);
+      if (is_first || before == frame) continue;
       ++found.count;
-      if (found.example.empty()) found.example = fmt::format("the force in {} axes on {}", own ? "global" : "own", target.mesh.cell_name(cell));
+      if (!found.example.empty()) continue;
+      const std::string level = before.second == frame.second ? std::string() : fmt::format(" at PLAN='{}'", before.second);
+      found.example = fmt::format("the force in {} axes{} on {}", before.first ? "own" : "global", level, target.mesh.cell_name(cell));
     }
   }
-  if (found.count > 0) warn_of(found, call.factors("FORCE_POUTRE").back().span, "where they are meant to add up, put them into two loads", context);
+  if (found.count > 0) warn_of(found, call.factors(keyword).back().span, "where they are meant to add up, put them into two loads", context);
 }
 
 }  // namespace
@@ -175,7 +178,7 @@ void warn_of(const Overriding& found, const interpreter::Span& at, const char* h
 
 void warn_of_loads(const Call& call, const LoadedModel& target, Context& context) {
   for (const ForceKeyword& keyword : overloaded_forces) warn_of_overridden_forces(call, keyword, target, context);
-  warn_of_other_axes(call, target, context);
+  for (const char* keyword : {"FORCE_POUTRE", "FORCE_COQUE"}) warn_of_other_axes(call, keyword, target, context);
   check_normals(call, target, context);
   warn_of_lost_forces(call, target, context);
   warn_of_weight_out_of_plane(call, target, context);
