@@ -34,14 +34,17 @@ DiagnosticError not_computed(const CommandNode& source) {
 }  // namespace
 
 template <typename Act>
-void Executor::report_errors(const Act& act, Severity unsupported) {
+bool Executor::report_errors(const Act& act, Severity unsupported) {
   try {
     act();
   } catch (const DiagnosticError& error) {
     Diagnostic finding = error.diagnostic();
     if (finding.code == "unsupported") finding.severity = unsupported;
+    const bool is_alarm = finding.severity == Severity::alarm;
     diagnostics_.add(std::move(finding));
+    return is_alarm;
   }
+  return false;
 }
 
 bool Executor::is_to_prepare(const CommandNode& node) const {
@@ -95,8 +98,7 @@ void Executor::run_now(int id) {
 
 void Executor::run_reporting(CommandNode& node) {
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
-  report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
-  node.left_out = node.left_out || (node.state == NodeState::failed && node.role == Role::output);
+  node.left_out = report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
 }
 
 bool Executor::force(int id) {

@@ -60,9 +60,9 @@ class Executor {
   void run_reporting(CommandNode& node);
   /// Whether its failure has been reported, and is none that the file deals with.
   static bool is_reported(const CommandNode& node) { return node.state == NodeState::failed && !node.caught; }
-  /// `unsupported`: how grave it is that comma cannot do what a node asks.
+  /// `unsupported`: how grave it is that comma cannot do what a node asks. Returns whether what failed has been told as an alarm alone.
   template <typename Act>
-  void report_errors(const Act& act, Severity unsupported);
+  bool report_errors(const Act& act, Severity unsupported);
   /// Whether there is something to prepare now.
   bool is_to_prepare(const CommandNode& node) const;
   /// Whether its values are known, and all that it reads is there.
