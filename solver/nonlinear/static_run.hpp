@@ -81,6 +81,7 @@ class StaticRun {
   /// With the solution of the path that was passed over, where the plan says so; nothing where that fails too.
   std::optional<int> solve_the_other_way(double instant, const Progress& before, const Error& failure);
   int solve_and_check(double instant);
+  int solve_telling_when(double instant);
 
   // The solution of one step (step_solution.cpp).
   int solve_step(double time);

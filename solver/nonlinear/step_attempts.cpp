@@ -126,9 +126,20 @@ std::optional<int> StaticRun::solve_the_other_way(double instant, const Progress
 }
 
 int StaticRun::solve_and_check(double instant) {
-  const int iterations = solve_step(instant);
+  const int iterations = solve_telling_when(instant);
   if (problem_.contact && problem_.contact->stop_on_interpenetration) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
   return iterations;
+}
+
+/// What settles contact knows no instants.
+int StaticRun::solve_telling_when(double instant) {
+  try {
+    return solve_step(instant);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    if (error.code() != "contact-cycling" || message.find(" t = ") != std::string::npos) throw;
+    throw Error(error.code(), fmt::format("{}, in the step to t = {:.6g}", message, instant), error.hint());
+  }
 }
 
 void StaticRun::take_back(const Progress& before) {
