@@ -19,6 +19,11 @@ SparseColumns InterpolatedStep::matrix(int height, const std::vector<Entry>& ent
   return result;
 }
 
+VectorXd InterpolatedStep::in_lengths(VectorXd all) const {
+  all.tail(law_count()).array() /= weights_.array();
+  return all;
+}
+
 void InterpolatedSolver::take(const InterpolatedStep& step, const SchurComplement& schur) {
   if (version_ == schur.version() && step_ == step) return;
   step_ = step;
@@ -34,10 +39,11 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
     MatrixXd all(step.unknowns(), step.unknowns());
     all.topRows(rows) = -schur.responses(step.rows(), step.forces());
     all.topLeftCorner(rows, rows).diagonal().array() += 1.0;
-    all.bottomRows(step.law_count()) = step.laws();
+    // Laws as lengths: where points are open, multipliers would else be scaled by the area of a face, and what they share with others by its square.
+    all.bottomRows(step.law_count()) = step.weights().cwiseInverse().asDiagonal() * step.laws();
     all_.emplace(std::move(all));
   }
-  return all_->solve(b);
+  return all_->solve(step.in_lengths(b));
 }
 
 /// x that leaves nothing of the laws.
@@ -54,14 +60,10 @@ std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedSt
   const auto most = static_cast<int>(laws / multipliers_a_product);
   if (most < 2 || !without_augmentation_ || version_ != schur.version() || !step_.has_unknowns_of(step) || step_ == step) return std::nullopt;
   const SparseColumns forces = step.forces(), law = step.laws(), last_by_multipliers = step_.forces().rightCols(laws);
-  const auto in_lengths = [&](VectorXd all) {
-    all.tail(laws).array() /= step.weights().array();
-    return all;
-  };
   const auto product = [&](const VectorXd& x) {
     VectorXd result(rows + laws);
     result << x.head(rows) - schur.times_roughly(step.rows(), forces * x), law * x;
-    return in_lengths(std::move(result));
+    return step.in_lengths(std::move(result));
   };
   const auto precondition = [&](const VectorXd& lengths) {
     const VectorXd multipliers = without_augmentation_->multipliers(lengths.head(rows), lengths.tail(laws).cwiseProduct(step.weights()));
@@ -69,7 +71,7 @@ std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedSt
     x << lengths.head(rows) + schur.times_roughly(step.rows(), last_by_multipliers * multipliers), multipliers;
     return x;
   };
-  GmresSolution solution = solve_gmres(product, precondition, in_lengths(b), {.tolerance = tolerance, .most_products = most});
+  GmresSolution solution = solve_gmres(product, precondition, step.in_lengths(b), {.tolerance = tolerance, .most_products = most});
   if (!solution.reached) return std::nullopt;
   return std::move(solution.x);
 }

@@ -38,6 +38,8 @@ class InterpolatedStep {
   SparseColumns laws() const { return matrix(law_count(), laws_); }
   /// One a law.
   const Eigen::VectorXd& weights() const { return weights_; }
+  /// Of what the equations leave, one an unknown: the laws by their weights.
+  Eigen::VectorXd in_lengths(Eigen::VectorXd all) const;
 
   /// Of the equations.
   bool operator==(const InterpolatedStep& other) const { return rows_ == other.rows_ && unknowns_ == other.unknowns_ && forces_ == other.forces_ && laws_ == other.laws_; }

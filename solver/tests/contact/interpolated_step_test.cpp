@@ -79,3 +79,32 @@ TEST_CASE("Or with those of a step that is little different, to the tolerance") 
   CHECK(near > 1e-10);
   CHECK(left_of(example(rows, 0.0)) < 1e-10);
 }
+
+TEST_CASE("Faces of any area are solved as well: a point that is open shares a multiplier with one that is closed") {
+  constexpr int rows = 2;
+  SchurComplement schur(identity_rows(rows), Coupled::compliance(rows));
+  for (const double area : {1.0, 1e-8, 1e-16}) {
+    InterpolatedStep step({0, 1}, rows + 3);
+    for (int row = 0; row < rows; ++row)
+      for (int law = 0; law < 2; ++law) {
+        const double share = area * (row == law ? 0.8 : 0.2);
+        step.add_force_derivative(row, rows + law, share);
+        step.add_law_derivative(rows + law, row, share);
+        step.add_law_weight(rows + law, share);
+      }
+    // A third point, between the second node and one more, is open: its law is one of pressures alone, and lengths of it are small beside those of jumps.
+    const double length = 1e-4 * area;
+    for (const int law : {rows + 1, rows + 2}) {
+      step.add_law_weight(law, 0.5 * area);
+      for (const int other : {rows + 1, rows + 2}) step.add_law_derivative(law, other, (law == other ? 0.3 : 0.2) * area * length);
+    }
+    schur.require(step.rows());
+    Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(step.unknowns(), -1.0, 2.0);
+    b.tail(step.law_count()) *= area;
+    InterpolatedSolver solver;
+    const Eigen::VectorXd x = solver.solve(step, schur, b);
+    Eigen::VectorXd residual(b.size());
+    residual << x.head(rows) - schur.times(step.forces() * x), step.laws() * x;
+    CHECK(step.in_lengths(residual - b).norm() < 1e-10 * step.in_lengths(b).norm());
+  }
+}
