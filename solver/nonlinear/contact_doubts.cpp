@@ -101,7 +101,7 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
   double reach = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p)) continue;
     depth = std::max(depth, -now[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
   }

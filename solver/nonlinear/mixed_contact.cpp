@@ -532,8 +532,7 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
-    // On the axis of revolution nothing acts (a point there has no area).
-    if (point.rows == 0 || point.weight == 0.0) continue;
+    if (point.rows == 0 || is_free_of_force(p)) continue;
     const std::optional<double> deepest = penalties_.allowed_depth(mixed);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
@@ -565,8 +564,8 @@ int MixedContact::closed_count() const {
 double MixedContact::penetration(const Eigen::VectorXd& u) const {
   const Eigen::VectorXd now = jumps(u);
   double deepest = 0.0;
-  for (const CondensedPoint& point : problem_.points)
-    if (point.rows > 0) deepest = std::max(deepest, -now[point.first_row]);
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (problem_.points[p].rows > 0 && !is_free_of_force(p)) deepest = std::max(deepest, -now[problem_.points[p].first_row]);
   return deepest;
 }
 

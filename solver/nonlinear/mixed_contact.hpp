@@ -142,6 +142,8 @@ class MixedContact {
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
   void note_lowered_augmentation(ContactDoubts& doubts) const;
+  /// Whether the overlap of the point says nothing of its penalty: next to no force belongs to it.
+  bool is_free_of_force(std::size_t point) const { return points_[point].bears_nothing && problem_.points[point].law.penalised; }
   void show_pressures_on_axis(const std::function<double*(int)>& place) const;
   void add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const;
   double share_of_limit(const CondensedPoint& point, double slip, double limit) const;

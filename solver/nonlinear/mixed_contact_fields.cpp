@@ -67,13 +67,16 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
 }
 
 /// Where the pressure of a node on the axis does not show in its force (bears_nothing), it is that of the face: the parabola about the axis, a + b r^2, through the other two nodes.
+/// With a penalty nothing keeps the node from a little gap between two that are pressed.
 void MixedContact::show_pressures_on_axis(const std::function<double*(int)>& place) const {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
-    if (!point.bears_nothing || problem_.points[p].law.penalised || state_.statuses[p] == ContactStatus::open) continue;
+    if (!point.bears_nothing) continue;
     const auto nodes = mesh_.cell(point.cell);
     const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
-    if (at_middle < 0.0) place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
+    const bool closed = state_.statuses[p] != ContactStatus::open || (is_free_of_force(p) && at_end < 0.0);
+    if (closed && at_middle < 0.0) place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
+    else if (is_free_of_force(p)) place(point.node)[0] = 0.0;
   }
 }
 
