@@ -248,12 +248,15 @@ void warn_of_odd_variables(const interpreter::Call& call, const solver::StaticPr
   constexpr double rounding = 1e-12;
   const int width = static_cast<int>(variables.components.size());
   for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
-    const auto names = solver::variable_names((*problem.behaviours)[static_cast<std::size_t>(cell)]);
+    const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
+    const auto names = solver::variable_names(law);
+    // The multiplicative split has more of them than names.
+    const int known = law.kinematics == solver::Kinematics::multiplicative ? width : static_cast<int>(names.size());
     if (names.empty() || names.front() == "VIDE" || problem.model->components_of(cell) == 0) continue;
     for (int point = 0; point < variables.points(cell); ++point) {
-      for (int k = static_cast<int>(names.size()); k < width; ++k) {
+      for (int k = known; k < width; ++k) {
         if (!(std::abs(variables.at(cell, point, k)) > 0.0)) continue;
-        return warn(cell, fmt::format("{} = {:.6g}", variables.components[static_cast<std::size_t>(k)], variables.at(cell, point, k)), fmt::format("its law has {} internal variables, and what is beyond them counts for nothing", names.size()).c_str(),
+        return warn(cell, fmt::format("{} = {:.6g}", variables.components[static_cast<std::size_t>(k)], variables.at(cell, point, k)), fmt::format("its law has {} internal variables, and what is beyond them counts for nothing", known).c_str(),
                     "give the internal variables of the law of COMPORTEMENT");
       }
       const int strain = names.front() == "EPSPEQ" ? variables.component("V1") : -1;

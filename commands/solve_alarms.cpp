@@ -174,6 +174,17 @@ void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, 
                             call.span, "take more steps: half as long ones leave half as much");
 }
 
+void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell, Context& context) {
+  const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const bool by_strains = law.relation == solver::Relation::hyperelastic;
+  context.diagnostics.alarm("unused-stresses",
+                            fmt::format("{}: the stresses that ETAT_INIT/SIGM gives cell {} are not those of its {}, which its law takes: SIGM has no effect there", call.command,
+                                        problem.model->mesh->cell_name(cell), by_strains ? "displacements (DEPL)" : "internal variables (VARI)"),
+                            given.span_of("SIGM"),
+                            by_strains ? "give the displacements that have these stresses" : "give the internal variables that belong to them (of DEFORMATION='GDEF_LOG' the last six are the stresses)");
+}
+
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context) {
   if (call.has("PILOTAGE")) return;  // a path goes beyond limit points
   if (context.counters.indefinite_factorisations == counters_before.indefinite_factorisations) return;

@@ -115,6 +115,7 @@ struct NewtonOptions {
   bool one_criterion = false;                      ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                         ///< ITER_GLOB_MAXI
   std::function<void(double)> note_unconverged;    ///< set: steps that do not converge within those iterations stand all the same, and are told here by their instant (ARRET='NON')
+  std::function<void(int)> note_unused_stresses;   ///< set: is told a cell whose initial stresses are not those that the rest of the initial state makes, where laws take these
   int max_elastic_iterations = 25;                 ///< ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness
   std::optional<LinearMethod> method;              ///< empty: chosen for the matrix
   LinearOptions linear;
