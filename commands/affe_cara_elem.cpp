@@ -59,7 +59,7 @@ Product affe_cara_elem(const Call& call, Context&) {
   auto product = std::make_shared<PropertiesConcept>();
   Orientations orientations;
   for (const Keywords& assignment : call.factors("ORIENTATION")) add_orientations(assignment, model, orientations);
-  for (const Keywords& assignment : call.factors("POUTRE")) add_beam_sections(assignment, model, *properties);
+  add_beam_sections(call.factors("POUTRE"), model, *properties);
   for (auto& [cell, section] : properties->sections) {
     if (const auto turned = orientations.find(cell); turned != orientations.end()) section.roll = turned->second.roll;
   }

@@ -196,31 +196,39 @@ std::vector<int> carriers(const Keywords& assignment, const solver::Model& model
   return cells;
 }
 
+std::vector<int> beams_of(const Keywords& assignment, const solver::Model& model) {
+  return carriers(assignment, model, is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
+}
+
 // COUDE alone: a factor for each plane of bending, or one for both.
-void soften_elbows(const Keywords& elbow, const std::vector<int>& cells, solver::ElementProperties& properties) {
+void soften_elbow(const Keywords& elbow, int cell, solver::ElementProperties& properties) {
   const double both = elbow.has("COEF_FLEX") ? elbow.real("COEF_FLEX") : 1.0;
   const double xy = elbow.has("COEF_FLEX_XY") ? elbow.real("COEF_FLEX_XY") : both;
   const double xz = elbow.has("COEF_FLEX_XZ") ? elbow.real("COEF_FLEX_XZ") : both;
-  for (const int cell : cells) {
-    const auto found = properties.sections.find(cell);
-    if (found == properties.sections.end()) {
-      throw DiagnosticError("missing-characteristic", "an elbow (COUDE) stands on beams that have no section yet", elbow.span,
-                            "give the section of the pipe first, by another POUTRE on the same cells");
-    }
-    found->second = solver::softened(found->second, xy, xz);
+  const auto found = properties.sections.find(cell);
+  if (found == properties.sections.end()) {
+    throw DiagnosticError("missing-characteristic", "an elbow (COUDE) stands on beams that have no section", elbow.span,
+                          "give the section of the pipe too, by another POUTRE on the same cells");
   }
+  found->second = solver::softened(found->second, xy, xz);
 }
 
 }  // namespace
 
-void add_beam_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
-  const auto cells = carriers(assignment, model, is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
-  if (assignment.text("SECTION") == "COUDE") return soften_elbows(assignment, cells, properties);
-  const BeamSection section = section_of(assignment, true);
-  for (const int cell : cells) {
-    if (model.formulations[cell] == Formulation::timoshenko_beam) check_shear(assignment, section);
-    properties.sections[cell] = section;
+void add_beam_sections(const std::vector<Keywords>& assignments, const solver::Model& model, solver::ElementProperties& properties) {
+  std::map<int, const Keywords*> elbows;  // of a cell, the last one
+  for (const Keywords& assignment : assignments) {
+    if (assignment.text("SECTION") == "COUDE") {
+      for (const int cell : beams_of(assignment, model)) elbows[cell] = &assignment;
+      continue;
+    }
+    const BeamSection section = section_of(assignment, true);
+    for (const int cell : beams_of(assignment, model)) {
+      if (model.formulations[cell] == Formulation::timoshenko_beam) check_shear(assignment, section);
+      properties.sections[cell] = section;
+    }
   }
+  for (const auto& [cell, elbow] : elbows) soften_elbow(*elbow, cell, properties);
 }
 
 void add_bar_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {

@@ -161,7 +161,7 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
   } else if (const auto judged = strain_criteria().find(quantity); judged != strain_criteria().end()) {
     field = equivalent_strains(element_field(judged->second + std::string(name.substr(4)), step));
   } else {
-    field = to_element_nodes(*problem_.model, element_field(quantity + "_ELGA", step));
+    field = to_element_nodes(*problem_.model, quantity == "SIEF" ? stresses_beside_plates(step) : element_field(quantity + "_ELGA", step));
   }
   if (cells && std::holds_alternative<ElementField>(field)) return on_cells(std::get<ElementField>(field), *cells);
   return field;
