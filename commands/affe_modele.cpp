@@ -63,8 +63,7 @@ void warn_of_warped_plates(const Call& call, const solver::Model& model, Context
   double largest = 0.0;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
     const Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
-    const bool is_plate = formulation == Formulation::thin_plate || formulation == Formulation::shear_plate;
-    if (!is_plate || model.mesh->cell_types[static_cast<std::size_t>(cell)] != solver::CellType::quad4) continue;
+    if (!solver::is_plate(formulation) || model.mesh->cell_types[static_cast<std::size_t>(cell)] != solver::CellType::quad4) continue;
     const double warp = solver::warp_of_plate(*model.mesh, cell);
     if (warp <= solver::little_warp) continue;
     ++count;

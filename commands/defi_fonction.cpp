@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <numeric>
+
+#include <fmt/format.h>
 
 #include "commands/commands.hpp"
 #include "commands/function_building.hpp"
@@ -29,20 +30,10 @@ void sort_points(const Call& call, solver::TabulatedFunction& function) {
   if (call.text("VERIF") == "CROISSANT" && !std::is_sorted(function.x.begin(), function.x.end())) {
     throw DiagnosticError("wrong-order", "DEFI_FONCTION: the abscissas do not rise", call.span, "put the points in order, or give VERIF=\"NON\"");
   }
-  std::vector<std::size_t> order(function.x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
-  std::vector<double> x, y;
-  for (const std::size_t i : order) {
-    if (!x.empty() && x.back() == function.x[i]) {
-      throw DiagnosticError("repeated-abscissa", "DEFI_FONCTION: the abscissa " + std::to_string(function.x[i]) + " stands twice",
-                            call.span, "a function has one value at each abscissa; make a jump a steep ramp");
-    }
-    x.push_back(function.x[i]);
-    y.push_back(function.y[i]);
-  }
-  function.x = std::move(x);
-  function.y = std::move(y);
+  function.sort_points();
+  if (const auto twice = std::ranges::adjacent_find(function.x); twice != function.x.end())
+    throw DiagnosticError("repeated-abscissa", fmt::format("DEFI_FONCTION: the abscissa {:g} stands twice", *twice), call.span,
+                          "a function has one value at each abscissa; make a jump a steep ramp");
 }
 
 }  // namespace

@@ -33,14 +33,10 @@ struct Reading {
   solver::NodalField field;
 };
 
-double distance(const solver::Point& a, const solver::Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 std::vector<double> abscissas(const Reading& reading) {
   std::vector<double> values;
   for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    const double step = i > 0 ? distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
+    const double step = i > 0 ? solver::distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
     values.push_back(i > 0 ? values.back() + step : 0.0);
   }
   return values;

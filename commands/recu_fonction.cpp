@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "commands/commands.hpp"
 #include "commands/function_building.hpp"
@@ -149,16 +148,7 @@ void read_table(const Call& call, solver::TabulatedFunction& function) {
 
 // A function asks for rising abscissas, a table may have its rows in any order.
 void sort_abscissas(const Call& call, solver::TabulatedFunction& function) {
-  std::vector<std::size_t> order(function.x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return function.x[a] < function.x[b]; });
-  std::vector<double> x, y;
-  for (const std::size_t i : order) {
-    x.push_back(function.x[i]);
-    y.push_back(function.y[i]);
-  }
-  function.x = std::move(x);
-  function.y = std::move(y);
+  function.sort_points();
   check_rising(call, call.given("TABLE") ? "TABLE" : "RESULTAT", function.x);
 }
 

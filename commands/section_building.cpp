@@ -104,12 +104,6 @@ class Characteristics {
   std::string suffix_;  // what CARA has behind each name here
 };
 
-bool is_beam(Formulation formulation) {
-  return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-}
-
-bool is_bar(Formulation formulation) { return formulation == Formulation::bar || formulation == Formulation::bar_2d; }
-
 BeamSection general_section(const Characteristics& given, bool bends) {
   given.require({"A"});
   if (bends) given.require({"IY", "IZ", "JX"});
@@ -197,7 +191,7 @@ std::vector<int> carriers(const Keywords& assignment, const solver::Model& model
 }
 
 std::vector<int> beams_of(const Keywords& assignment, const solver::Model& model) {
-  return carriers(assignment, model, is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
+  return carriers(assignment, model, solver::is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
 }
 
 // COUDE alone: a factor for each plane of bending, or one for both.
@@ -233,7 +227,7 @@ void add_beam_sections(const std::vector<Keywords>& assignments, const solver::M
 
 void add_bar_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
   const BeamSection section = section_of(assignment, false);
-  for (const int cell : carriers(assignment, model, is_bar, "bar", "give them MODELISATION=\"BARRE\" in AFFE_MODELE")) {
+  for (const int cell : carriers(assignment, model, solver::is_bar, "bar", "give them MODELISATION=\"BARRE\" in AFFE_MODELE")) {
     properties.sections[cell] = section;
   }
 }

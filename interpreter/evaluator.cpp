@@ -116,10 +116,6 @@ const Value* Evaluator::global(std::string_view name) const {
   return found == globals_.end() ? nullptr : &found->second;
 }
 
-void Evaluator::set_global(const std::string& name, Value value) {
-  globals_[name] = std::move(value);
-}
-
 std::vector<std::string> Evaluator::global_names() const {
   std::vector<std::string> names;
   for (const auto& [name, value] : globals_) names.push_back(name);

@@ -46,7 +46,6 @@ class Evaluator {
 
   /// A global variable, or null.
   const Value* global(std::string_view name) const;
-  void set_global(const std::string& name, Value value);
   std::vector<std::string> global_names() const;
 
   /// What builtins use. Calls a function of any kind; raises RaisedError.

@@ -66,14 +66,6 @@ const ErrorClass& class_of(ErrorKind kind) {
   return classes[static_cast<std::size_t>(kind)];
 }
 
-std::optional<ErrorKind> error_kind_named(std::string_view name) {
-  if (name == "EnvironmentError" || name == "IOError") return ErrorKind::os;
-  for (const ErrorClass& row : classes) {
-    if (row.name == name) return row.kind;
-  }
-  return std::nullopt;
-}
-
 bool is_subclass(ErrorKind kind, ErrorKind ancestor) {
   while (kind != ancestor) {
     if (kind == ErrorKind::base_exception) return false;

@@ -61,7 +61,6 @@ struct ErrorClass {
 };
 
 const ErrorClass& class_of(ErrorKind kind);
-std::optional<ErrorKind> error_kind_named(std::string_view name);
 bool is_subclass(ErrorKind kind, ErrorKind ancestor);
 /// The class that a command's failure belongs to, by the code of its diagnostic: "no-convergence" is a
 /// ConvergenceError, "contact-..." a ContactError, "singular-matrix" a SolverError, "key-error" (what a table lacks) a KeyError, all others an AsterError.

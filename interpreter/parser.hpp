@@ -109,7 +109,6 @@ class Parser {
   StatementPtr parse_import_from();
   std::string parse_dotted_name();
   void refuse_unsupported();
-  void skip_unsupported_block();
 
   // Expressions (parser_expressions.cpp).
   NodePtr parse_expression_list();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -46,6 +48,19 @@ double beyond(const TabulatedFunction& f, double at, bool on_the_left) {
 }
 
 }  // namespace
+
+void TabulatedFunction::sort_points() {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return x[i]; });
+  std::vector<double> sorted_x, sorted_y;
+  for (const std::size_t i : order) {
+    sorted_x.push_back(x[i]);
+    sorted_y.push_back(y[i]);
+  }
+  x = std::move(sorted_x);
+  y = std::move(sorted_y);
+}
 
 double TabulatedFunction::operator()(double at) const {
   assert(!x.empty() && x.size() == y.size());

@@ -27,6 +27,8 @@ struct TabulatedFunction {
   std::string name{};  ///< by which messages call it; empty: by its result
 
   double operator()(double at) const;
+  /// Puts the points in the order of x; those that share one stay as they stand.
+  void sort_points();
 };
 
 /// f(t).

@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/mesh/groups.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 double shortest_distance(const Mesh& mesh) {
   double shortest = std::numeric_limits<double>::infinity();

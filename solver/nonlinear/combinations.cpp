@@ -14,8 +14,7 @@ bool has_conditions(const StaticProblem& problem) { return problem.contact || !p
 void require_extrapolation(const StaticProblem& problem) {
   for (std::size_t cell = 0; problem.behaviours && cell < problem.behaviours->size(); ++cell) {
     const Formulation formulation = problem.model->formulations[cell];
-    const bool is_bar = formulation == Formulation::bar || formulation == Formulation::bar_2d;
-    if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || is_bar || (*problem.behaviours)[cell].relation == Relation::elastic) continue;
+    if (formulation == Formulation::none || continuum_dimension(formulation) > 0 || is_bar(formulation) || (*problem.behaviours)[cell].relation == Relation::elastic) continue;
     throw Error("unsupported", fmt::format("cell {}: METHODE='IMPLEX' is known for continua and bars alone", problem.model->mesh->cell_name(static_cast<int>(cell))), "take METHODE='NEWTON'");
   }
 }

@@ -7,11 +7,10 @@
 
 #include "solver/contact/gap.hpp"
 #include "solver/error.hpp"
+#include "solver/linear/row_matrix.hpp"
 
 namespace comma::solver {
 namespace {
-
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
   Inequalities result;
@@ -32,13 +31,6 @@ Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
   if (upper.softness.size()) result.softness.head(shift) = upper.softness;
   if (lower.softness.size()) result.softness.tail(lower.rows.rows()) = lower.softness;
   return result;
-}
-
-bool same_matrix(const RowMatrix& a, const RowMatrix& b) {
-  if (a.rows() != b.rows() || a.nonZeros() != b.nonZeros()) return false;
-  return std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
 }
 
 }  // namespace

@@ -68,7 +68,6 @@ class NewtonSolver {
   /// Of a step that has converged: how far bounds that give way are passed.
   void note_doubts(ContactDoubts& doubts);
 
-  int accepted_steps() const { return steps_; }
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }
   /// What takes relations between displacements anew at the unknowns, which it brings to satisfy them and renumbers, and returns the offset g; and how

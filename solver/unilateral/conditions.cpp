@@ -6,14 +6,13 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/row_matrix.hpp"
 
 namespace comma::solver {
 namespace {
 
 /// Imposed values may miss a bound by this share of the terms before they contradict it: above any rounding in T and g.
 constexpr double feasibility_tolerance = 1e-9;
-
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 int require_dof(const DofMap& dofs, const Mesh& mesh, int node, Component component) {
   const int dof = dofs.dof(node, component);

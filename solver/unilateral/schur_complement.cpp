@@ -8,13 +8,6 @@
 namespace comma::solver {
 namespace {
 
-bool same(const RowMatrix& a, const RowMatrix& b) {
-  if (a.rows() != b.rows() || a.cols() != b.cols() || a.nonZeros() != b.nonZeros()) return false;
-  return std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
-}
-
 }  // namespace
 
 SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support, std::vector<int> keys)
@@ -231,7 +224,7 @@ Eigen::VectorXd SchurComplement::times_roughly(const std::vector<int>& rows, con
 void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen::VectorXd softness) {
   rows.makeCompressed();
   softness_ = std::move(softness);
-  if (same(rows_, rows) && keys_ == keys) return;
+  if (same_matrix(rows_, rows) && keys_ == keys) return;
   rows_change_ = rows_change_ || rows_.rows() > 0;
   if (is_factored_ && replace_factored_rows(rows, keys)) return;
   const bool same_keys = keys_ == keys && rows_.rows() == rows.rows();

@@ -9,10 +9,9 @@
 #include <Eigen/Sparse>
 
 #include "solver/linear/dense_solve.hpp"
+#include "solver/linear/row_matrix.hpp"
 
 namespace comma::solver {
-
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that is
 /// active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
