@@ -118,7 +118,10 @@ struct BlockPage {
 };
 
 enum class Cost { cheap, solve };
-enum class Role { value, verdict, output, setup };  ///< setup: always runs (DEBUT, FIN)
+/// naming: says where outputs go and inputs stand, and opens nothing (DEFI_FICHIER); setup: always runs (DEBUT, FIN).
+enum class Role { value, verdict, output, naming, setup };
+/// Whether no verdict depends on what the command makes itself: where comma cannot do it, an alarm is enough.
+inline bool only_writes(Role role) { return role == Role::output || role == Role::naming; }
 enum class Reuse { none, allowed, compulsory };
 
 struct ProductPage {

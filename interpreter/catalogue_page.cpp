@@ -158,6 +158,7 @@ std::vector<ProductPage> products_from(const Packed& packed) {
 Role role_from(const std::string& word) {
   if (word == "verdict") return Role::verdict;
   if (word == "output") return Role::output;
+  if (word == "naming") return Role::naming;
   if (word == "setup") return Role::setup;
   return Role::value;
 }

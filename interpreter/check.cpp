@@ -447,7 +447,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   const std::size_t errors_before = count_errors(diagnostics);
   CheckContext context{catalogue, diagnostics, unsupported};
   // No verdict depends on what is printed.
-  if (page.role == Role::output) {
+  if (only_writes(page.role)) {
     context.unsupported = Severity::alarm;
     context.without = fmt::format("{} is left out here, and writes nothing; all else runs", page.name);
   }
@@ -471,7 +471,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 
   checked.sound = count_errors(diagnostics) == errors_before;
-  checked.left_out = page.role == Role::output && checked.sound && context.met_unsupported;
+  checked.left_out = only_writes(page.role) && checked.sound && context.met_unsupported;
   const bool unknown_reuse = reused && reuse->value->is_unknown();
   checked.complete = checked.sound && !context.met_unsupported && !context.met_open && !unknown_reuse && !holds_unknown(checked.call);
   return checked;

@@ -207,7 +207,7 @@ std::vector<Need> CommandGraph::needs() const {
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     Need& own = needs[static_cast<std::size_t>(node->id)];
     if (node->role == Role::verdict || node->role == Role::setup) own = Need::verdict;
-    if (node->role == Role::output) own = std::max(own, Need::output);
+    if (only_writes(node->role)) own = std::max(own, Need::output);
     for (const Edge& edge : node->waits_for) {
       if (edge.hazard != Hazard::read_after_write) continue;
       Need& source = needs[static_cast<std::size_t>(edge.from)];

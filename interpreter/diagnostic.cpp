@@ -127,6 +127,7 @@ std::string render(const Diagnostic& diagnostic) {
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
+  if (handled_ && diagnostic.severity == Severity::error) diagnostic.severity = Severity::alarm;
   if (diagnostic.called_from.empty()) diagnostic.called_from = called_from();
   items_.push_back(std::move(diagnostic));
 }

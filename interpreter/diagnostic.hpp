@@ -82,9 +82,23 @@ class Diagnostics {
     std::vector<Span> kept_;
   };
 
+  /// While it lives, errors are those of a command within `try`: the file goes on after them, and they are told as alarms.
+  class Handled {
+   public:
+    Handled(Diagnostics& owner, bool handled) : owner_(owner), before_(std::exchange(owner.handled_, owner.handled_ || handled)) {}
+    ~Handled() { owner_.handled_ = before_; }
+    Handled(const Handled&) = delete;
+    Handled& operator=(const Handled&) = delete;
+
+   private:
+    Diagnostics& owner_;
+    bool before_;
+  };
+
  private:
   std::vector<Diagnostic> items_;
   std::vector<Span> open_calls_;
+  bool handled_ = false;
 };
 
 /// The known word nearest to a misspelt one (Damerau-Levenshtein distance, at most a third of the word's length), else "".

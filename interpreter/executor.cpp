@@ -11,7 +11,7 @@ namespace comma::interpreter {
 namespace {
 
 bool is_preparation(const CommandNode& node) {
-  return node.cost == Cost::cheap && (node.role == Role::value || node.role == Role::setup);
+  return node.cost == Cost::cheap && (node.role == Role::value || node.role == Role::naming || node.role == Role::setup);
 }
 
 /// Whether what `source` made can be read.
@@ -59,11 +59,18 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
     const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
+    const Diagnostics::Handled handled(diagnostics_, node.caught);
     if (check && !check(node)) {
       node.state = NodeState::failed;
       continue;
     }
-    if (is_preparation(node) && (nothing_more || is_in_turn(node)) && can_run(node)) report_errors([&] { run(node); }, unsupported);
+    if (nothing_more && is_told_of_left_out(node)) continue;
+    // What is not written has no place to be read from.
+    const bool any_turn = nothing_more && node.role != Role::naming;
+    if (is_preparation(node) && (any_turn || is_in_turn(node)) && can_run(node)) {
+      const bool is_alarm = report_errors([&] { run(node); }, only_writes(node.role) ? Severity::alarm : unsupported);
+      node.left_out = is_alarm && only_writes(node.role);
+    }
     if (prepares && is_to_prepare(node)) report_errors([&] { invoke(*preparations_, node); }, unsupported);
   }
 }
@@ -84,9 +91,17 @@ void Executor::run_all(Need least) {
       continue;
     }
     node.state = NodeState::skipped;
-    // What failed has been told as an error, what was left out as an alarm alone.
-    if (const CommandNode* source = wanted ? missing_source(node) : nullptr; source != nullptr && source->left_out) diagnostics_.add(not_computed(*source, node));
+    if (wanted) is_told_of_left_out(node);
   }
+}
+
+/// What failed has been told as an error, what was left out as an alarm alone.
+bool Executor::is_told_of_left_out(CommandNode& node) {
+  const CommandNode* source = missing_source(node);
+  if (source == nullptr || !source->left_out) return false;
+  diagnostics_.add(not_computed(*source, node));
+  node.state = NodeState::skipped;
+  return true;
 }
 
 void Executor::run_now(int id) {
@@ -98,7 +113,7 @@ void Executor::run_now(int id) {
 
 void Executor::run_reporting(CommandNode& node) {
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
-  node.left_out = report_errors([&] { run(node); }, node.role == Role::output ? Severity::alarm : Severity::error);
+  node.left_out = report_errors([&] { run(node); }, only_writes(node.role) ? Severity::alarm : Severity::error);
 }
 
 bool Executor::force(int id) {

@@ -73,6 +73,8 @@ class Executor {
   bool is_in_turn(const CommandNode& node) const;
   /// The first node that this one builds on and that is not there, or null.
   const CommandNode* missing_source(const CommandNode& node) const;
+  /// Whether the node reads what was left out with an alarm: it is skipped then, with an error.
+  bool is_told_of_left_out(CommandNode& node);
 
   CommandGraph& graph_;
   const CommandTable& commands_;

@@ -1,5 +1,5 @@
 // A stranger's command file: it reaches no file but those of its .export and its folder, no process, no network, and cannot
-// take the machine for ever. Files that go on from one another, and files that include others.
+// take the machine for ever. Files that go on from one another, files that include others, and files that DEFI_FICHIER names.
 #include <unistd.h>
 
 #include <algorithm>
@@ -113,6 +113,26 @@ TEST_CASE("What is wrong in an included file is told at its line there") {
   CHECK(error.code == "unknown-name");
   CHECK(fs::path(error.span.file->path()).filename() == "part.comm");
   CHECK(error.span.file->position(error.span.begin).line == 2);
+}
+
+TEST_CASE("A check looks behind DEFI_FICHIER, and behind what a file handles itself") {
+  const Folder folder;
+  folder.write("other.mail", "COOR_2D\nN1 0.0 0.0\nN2 1.0 0.0\nFINSF\nSEG2\nLINE1 N1 N2\nFINSF\nGROUP_MA\nLINE LINE1\nFINSF\nFIN\n");
+  const auto codes = [&](const std::string& file, const std::string& then) {
+    return codes_of(folder.write("named.comm", "DEBUT()\nDEFI_FICHIER(ACTION='ASSOCIER', UNITE=20, FICHIER='" + file +
+                                                   "', ACCES='OLD')\nMESH = LIRE_MAILLAGE(FORMAT='ASTER', UNITE=20)\n" + then + "FIN()\n"));
+  };
+  const std::string groups = "MESH = DEFI_GROUP(reuse=MESH, MAILLAGE=MESH, CREA_GROUP_NO=_F(GROUP_MA='";
+  CHECK(codes("other.mail", groups + "LINE'))\n") == Codes{});
+  CHECK(codes("other.mail", groups + "CURVE'))\n") == Codes{"unknown-group"});
+  CHECK(codes("missing.mail", "") == Codes{"missing-file"});
+  // What comma leaves out with an alarm is an error for its reader.
+  CHECK(codes("/elsewhere/other.mail", "") == Codes{"not-computed"});
+  // A solution that is not there keeps the group waiting, so that nothing runs it at once.
+  const std::string solved = "MODEL = AFFE_MODELE(MAILLAGE=MESH, AFFE=_F(TOUT='OUI', PHENOMENE='MECANIQUE', MODELISATION='BARRE'))\nRESULT = MECA_STATIQUE(MODELE=MODEL, CARA_ELEM=AFFE_CARA_ELEM("
+                             "MODELE=MODEL, BARRE=_F(GROUP_MA='LINE', SECTION='GENERALE', CARA='A', VALE=1.0)), CHAM_MATER=AFFE_MATERIAU(MAILLAGE=MESH, AFFE=_F(TOUT='OUI', MATER=DEFI_MATERIAU(ELAS=_F(E=1.0, NU=0.0)))))\n";
+  CHECK(codes("other.mail", solved + "try:\n    " + groups + "CURVE'))\nexcept Exception:\n    pass\n") == Codes{});
+  CHECK(codes("other.mail", solved + groups + "CURVE'))\n") == Codes{"unknown-group"});
 }
 
 TEST_CASE("The files of an .export go on from one another") {

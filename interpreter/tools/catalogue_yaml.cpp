@@ -112,7 +112,7 @@ class PageBuilder {
            "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
     demand(json, "the page", {"command", "doc", "category"});
     choose(json, "cost", {"cheap", "solve"});
-    choose(json, "role", {"value", "verdict", "output", "setup"});
+    choose(json, "role", {"value", "verdict", "output", "naming", "setup"});
     choose(
         json, "category",
         {"mesh", "model", "material", "loads", "contact", "solve", "post-process", "verify", "functions", "session"});
