@@ -2,6 +2,7 @@
 // nodes lie on the surface of the mesh, the strains of the mid-surface are those of the nodes plus offset times curvature.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -359,13 +360,25 @@ class PlateBlock final : public ElementBlock {
       if (shears_) k += area * rigidity.shear_compliance * rows.shear_force.transpose() * rows.shear_force;
       if (tie > 0.0) k += area * tie * rows.spin.transpose() * rows.spin;
     }
-    if (section.drilling > 0.0) hold_normal_rotations(k, section.drilling);
+    if (section.drilling > 0.0) hold_normal_rotations(k, section.drilling, first_direction(plate));
     return k;
   }
 
-  static void hold_normal_rotations(Matrix& k, double share) {
-    double smallest = k(3, 3);
-    for (int i = 0; i < Nodes; ++i) smallest = std::min({smallest, k(6 * i + 3, 6 * i + 3), k(6 * i + 4, 6 * i + 4)});
+  /// Of the cell itself, whatever the axes of its fields: the first side of a triangle, the line from the middle of the last side of a quadrangle to that of the second.
+  static Eigen::Vector2d first_direction(const Plate<Nodes>& plate) {
+    const auto& at = plate.corners;
+    const Eigen::Vector2d along = Nodes == 3 ? Eigen::Vector2d(at.col(1) - at.col(0)) : Eigen::Vector2d(at.col(1) + at.col(2) - at.col(0) - at.col(Nodes - 1));
+    return along.normalized();
+  }
+
+  /// The least of the resistances to rotations in the plane, about the first direction of the cell and across it.
+  static void hold_normal_rotations(Matrix& k, double share, const Eigen::Vector2d& first) {
+    const Eigen::Vector2d across(-first[1], first[0]);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < Nodes; ++i) {
+      const Eigen::Matrix2d rotations = k.template block<2, 2>(6 * i + 3, 6 * i + 3);
+      smallest = std::min({smallest, first.dot(rotations * first), across.dot(rotations * across)});
+    }
     for (int i = 0; i < Nodes; ++i) k(6 * i + 5, 6 * i + 5) += share * smallest;
   }
 

@@ -208,6 +208,19 @@ TEST_CASE("rotation about the normal is free, tied to the membrane, or held agai
   CHECK(energy_of_spin(1e-5, true) > 0.0);
 }
 
+TEST_CASE("what holds the normal rotation of a plate does not depend on the axes asked for", "[elements]") {
+  for (const Formulation formulation : both) {
+    for (const CellType type : cells) {
+      CAPTURE(name_of(type));
+      const auto stiffness = [&](const Eigen::Vector3d& direction) {
+        return plate(rectangle(type, 3.0, 1.0, 2, 2, 0.2, tilted()), formulation, {.thickness = 0.1, .direction = direction, .drilling = 1e-2}).dense_stiffness();
+      };
+      const Eigen::MatrixXd one = stiffness(Eigen::Vector3d::UnitX());
+      CHECK((one - stiffness(Eigen::Vector3d(1.0, 2.0, 0.5))).cwiseAbs().maxCoeff() < 1e-12 * one.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
 TEST_CASE("two plates that lie on each other are one of twice the thickness", "[elements]") {
   // Huygens and Steiner: 2 (h^3 / 12 + h (h / 2)^2) = (2 h)^3 / 12, and the couplings cancel.
   const Place place = tilted();
