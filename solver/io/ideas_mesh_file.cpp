@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "solver/error.hpp"
@@ -105,6 +106,7 @@ class IdeasReader {
 
   /// The next line of a data set; false where it ends.
   bool next_record() {
+    if (std::exchange(ended_, false)) return false;
     if (!next_line()) fail("a data set does not end with -1");
     return trimmed() != "-1";
   }
@@ -137,7 +139,7 @@ class IdeasReader {
     }
   }
 
-  /// So many numbers, on as many lines as it takes.
+  /// So many numbers, on as many lines as it takes. Some programs write the -1 that ends the data set behind the last of them.
   std::vector<int> read_numbers(int count) {
     if (count < 0) fail(fmt::format("{} is no number of members", count));
     std::vector<int> numbers;
@@ -145,6 +147,7 @@ class IdeasReader {
       if (!next_record()) fail("numbers are missing at the end of a data set");
       for (const auto word : words()) numbers.push_back(to_integer(word, "a number"));
     }
+    ended_ = static_cast<int>(numbers.size()) == count + 1 && numbers.back() == -1;
     numbers.resize(static_cast<std::size_t>(count));
     return numbers;
   }
@@ -249,6 +252,7 @@ class IdeasReader {
   std::string path_;
   std::size_t at_ = 0;
   int number_ = 0;
+  bool ended_ = false;  ///< the data set, on the line read last
   Mesh mesh_;
   std::unordered_map<int, int> node_index_, cell_index_;
   std::unordered_set<std::string> in_groups_;

@@ -85,6 +85,17 @@ TEST_CASE("a universal file gives nodes, cells and groups", "[io]") {
   CHECK(mesh.cell_group("EDGE") == Group{0});
 }
 
+TEST_CASE("a data set may end behind the last member of a group, on the same line", "[io]") {
+  const std::string edge = "         8         1         0         0\n    -1\n";
+  std::string text = square;
+  text.replace(text.size() - edge.size(), edge.size(),
+               "         8         1         0         0    -1\n    -1\n  2467\n         3         0         0         0         0         0         0         1\nCORNER\n"
+               "         7         5         0         0    -1\n");
+  const Mesh mesh = parse_ideas_mesh(text, "square.unv");
+  CHECK(mesh.cell_group("EDGE") == Group{0});
+  CHECK(mesh.node_group("CORNER") == Group{0});
+}
+
 TEST_CASE("middle nodes stand between corners in a universal file, layer by layer", "[io]") {
   const Point a = {0, 0, 0}, b = {2, 0, 0}, c = {2, 3, 0}, d = {0, 3, 0}, e = {0, 0, 4}, f = {2, 0, 4}, g = {2, 3, 4}, h = {0, 3, 4};
   std::vector<Point> line, tria, quad, tetra, penta, hexa;
