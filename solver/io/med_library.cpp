@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <compare>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "solver/error.hpp"
@@ -98,13 +102,48 @@ MedVersion version_in(const std::string& path) {
   return version;
 }
 
-void check_readable(const std::string& path) {
+/// A file that a later minor version wrote, which the library refuses by its stamp alone: a copy of it with the library's own. It is gone from the folder once it is open.
+class StampedCopy {
+ public:
+  explicit StampedCopy(const std::string& path) : path_((std::filesystem::temp_directory_path() / fmt::format("comma-{}-{}.med", getpid(), ++count)).string()) {
+    std::error_code failure;
+    std::filesystem::copy_file(path, path_, std::filesystem::copy_options::overwrite_existing, failure);
+    if (failure) throw_unreadable(path, fmt::format("of a file of a later MED version a copy is read, and {} cannot be written", path_), "make room there, or set TMPDIR");
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, failure);
+    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t group = file < 0 ? -1 : H5Gopen2(file, "INFOS_GENERALES", H5P_DEFAULT);
+    const hid_t minor = group < 0 ? -1 : H5Aopen(group, "MIN", H5P_DEFAULT);
+    const int own = MED_MINOR_NUM;
+    const bool stamped = minor >= 0 && H5Awrite(minor, H5T_NATIVE_INT, &own) >= 0;
+    if (minor >= 0) H5Aclose(minor);
+    if (group >= 0) H5Gclose(group);
+    if (file >= 0) H5Fclose(file);
+    if (stamped) return;
+    std::filesystem::remove(path_, failure);
+    throw_unreadable(path, "the version that the file is stamped with cannot be changed in a copy of it");
+  }
+  ~StampedCopy() {
+    std::error_code failure;
+    std::filesystem::remove(path_, failure);
+  }
+  StampedCopy(const StampedCopy&) = delete;
+  StampedCopy& operator=(const StampedCopy&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  inline static std::atomic<int> count = 0;
+  std::string path_;
+};
+
+/// The version of the file.
+MedVersion check_readable(const std::string& path) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure)) throw_unreadable(path, "there is no such file");
   if (!std::filesystem::is_regular_file(path, failure)) throw_unreadable(path, "this is not a file");
   const MedVersion version = version_in(path);
   const bool too_old = version < MedVersion{2, 2};
-  if (!too_old && version.major <= MED_MAJOR_NUM) return;
+  if (!too_old && version.major <= MED_MAJOR_NUM) return version;
   throw_unreadable(path,
                    fmt::format("the file is of MED version {}.{}, which the MED library {} cannot read", version.major,
                                version.minor, MED_VERSION_STR),
@@ -127,8 +166,12 @@ QuietHdf5::~QuietHdf5() {
 }
 
 MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)) {
-  if (mode != MED_ACC_CREAT) check_readable(path_);
-  id_ = MEDfileOpen(path_.c_str(), mode);
+  std::optional<StampedCopy> copy;
+  if (mode != MED_ACC_CREAT && check_readable(path_) > MedVersion{MED_MAJOR_NUM, MED_MINOR_NUM}) {
+    if (mode != MED_ACC_RDONLY) throw Error("unwritable-file", fmt::format("{}: a later version of MED than {} wrote it, and nothing is added to it", path_, MED_VERSION_STR));
+    copy.emplace(path_);
+  }
+  id_ = MEDfileOpen(copy ? copy->path().c_str() : path_.c_str(), mode);
   if (id_ >= 0) return;
   if (mode == MED_ACC_RDONLY) throw_unreadable(path_, "the MED library cannot open it");
   throw Error("unwritable-file", fmt::format("{}: the MED library cannot write it", path_));

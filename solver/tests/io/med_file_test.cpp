@@ -141,6 +141,24 @@ TEST_CASE("names that MED cannot hold are refused") {
   CHECK(code_of([&] { write_med_mesh(file.path(), mesh, "M"); }) == "name-too-long");
 }
 
+TEST_CASE("a MED file of a later minor version is read as what it holds") {
+  const TemporaryFile file;
+  write_med_mesh(file.path(), small_mesh(), "MESH");
+  const auto stamp = [&](const char* name, int version) {
+    const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), group = H5Gopen2(open, "INFOS_GENERALES", H5P_DEFAULT), number = H5Aopen(group, name, H5P_DEFAULT);
+    REQUIRE(H5Awrite(number, H5T_NATIVE_INT, &version) >= 0);
+    H5Aclose(number);
+    H5Gclose(group);
+    H5Fclose(open);
+  };
+  stamp("MIN", MED_MINOR_NUM + 1);
+  const std::string before = file.bytes();
+  check_same(read_med_mesh(file.path()), small_mesh());
+  CHECK(file.bytes() == before);
+  stamp("MAJ", MED_MAJOR_NUM + 1);
+  CHECK(code_of([&] { read_med_mesh(file.path()); }) == "unreadable-file");
+}
+
 TEST_CASE("what is not a MED file is an error") {
   const TemporaryFile file;
   CHECK(code_of([&] { read_med_mesh(file.path()); }) == "unreadable-file");
