@@ -28,12 +28,19 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
-  const Eigen::VectorXd without = jumps_without(forces_, u);
   note_held_overlaps(now, doubts);
-  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
-    if (definition_.zones[zone].mixed.penalised) note_depth(static_cast<int>(zone), now, without, doubts);
-    if (definition_.zones[zone].mixed.friction_penalised) note_creep(static_cast<int>(zone), u, now, jumps_without(shears(), u), doubts);
+  // What another zone presses on a body would not press on this one without it.
+  for (int zone = 0; zone < static_cast<int>(definition_.zones.size()); ++zone) {
+    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(zone)].mixed;
+    if (mixed.penalised) note_depth(zone, now, jumps_without(forces_of(zone, forces_), u), doubts);
+    if (mixed.friction_penalised) note_creep(zone, u, now, jumps_without(forces_of(zone, shears()), u), doubts);
   }
+}
+
+Eigen::VectorXd MixedContact::forces_of(int zone, Eigen::VectorXd forces) const {
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (points_[p].zone != zone && problem_.points[p].rows > 0) forces.segment(problem_.points[p].first_row, problem_.points[p].rows).setZero();
+  return forces;
 }
 
 /// The part of the contact forces along the surfaces.

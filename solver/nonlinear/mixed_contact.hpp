@@ -138,6 +138,8 @@ class MixedContact {
   void update_schur();
   Eigen::VectorXd shears() const;
   Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
+  /// The forces without those of other zones.
+  Eigen::VectorXd forces_of(int zone, Eigen::VectorXd forces) const;
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_unshared_friction(ContactDoubts& doubts) const;
