@@ -12,6 +12,7 @@
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
 #include "interpreter/dict.hpp"
+#include "interpreter/former_names.hpp"
 
 namespace comma::interpreter {
 namespace {
@@ -300,6 +301,7 @@ class LevelCheck {
   }
 
   bool take_value(const KeywordPage& keyword, const Argument& argument, const std::string& label, Keyword& item) {
+    context_.level = &level_;
     auto value = check_value(*argument.value, keyword, label, argument.value_span, context_);
     if (!value) {
       scope_.values[keyword.name] = Value::unknown();  // a condition on a wrong value would only make further errors
@@ -390,7 +392,8 @@ class LevelCheck {
     }
     const auto guess = guesses_.find(pending.name);
     const std::string near = guess == guesses_.end() ? nearest(pending.name, known) : guess->second;
-    std::string hint;
+    std::string hint = hint_on_former_keyword(label_, pending.name);
+    if (!hint.empty()) return context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span, hint);
     if (!home.empty())
       hint = fmt::format("it belongs inside {}=_F(...)", home);
     else if (!near.empty())

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/array.hpp"
+#include "interpreter/former_names.hpp"
 #include "interpreter/item_span.hpp"
 
 namespace comma::interpreter {
@@ -267,6 +268,16 @@ class ValueCheck {
     return true;
   }
 
+  /// The keyword beside this one that knows the word.
+  std::string other_keyword_with(const std::string& word) const {
+    if (context_.level == nullptr) return {};
+    for (const KeywordPage& keyword : context_.level->keywords) {
+      const auto knows = [&](const WordPage& known) { return known.value.is_text() && known.value.as_text() == word; };
+      if (&keyword != &page_ && !keyword.is_factor() && keyword.words.size() > 2 && std::ranges::any_of(keyword.words, knows)) return keyword.name;
+    }
+    return {};
+  }
+
   void report_word(const Value& item, const Place& place) {
     constexpr std::size_t most_listed = 12;
     std::vector<std::string> known, shown;
@@ -275,8 +286,13 @@ class ValueCheck {
       shown.push_back(word.value.repr());
     }
     const std::string near = item.is_text() ? nearest(item.as_text(), known) : "";
+    const std::string former = item.is_text() ? of_former_field(item.as_text()) : "";
     std::string hint;
-    if (!near.empty()) {
+    if (const std::string home = item.is_text() ? other_keyword_with(item.as_text()) : ""; !home.empty()) {
+      hint = fmt::format("it is one of {}", home);
+    } else if (std::ranges::find(known, former) != known.end()) {
+      hint = fmt::format("it is called '{}' now", former);
+    } else if (!near.empty()) {
       hint = fmt::format("did you mean '{}'?", near);
     } else {
       const bool cut = shown.size() > most_listed;

@@ -6,6 +6,7 @@
 
 #include "interpreter/builtins.hpp"
 #include "interpreter/evaluator.hpp"
+#include "interpreter/foreign_commands.hpp"
 #include "interpreter/host_object.hpp"
 #include "interpreter/operations.hpp"
 
@@ -205,7 +206,7 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
 // Commands
 
 std::vector<Argument> Evaluator::named_arguments(const CallArguments& arguments, std::string_view what) {
-  if (!arguments.positional.empty()) {
+  if (!arguments.positional.empty() && !is_foreign_command(what)) {
     raise(ErrorKind::type, fmt::format("{} takes keywords only", what), "write KEYWORD=value");
   }
   std::vector<Argument> named;

@@ -13,7 +13,7 @@ namespace comma::interpreter {
 namespace {
 
 /// Sorted.
-constexpr std::array<std::string_view, 235> foreign = {
+constexpr std::array<std::string_view, 237> foreign = {
     "AFFE_CHAR_ACOU", "AFFE_CHAR_ACOU_F", "AFFE_CHAR_THER", "AFFE_CHAR_THER_F", "AIDE", "ASSEMBLAGE", "ASSE_ELEM_SSD", "ASSE_MATRICE",
     "ASSE_MATR_GENE", "ASSE_VECTEUR", "ASSE_VECT_GENE", "CALC_AMOR_MODAL", "CALC_BT", "CALC_CHAM_ELEM", "CALC_CHAR_CINE",
     "CALC_CHAR_SEISME", "CALC_CORR_SSD", "CALC_COUPURE", "CALC_ECREVISSE", "CALC_ELEM", "CALC_ERC_DYN", "CALC_ERREUR", "CALC_ESSAI",
@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 235> foreign = {
     "CALC_G", "CALC_GP", "CALC_G_XFEM", "CALC_H", "CALC_INTERF_SSD", "CALC_INTE_SPEC", "CALC_K_G", "CALC_MAC3COEUR", "CALC_MATE_HOMO",
     "CALC_MATR_AJOU", "CALC_MATR_ELEM", "CALC_META", "CALC_MISS", "CALC_MODAL", "CALC_MODES", "CALC_MODE_ROTATION", "CALC_NO",
     "CALC_POINT_MAT", "CALC_PRECONT", "CALC_SPEC", "CALC_SPECTRE_IPM", "CALC_STABILITE", "CALC_THERMECA_MULT", "CALC_TRANSFERT",
-    "CALC_VECT_ELEM", "CHAINAGE_THM", "COMBINAISON_CHAR", "COMBINAISON_FERRAILLAGE", "COMB_FOURIER", "COMB_MATR_ASSE", "COMB_SISM_MODAL",
+    "CALC_VECT_ELEM", "CHAINAGE_THM", "CO", "COMBINAISON_CHAR", "COMBINAISON_FERRAILLAGE", "COMB_FOURIER", "COMB_MATR_ASSE", "COMB_SISM_MODAL",
     "COPIER", "CREA_COUPE", "CREA_ELEM_SSD", "CREA_LIB_MFRONT", "DEBUG", "DEFI_BASE_MODALE", "DEFI_BASE_REDUITE", "DEFI_CABLE_BP",
     "DEFI_CABLE_OP", "DEFI_COMPOR", "DEFI_COMPOSITE", "DEFI_CONT", "DEFI_COQU_MULT", "DEFI_DOMAINE_REDUIT", "DEFI_FISS_XFEM",
     "DEFI_FLUI_STRU", "DEFI_FOND_FISS", "DEFI_GEOM_FIBRE", "DEFI_GLRC", "DEFI_GRILLE", "DEFI_INTERF_DYNA", "DEFI_INTE_SPEC",
@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 235> foreign = {
     "DEFI_SOL_MISS", "DEFI_SPEC_TURB", "DEFI_SQUELETTE", "DEFI_TRC", "DEPL_INTERNE", "DYNA_ALEA_MODAL", "DYNA_ISS_VARI", "DYNA_LINE",
     "DYNA_LINE_HARM", "DYNA_LINE_TRAN", "DYNA_NON_LINE", "DYNA_SPEC_MODAL", "DYNA_TRAN_MODAL", "DYNA_VIBRA", "ELIM_LAGR", "ENGENDRE_TEST",
     "EXEC_LOGICIEL", "EXTR_CONCEPT", "EXTR_MODE", "EXTR_RESU", "EXTR_TABLE", "FACTORISER", "FACT_INTE_SPEC", "GENE_ACCE_SEISME",
-    "GENE_FONC_ALEA", "GENE_MATR_ALEA", "GENE_VARI_ALEA", "IMPR_CLASSI", "IMPR_DIAG_CAMPBELL", "IMPR_GENE", "IMPR_JEVEUX",
+    "GENE_FONC_ALEA", "GENE_MATR_ALEA", "GENE_VARI_ALEA", "IMPR_CLASSI", "IMPR_COURBE", "IMPR_DIAG_CAMPBELL", "IMPR_GENE", "IMPR_JEVEUX",
     "IMPR_MACR_ELEM", "IMPR_MISS_3D", "IMPR_OAR", "INCLUDE_MATERIAU", "INFO_EXEC_ASTER", "INFO_FONCTION", "INFO_MODE", "INTE_MAIL_2D",
     "INTE_MAIL_3D", "LIRE_CHAMP", "LIRE_FONCTION", "LIRE_FORC_MISS", "LIRE_IMPE_MISS", "LIRE_INTE_SPEC", "LIRE_MISS_3D", "LIRE_PLEXUS",
     "LIRE_RESU", "LIRE_TABLE", "MACRO_BASCULE_SCHEMA", "MACRO_ELAS_MULT", "MACRO_MATR_AJOU", "MACRO_MATR_ASSE", "MACRO_MISS_3D",
@@ -55,6 +55,7 @@ const std::map<std::string_view, std::string_view>& substitutes() {
       {"CALC_POINT_MAT", "a cube of one cell whose faces move shows the same law"},
       {"SIMU_POINT_MAT", "a cube of one cell whose faces move shows the same law"},
       {"MECA_NON_LINE", "STAT_NON_LINE solves such problems"},
+      {"CO", "macro-commands of Code_Aster that comma has not make concepts by it"},
       {"DEFI_CONT", "DEFI_CONTACT defines contact"},
       {"LIRE_FONCTION", "DEFI_FONCTION takes the points themselves"},
       {"MACR_ADAP_MAIL", "finer meshes come from LIRE_MAILLAGE or CREA_MAILLAGE"},
@@ -62,6 +63,9 @@ const std::map<std::string_view, std::string_view>& substitutes() {
       {"MACR_LIGN_COUPE", "POST_RELEVE_T and CREA_TABLE take values at the nodes of a group, which DEFI_GROUP may find along a segment (OPTION='SEGM_DROI_ORDO')"},
       {"MODI_REPERE", "POST_RELEVE_T gives values in other axes (REPERE)"},
       {"POST_COQUE", "CALC_CHAMP with SIGM_ELNO and POST_CHAMP with EXTR_COQUE give the stresses of plates in their thickness"},
+      {"IMPR_COURBE", "IMPR_FONCTION writes curves, and IMPR_TABLE tables"},
+      {"INTE_MAIL_2D", "DEFI_GROUP finds the nodes of a line (OPTION='SEGM_DROI_ORDO'), and POST_RELEVE_T takes values there"},
+      {"PRE_IDEAS", "LIRE_MAILLAGE reads the file itself (FORMAT='IDEAS')"},
       {"PRE_GMSH", "LIRE_MAILLAGE reads the file itself (FORMAT='GMSH')"},
   };
   return table;
