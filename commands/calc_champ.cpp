@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/field_types.hpp"
@@ -95,18 +98,34 @@ void add_field(const std::string& name, FieldsOfSteps& computation, const Chosen
     step.limited.erase(name);
 }
 
+bool has_values(const solver::Field& field) {
+  return std::ranges::any_of(solver::values_of(field), [](double value) { return !std::isnan(value); });
+}
+
+// Elements of other kinds have other fields.
+void warn_of_empty_field(const std::string& name, const Call& call, Context& context) {
+  context.diagnostics.alarm("empty-field", fmt::format("CALC_CHAMP: no element there has {}: the field has no values", name), call.span,
+                            "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
+}
+
 void add_fields(const Call& call, Context& context, ResultConcept& data) {
   warn_of_missing_instants("CALC_CHAMP", call, context.diagnostics);
   FieldsOfSteps computation(call, data);
   ChosenCells cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());
+  std::set<std::string> empty, filled;
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
+    solver::ResultStep& step = data.result.steps[index];
     for (const std::string& name : wanted_fields(call)) {
-      if (!cells || !holds_of_solve(data.result.steps[index], name)) add_field(name, computation, cells, data.result.steps[index], index);
+      if (cells && holds_of_solve(step, name)) continue;
+      add_field(name, computation, cells, step, index);
+      (has_values(step.fields.at(name)) ? filled : empty).insert(name);
     }
     for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
   }
+  for (const std::string& name : empty)
+    if (!filled.contains(name)) warn_of_empty_field(name, call, context);
   if (!cells) computation.warn_of_limited_sources(context.diagnostics);
 }
 

@@ -72,13 +72,14 @@ AnyField map_tensors(const AnyField& field, std::span<const std::string_view> na
                      Write&& write) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = field.component(names[i]);
-  if (columns[0] < 0 || columns[1] < 0 || columns[2] < 0 || columns[3] < 0) {
+  const bool has_tensors = columns[0] >= 0 && columns[1] >= 0 && columns[2] >= 0 && columns[3] >= 0;
+  if (!has_tensors && !field.values.empty()) {
     throw Error("incompatible-field",
                 fmt::format("the field has no components {} {} {} {}", names[0], names[1], names[2], names[3]));
   }
   AnyField result = field;
   const std::size_t width = field.components.size();
-  const std::size_t places = field.values.size() / width;
+  const std::size_t places = field.values.empty() ? 0 : field.values.size() / width;
   result.components = std::move(results);
   const std::size_t new_width = result.components.size();
   result.values.assign(places * new_width, absent);
