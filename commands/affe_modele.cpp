@@ -73,7 +73,7 @@ void warn_of_warped_plates(const Call& call, const solver::Model& model, Context
   }
   if (worst < 0) return;
   context.diagnostics.alarm("warped-plates",
-                            fmt::format("AFFE_MODELE: {} plate{} not flat, {} by the most: a corner lies off the plane of the others by {:.2g} of the cell's size. Each is taken for its projection on its mean plane",
+                            fmt::format("AFFE_MODELE: {} plate{} not flat, {} by the most: a corner lies off the plane of the others by {:.2g} of the cell's size. Each is taken for its projection on its mean plane, and its membrane resists bending: where a shell is thin it may be several times too stiff",
                                         count, count == 1 ? " is" : "s are", model.mesh->cell_name(worst), largest),
                             call.span, "take triangles, or smaller cells; VERI_PLAN='NON' says that they are meant so");
 }

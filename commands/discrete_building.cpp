@@ -57,7 +57,9 @@ void check_element(const Keywords& assignment, const std::string& name, const Ch
   if (!is_discrete(formulation) || is_plane(formulation) != plane || turns(formulation) != wanted.rotations) {
     throw DiagnosticError("not-discrete", fmt::format("{}: {} belongs to elements {}, and cell {} carries none", name, wanted.name, needed,
                                                       model.mesh->cell_name(cell)),
-                          assignment.span, fmt::format("give it MODELISATION=\"{}\" in AFFE_MODELE", needed));
+                          assignment.span,
+                          is_discrete(formulation) && is_plane(formulation) != plane ? fmt::format("the cell lies in a {} model: take {}", plane ? "spatial" : "plane", plane ? "DISCRET" : "DISCRET_2D")
+                                                                                     : fmt::format("give it MODELISATION=\"{}\" in AFFE_MODELE", needed));
   }
   const bool on_segment = model.mesh->cell_types[cell] == solver::CellType::seg2;
   if (wanted.segment == on_segment) return;
