@@ -78,6 +78,12 @@ std::vector<ConceptPtr> Keywords::concepts(std::string_view keyword) const {
   return converted<ConceptPtr>(items, keyword, [](const Value& value) { return value.as_concept(); });
 }
 
+std::vector<ConceptPtr> Keywords::concepts_among(std::string_view keyword) const {
+  auto handles = converted<ConceptPtr>(items, keyword, [](const Value& value) { return value.is_concept() ? value.as_concept() : ConceptPtr(); });
+  std::erase(handles, nullptr);
+  return handles;
+}
+
 const std::vector<Keywords>& Keywords::factors(std::string_view keyword) const {
   static const std::vector<Keywords> none;
   const Keyword* found = find(items, keyword);
@@ -96,8 +102,15 @@ Span Keywords::span_of(std::string_view keyword) const {
   return found != nullptr && found->given ? found->value_span : span;
 }
 
+DiagnosticError destroyed_concept(const Concept& handle) {
+  const Span& at = *handle.destroyed_at;
+  return {"destroyed-concept", fmt::format("{} is not there any more: DETRUIRE has taken it away{}", handle.name, at.file ? fmt::format(" (line {})", at.file->position(at.begin).line) : ""),
+          Span(), "use it before, or leave DETRUIRE out"};
+}
+
 void throw_wrong_data(std::string_view keyword, const Concept* concept_handle) {
   if (concept_handle == nullptr) throw std::logic_error(fmt::format("keyword {} holds no concept", keyword));
+  if (concept_handle->data == nullptr && concept_handle->destroyed_at) throw destroyed_concept(*concept_handle);
   const char* why =
       concept_handle->data == nullptr ? "has not been computed" : "holds data of another kind than expected";
   throw std::logic_error(

@@ -48,6 +48,8 @@ class Keywords {
   std::vector<std::int64_t> integers(std::string_view keyword) const;
   std::vector<std::string> texts(std::string_view keyword) const;
   std::vector<ConceptPtr> concepts(std::string_view keyword) const;
+  /// Those of its values that are concepts.
+  std::vector<ConceptPtr> concepts_among(std::string_view keyword) const;
 
   /// The occurrences of a factor keyword; empty when it is absent.
   const std::vector<Keywords>& factors(std::string_view keyword) const;
@@ -68,6 +70,9 @@ struct Call : Keywords {
   ConceptPtr result;            ///< what it produces or, with reuse=, changes in place; null if nothing
   bool reuse = false;
 };
+
+/// Error `destroyed-concept`, without a place: of what reads a concept after DETRUIRE.
+DiagnosticError destroyed_concept(const Concept& handle);
 
 [[noreturn]] void throw_wrong_data(std::string_view keyword, const Concept* concept_handle);
 

@@ -140,6 +140,7 @@ struct CommandPage {
   Cost cost = Cost::cheap;
   Role role = Role::value;
   bool standalone = false;  ///< the product keeps nothing of the concepts that were read (a table, a function)
+  bool destroys = false;    ///< the concepts that are named are of no use afterwards
   bool supported = true;
   Reuse reuse = Reuse::none;
   std::vector<std::string> reuse_same_as;  ///< paths, "MAILLAGE" or "ETAT_INIT/EVOL_NOLI": one holds the reused concept

@@ -184,6 +184,7 @@ CommandPage decode_page(std::span<const std::uint8_t> bytes) {
   page.cost = text_at(packed, "cost", "cheap") == "solve" ? Cost::solve : Cost::cheap;
   page.role = role_from(text_at(packed, "role"));
   page.standalone = flag_at(packed, "standalone", false);
+  page.destroys = flag_at(packed, "destroys", false);
   page.supported = flag_at(packed, "supported", true);
   read_reuse(packed, page);
   page.inside = level_from(packed);

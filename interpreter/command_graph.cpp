@@ -118,6 +118,9 @@ CommandNode& CommandGraph::add(Call call, ConceptPtr product, const CommandPage&
   }
   for (const int unit : accesses.files_read) read(node, file_resource(unit), fmt::format("file {}", unit));
   for (const int unit : accesses.files_written) write(node, file_resource(unit), fmt::format("file {}", unit));
+  // It waits for all that reads them before.
+  if (page.destroys)
+    for (const auto& [id, handle] : named) write(node, id, handle->name);
   if (product) {
     if (call.reuse) note_change(*product);
     write(node, product->id, product->name);

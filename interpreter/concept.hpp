@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +56,7 @@ struct Concept {
   int id = 0;                    ///< dense, in order of creation; or detached_concept
   Span defined_at;               ///< the call that made it
   std::shared_ptr<ConceptData> data;
+  std::optional<Span> destroyed_at = {};  ///< the call that has taken the data away (DETRUIRE)
   int version = 0;               ///< how many commands have written `data`
   std::vector<std::shared_ptr<Concept>> reads_through;  ///< reading this one reads those too (a model reads its mesh)
 

@@ -111,6 +111,11 @@ void Executor::run_now(int id) {
   }
 }
 
+void Executor::run_in_turn(int id) {
+  CommandNode& node = graph_.nodes()[static_cast<std::size_t>(id)];
+  if (node.state == NodeState::waiting && is_in_turn(node) && can_run(node)) run_reporting(node);
+}
+
 void Executor::run_reporting(CommandNode& node) {
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   node.left_out = report_errors([&] { run(node); }, only_writes(node.role) ? Severity::alarm : Severity::error);

@@ -46,6 +46,8 @@ class Executor {
 
   /// The same for a node that the file has not asked for: a failure is reported, as by run_all.
   void run_now(int id);
+  /// Runs it if nothing that comes before it is still to run.
+  void run_in_turn(int id);
 
   /// Whether all that `id` still waits for is cheap.
   bool is_cheap(int id) const;

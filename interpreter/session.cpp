@@ -50,6 +50,8 @@ Value Session::call(const CommandCall& written, bool eager) {
   node.called_from = diagnostics_.called_from();
   const int id = node.id;
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
+  // Loops that compute at once would keep all that they have given up.
+  if (page.destroys && may_run(id)) executor_.run_in_turn(id);
   if (eager && may_run(id)) {
     try {
       if (!executor_.force(id)) return Value::unknown();
@@ -65,6 +67,7 @@ Value Session::call(const CommandCall& written, bool eager) {
 bool Session::force(const ConceptPtr& handle) {
   const int writer = graph_.last_writer(*handle);
   if (writer >= 0 && may_run(writer) && !executor_.force(writer)) return false;
+  if (!handle->data && handle->destroyed_at) throw destroyed_concept(*handle);
   return handle->data != nullptr;
 }
 

@@ -108,7 +108,7 @@ class PageBuilder {
   Json page(Json json) const {
     json.erase("shapes");  // a place for YAML anchors
     allow(json, "the page",
-          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "supported",
+          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "destroys", "supported",
            "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
     demand(json, "the page", {"command", "doc", "category"});
     choose(json, "cost", {"cheap", "solve"});
