@@ -19,12 +19,10 @@ namespace {
 constexpr int max_corrections = 3;
 /// A correction below this share of the solution is rounding.
 constexpr double negligible_correction = 4e-16;
-/// A factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at 400,000.
-constexpr std::size_t few_solutions = 5;
 
 NewtonOptions tangent_options(const LinearStaticOptions& options, std::size_t solutions) {
   NewtonOptions result;
-  result.few_solutions = solutions <= few_solutions;
+  result.few_solutions = solutions <= TangentSystem::few_solutions;
   result.method = options.method;
   result.linear = options.linear;
   return result;

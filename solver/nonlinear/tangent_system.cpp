@@ -145,7 +145,7 @@ bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& red
 LinearMethod TangentSystem::chosen_method(const SymmetricMatrix& reduced) {
   if (options_.method) return *options_.method;
   const LinearMethod direct = choose_method(reduced);
-  if (direct == LinearMethod::mumps || multigrid_failed_ || !options_.few_solutions || reduced.rows() < large_solid) return direct;
+  if (direct == LinearMethod::mumps || multigrid_failed_ || !options_.few_solutions || !is_constant() || reduced.rows() < large_solid) return direct;
   linear_.solid = solid_unknowns(model_, dofs_, elimination_);
   return linear_.solid ? LinearMethod::multigrid : direct;
 }

@@ -31,6 +31,8 @@ class TangentSystem {
   /// From this many unknowns on multigrid is faster than a factor, for a solid and few right-hand sides
   /// (docs/linear_solvers.md).
   static constexpr int large_solid = 10000;
+  /// So many are few: a factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at 400,000.
+  static constexpr std::size_t few_solutions = 5;
 
   /// Keeps references to its arguments.
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,

@@ -7,6 +7,7 @@
 #include "solver/error.hpp"
 #include "solver/linear/aggregation.hpp"
 #include "solver/nonlinear/linear_static_analysis.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
 
 using namespace comma::solver;
 
@@ -190,6 +191,20 @@ TEST_CASE("where multigrid does not converge the direct solver takes over") {
   const double expected = tip(block, LinearMethod::cholmod, direct);
   CHECK(tip(block, {}, own) == Approx(expected).epsilon(1e-9));
   CHECK(own.factorisations == 2);
+}
+
+TEST_CASE("a few elastic steps take multigrid as well, many a factor") {
+  // Here multigrid fails, and the factor that takes over is a second one.
+  const Block block(18, 18, 20, 0.49999999);
+  for (const auto& [instants, factorisations] : {std::pair(std::vector{0.0, 1.0}, 2), std::pair(std::vector{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, 1)}) {
+    StepPlan plan;
+    plan.instants = instants;
+    Counters counters, direct;
+    Result result;
+    solve_static(block.problem, plan, {}, result, counters, {}, {});
+    CHECK(counters.factorisations == factorisations);
+    CHECK(std::get<NodalField>(result.steps.back().fields.at("DEPL")).at(block.node(18, 18, 20), 0) == Approx(tip(block, LinearMethod::cholmod, direct)).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("a large solid that nothing holds is told, not solved") {
