@@ -101,6 +101,8 @@ struct KeywordPage {
   bool required = false;
   bool supported = true;
   std::string no_effect;  ///< why it cannot change a result of comma, or empty
+  std::string counts_when;  ///< a condition as of a block, without which it is read by nothing: an alarm then; or empty
+  std::shared_ptr<const Expression> counts;
   std::optional<Value> default_value;
   bool present_by_default = false;  ///< a factor that stands there, with its defaults, when it is not written
   LevelPage inside;                 ///< of a factor

@@ -106,6 +106,8 @@ KeywordPage keyword_from(std::string_view name, const Packed& packed) {
   keyword.required = flag_at(packed, "required", false);
   keyword.supported = flag_at(packed, "supported", true);
   keyword.no_effect = text_at(packed, "no_effect");
+  keyword.counts_when = text_at(packed, "counts_when");
+  if (!keyword.counts_when.empty()) keyword.counts = condition_from(keyword.counts_when);
   const Packed* standard = packed.find("default");
   if (keyword.is_factor()) {
     keyword.present_by_default = standard != nullptr;

@@ -114,6 +114,7 @@ class LevelCheck {
     activate(level_, true);
     for (const Pending& pending : pending_)
       if (!pending.used) take_other(pending);
+    warn_of_idle();
     return std::move(result_);
   }
 
@@ -286,9 +287,17 @@ class LevelCheck {
     take_given(keyword, *pending.argument);
   }
 
+  /// What is written and nothing reads.
+  void warn_of_idle() {
+    for (const auto& [keyword, span] : conditional_)
+      if (holds(*keyword->counts, scope_) == Truth::no)
+        context_.diagnostics.alarm("idle-keyword", fmt::format("{}/{} has no effect here: it counts when {}", label_, keyword->name, keyword->counts_when), span, "leave it out, or give what it belongs to");
+  }
+
   void take_given(const KeywordPage& keyword, const Argument& argument) {
     const std::string label = label_ + "/" + keyword.name;
     const bool was_quiet = context_.quiet;
+    if (keyword.counts) conditional_.emplace_back(&keyword, argument.name_span);
     if (!keyword.supported) {
       context_.report_unsupported(fmt::format("comma does not support {} yet", label), argument.name_span);
       context_.quiet = true;
@@ -417,6 +426,7 @@ class LevelCheck {
   std::vector<Pending> pending_;
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
+  std::vector<std::pair<const KeywordPage*, Span>> conditional_;  ///< given, and of effect under a condition alone
   std::map<std::string, std::string, std::less<>> guesses_;  ///< a misspelt keyword and the one that was meant
   Keywords result_;
 };

@@ -72,6 +72,7 @@ class Writer {
     if (!place.conditions.empty()) line("  only when  {}", place.conditions);
     if (!page.aliases.empty()) line("  older name {}", fmt::join(page.aliases, ", "));
     line("  supported  {}", page.supported ? "yes" : "not yet: using it is an error");
+    if (!page.counts_when.empty()) line("  counts     when {}", page.counts_when);
     if (!page.no_effect.empty()) line("  no effect  {}", page.no_effect);
     words(page);
     if (page.is_factor()) level(page.inside);
