@@ -53,6 +53,17 @@ void warn_of_weight_out_of_plane(const Call& call, const LoadedModel& target, Co
   }
 }
 
+// Faces and edges have no volume.
+void warn_of_weightless_cells(const Call& call, const LoadedModel& target, Context& context) {
+  for (const char* keyword : {"PESANTEUR", "ROTATION"})
+    for (const Keywords& load : call.factors(keyword)) {
+      const std::vector<int> cells = selected_cells(load, target.mesh);
+      const auto bears = [&](int cell) { return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none && !target.model.is_skin(cell); };
+      if (std::ranges::any_of(cells, bears)) continue;
+      context.diagnostics.alarm("lost-force", fmt::format("{}: none of the {} cells that it names has a mass: they bound others, or carry no element", keyword, cells.size()), load.span, "name the cells of the bodies, or leave out where it acts: the whole model");
+    }
+}
+
 // Nodes that do not carry a component are passed over, unless they all are.
 void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& context) {
   for (const Keywords& force : call.factors("FORCE_NODALE")) {
@@ -182,6 +193,7 @@ void warn_of_loads(const Call& call, const LoadedModel& target, Context& context
   check_normals(call, target, context);
   warn_of_lost_forces(call, target, context);
   warn_of_weight_out_of_plane(call, target, context);
+  warn_of_weightless_cells(call, target, context);
 }
 
 }  // namespace comma::commands

@@ -125,6 +125,8 @@ Eigen::Vector3d inertia_origin(const std::vector<double>& coordinates) {
 }
 
 const solver::Field& displacement_of(const Call& call) {
+  if (!call.has("RESULTAT"))
+    throw DiagnosticError("missing-keyword", "POST_ELEM: GEOMETRIE='DEFORMEE' needs the displacements that deform the mesh", call.span_of("GEOMETRIE"), "give RESULTAT with INST, or CHAM_GD");
   const auto& result = call.data<ResultConcept>("RESULTAT").result;
   const solver::ResultStep& step = only_step(call, result, "masses are taken at one");
   const auto found = step.fields.find("DEPL");
@@ -275,7 +277,18 @@ void add_extremes(Table& table, const Call& call, const Keywords& occurrence, co
   }
 }
 
-void list_extremes(Table& table, const Call& call) {
+// MINMAX reads results of its own.
+void warn_of_idle_steps(const Call& call, interpreter::Diagnostics& diagnostics) {
+  const auto& occurrences = call.factors("MINMAX");
+  const auto reads_all = [](const Keywords& occurrence) { return occurrence.has("RESULTAT") && !occurrence.has("INST") && !occurrence.has("NUME_ORDRE") && !occurrence.has("LIST_INST") && !occurrence.has("LIST_ORDRE"); };
+  if (std::ranges::none_of(occurrences, reads_all)) return;
+  for (const char* keyword : {"INST", "NUME_ORDRE", "LIST_INST", "LIST_ORDRE"})
+    if (call.given(keyword))
+      diagnostics.alarm("idle-keyword", fmt::format("POST_ELEM/{} does not count for MINMAX, which takes all steps of its own RESULTAT", keyword), call.at(keyword).name_span, fmt::format("write {} inside MINMAX=_F(...)", keyword));
+}
+
+void list_extremes(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
+  warn_of_idle_steps(call, diagnostics);
   for (const Keywords& occurrence : call.factors("MINMAX")) {
     for (const FieldSource& source : field_sources(occurrence)) add_extremes(table, call, occurrence, source);
   }
@@ -319,7 +332,7 @@ Product post_elem(const Call& call, Context& context) {
   if (call.has("INTEGRALE")) list_integrals(table, call, context.diagnostics);
   if (call.has("NORME")) list_norms(table, call, context.diagnostics);
   if (call.has("VOLUMOGRAMME")) list_distributions(table, call, context.diagnostics);
-  if (call.has("MINMAX")) list_extremes(table, call);
+  if (call.has("MINMAX")) list_extremes(table, call, context.diagnostics);
   if (call.has("TRAV_EXT")) list_work(table, call, context.diagnostics);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);
   return product;
