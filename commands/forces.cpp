@@ -438,8 +438,6 @@ struct InitialStrains {
   ByCell<solver::InitialStrain> continuum;
   ByCell<solver::InitialSlenderStrain> slender;
   ByCell<solver::InitialPlateStrain> plates;
-
-  bool empty() const { return continuum.empty() && slender.empty() && plates.empty(); }
 };
 
 template <std::size_t N, class Strain>
@@ -450,21 +448,34 @@ void take_strain(const Amounts<N>& amounts, int cell, ByCell<Strain>& strains) {
 }
 
 void take_strains(const Keywords& occurrence, const LoadedModel& target, InitialStrains& strains) {
+  bool solids = false, plates = false, beams = false, bars = false;
   const auto amounts = given_amounts<6>(occurrence, {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"});
   const auto slender = given_amounts<3>(occurrence, {"EPX", "KY", "KZ"});
   const auto plate = given_amounts<6>(occurrence, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"});
   for (const int cell : selected_cells(occurrence, target.mesh)) {
     const auto formulation = target.model.formulations[cell];
+    const bool is_solid = solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell);
+    solids |= is_solid;
+    plates |= is_plate(target, cell);
+    beams |= solver::is_beam(formulation);
+    bars |= solver::is_bar(formulation);
     if (is_plate(target, cell)) take_strain(plate, cell, strains.plates);
-    if (solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell)) take_strain(amounts, cell, strains.continuum);
+    if (is_solid) take_strain(amounts, cell, strains.continuum);
     if (solver::is_beam(formulation) || solver::is_bar(formulation)) take_strain(slender, cell, strains.slender);
     // A bar has its elongation under the name that solids have (U4.44.01, PRE_EPSI).
     if (amounts[0] && solver::is_bar(formulation)) take_strain<3>({amounts[0], std::nullopt, std::nullopt}, cell, strains.slender);
   }
-  if (strains.empty()) {
-    throw DiagnosticError("no-element", "PRE_EPSI: none of these cells can have such a strain", occurrence.span,
-                          "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams, EXX ... KXY for plates");
-  }
+  const auto require = [&](bool can_have, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (!can_have && occurrence.given(name))
+        throw DiagnosticError("no-element", fmt::format("PRE_EPSI: none of these cells can have the strain {}", name), occurrence.at(name).name_span,
+                              "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams, EXX ... KXY for plates");
+  };
+  require(solids || bars, {"EPXX"});
+  require(solids, {"EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"});
+  require(beams || bars, {"EPX"});
+  require(beams, {"KY", "KZ"});
+  require(plates, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"});
 }
 
 /// The components of a field of initial strains that a cell has.
