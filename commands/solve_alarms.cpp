@@ -53,6 +53,9 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("with {} = {:.3g} the slave nodes of zone {} sink in by {:.3g}, {:.2g} times the size of the slave side", penalty,
                           doubt.penalty, zone, doubt.length, doubt.share),
               fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+    case solver::DoubtKind::watched_overlap:
+      return {"interpenetration", fmt::format("node {} lies {:.3g} deep in the other surface of zone {}, where contact is watched and not enforced", mesh.node_name(doubt.node), doubt.length, zone),
+              "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)"};
     case solver::DoubtKind::soft_bound:
       return {"soft-penalty",
               fmt::format("with COEF_PENA = {:.3g} bounds are passed by {:.3g}, {:.0f} % of what they would be without them: forces come out too small by about that share",

@@ -27,6 +27,7 @@ enum class DoubtKind : std::uint8_t {
   coarse_face,  ///< points between nodes overlap: faces that are partly in contact press for all of their points together
   kept_facet,  ///< points that hopped between two facets are left on one of them
   restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
+  watched_overlap,  ///< bodies lie in each other where contact is watched, and not enforced
   stale_geometry  ///< the gap between the surfaces as they are is not the one that was solved for: they have moved on since they were paired
 };
 
@@ -38,7 +39,7 @@ struct ContactDoubt {
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
-  int node = -1;         ///< slave node of a stale geometry, the node that moves most of a restless one
+  int node = -1;         ///< slave node of a stale geometry or a watched overlap, the node that moves most of a restless one
 };
 
 /// The deepest of each kind in each zone.

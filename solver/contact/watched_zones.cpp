@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/doubts.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -19,10 +19,28 @@ std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contac
   return watched;
 }
 
+namespace {
+
+/// Bodies that touch lie in each other by the rounding of their places: this share of a facet's size.
+constexpr double rounding_of_place = 1e-10;
+
+bool is_too_deep(const ContactPair& pair, double depth, const ContactDefinition& contact, const Mesh& mesh) {
+  return depth > contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance && depth > rounding_of_place * extent(mesh, pair.facet);
+}
+
+}  // namespace
+
+void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant, ContactDoubts& doubts) {
+  for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
+    const double depth = -gap_at(pair, mesh, now);
+    if (is_too_deep(pair, depth, contact, mesh)) doubts.note({.kind = DoubtKind::watched_overlap, .zone = pair.zone, .length = depth, .node = pair.slave});
+  }
+}
+
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
   for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
     const double depth = -gap_at(pair, mesh, now);
-    if (depth <= contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance) continue;
+    if (!is_too_deep(pair, depth, contact, mesh)) continue;
     throw Error("contact-interpenetration",
                 fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
                             mesh.cell_name(pair.facet), pair.zone + 1),

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 
+#include "solver/contact/doubts.hpp"
 #include "solver/contact/pairing.hpp"
 
 namespace comma::solver {
@@ -14,5 +15,8 @@ std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contac
 
 /// For STOP_INTERP='OUI': throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
+
+/// For STOP_INTERP='NON': the doubt `watched_overlap` of such nodes.
+void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant, ContactDoubts& doubts);
 
 }  // namespace comma::solver

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/contact/straight_faces.hpp"
+#include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/carried_surfaces.hpp"
 #include "solver/nonlinear/combinations.hpp"
@@ -71,6 +72,7 @@ void StaticRun::run(const StepPlan& plan) {
     if (path_) path_->accept_step(now_.state.u);
     mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(doubts_);
     note_doubts_about_surfaces(instant);
+    if (problem_.contact && !problem_.contact->stop_on_interpenetration) note_interpenetration(*problem_.contact, mesh_, positions(), instant, doubts_);
     archive(instant, *iterations);
     assembler_.accept(now_.state.u);
     begin_measuring();
