@@ -1,8 +1,12 @@
 #include "commands/plate_building.hpp"
 
+#include <algorithm>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "commands/angles.hpp"
+#include "commands/functions.hpp"
 #include "commands/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -28,6 +32,15 @@ Eigen::Vector3d direction_of(const Keywords& assignment) {
   return solver::nautical_axes(angles[0] * degree, angles[1] * degree, 0.0).row(0).transpose();
 }
 
+// A section is made once, and stays.
+void require_place_alone(const Keywords& assignment, const char* keyword) {
+  if (!assignment.given(keyword) || !assignment.at(keyword).value.is_concept()) return;
+  const interpreter::ConceptPtr& handle = assignment.concept_of(keyword);
+  const auto parameters = interpreter::data_of<FunctionConcept>(handle, keyword).parameters();
+  if (std::ranges::find(parameters, "INST") == parameters.end()) return;
+  throw DiagnosticError("unknown-parameter", fmt::format("COQUE/{}: {} depends on INST, and a section does not change in time", keyword, handle->name), assignment.span_of(keyword), "let it depend on the place: X, Y, Z");
+}
+
 }  // namespace
 
 void add_plate_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties,
@@ -37,6 +50,7 @@ void add_plate_sections(const Keywords& assignment, const solver::Model& model, 
   section.shear_factor = assignment.real("A_CIS");
   section.drilling = assignment.real("COEF_RIGI_DRZ");
   section.layers = static_cast<int>(assignment.integer("COQUE_NCOU"));
+  for (const char* keyword : {"EPAIS_FO", "EXCENTREMENT_FO"}) require_place_alone(assignment, keyword);
   int assigned = 0;
   const Amount thickness = amount_of(assignment, assignment.given("EPAIS_FO") ? "EPAIS_FO" : "EPAIS");
   const Amount offset = amount_of(assignment, assignment.given("EXCENTREMENT_FO") ? "EXCENTREMENT_FO" : "EXCENTREMENT");

@@ -119,6 +119,8 @@ class LevelCheck {
   }
 
   const Scope& scope() const { return scope_; }
+  /// Conditions see reuse= as a keyword.
+  void note_reuse(bool reused) { scope_.values["reuse"] = reused ? Value(true) : Value(); }
 
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
@@ -475,6 +477,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse" && a.name != "identifier"; });
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
+  level.note_reuse(reuse != written.arguments.end() && !reuse->value->is_none());
   CheckedCall checked;
   static_cast<Keywords&>(checked.call) = level.run(arguments, written.open);
   checked.call.span = written.span;

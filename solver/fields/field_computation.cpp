@@ -512,11 +512,11 @@ Field FieldComputation::energy_of_loading(std::size_t step) {
 void FieldComputation::turn_beams(Assembler& assembler, const DofMap& dofs, std::size_t step) const {
   if (!problem_.behaviours) return;
   const auto& fields = result_.steps[step].fields;
-  const auto stresses = fields.find("SIEF_ELGA"), variables = fields.find("VARI_ELGA");
-  if (stresses == fields.end() || variables == fields.end()) return;
+  const auto stresses = fields.find("SIEF_ELGA"), variables = fields.find("VARI_ELGA"), moved = fields.find("DEPL");
+  if (stresses == fields.end() || variables == fields.end() || moved == fields.end()) return;
   for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell) {
     if ((*problem_.behaviours)[cell].kinematics != Kinematics::large_rotations || !is_beam(problem_.model->formulations[cell])) continue;
-    return assembler.resume(to_dofs(std::get<NodalField>(fields.at("DEPL")), dofs), &std::get<ElementField>(stresses->second), &std::get<ElementField>(variables->second));
+    return assembler.resume(to_dofs(std::get<NodalField>(moved->second), dofs), &std::get<ElementField>(stresses->second), &std::get<ElementField>(variables->second));
   }
 }
 
