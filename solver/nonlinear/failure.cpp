@@ -40,6 +40,9 @@ bool is_rounding(std::span<const IterationReport> history) {
   return last.relative_residual < residual_rounding_share || (last.relative_residual < resting_share && is_at_rest(history));
 }
 
+constexpr std::string_view hold_it =
+    "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point, and whether friction can bear them";
+
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
@@ -58,7 +61,7 @@ std::string remedy(std::span<const IterationReport> history, bool is_linear, con
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
   if (is_unbalanced(last, is_linear) && !unheld.empty())
-    return "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point";
+    return std::string(hold_it);
   if (is_unbalanced(last, is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
   if (is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
@@ -117,6 +120,11 @@ void throw_no_convergence(double time, std::span<const IterationReport> history,
                           last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, is_linear, unheld), but_for_contact(unheld), last.absolute_residual,
                           last.worst, table(history)),
               remedy(history, is_linear, unheld));
+}
+
+void throw_lost_body(double time, double sizes, const std::string& unheld) {
+  throw Error("no-convergence", fmt::format("no convergence at t = {:.6g}: nothing balances the loads: a body has moved by {:.2g} sizes of the mesh, along what neither supports nor contact hold{}", time, sizes, but_for_contact(unheld)),
+              std::string(hold_it));
 }
 
 void throw_active_set_limit(int limit, bool by_gradients) {

@@ -27,6 +27,9 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
 [[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
                                        bool is_linear, const std::string& unheld = {});
 
+/// Error `no-convergence`: a body that contact alone was to hold has moved by so many sizes of the mesh. `unheld`: as above.
+[[noreturn]] void throw_lost_body(double time, double sizes, const std::string& unheld);
+
 /// Error `contact-cycling`: the active set needed more changes than allowed.
 [[noreturn]] void throw_active_set_limit(int limit, bool by_gradients);
 

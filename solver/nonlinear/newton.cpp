@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/contact/box_tree.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -26,7 +27,9 @@ constexpr double negligible_step = 4e-16;
 /// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
 constexpr double rounding_share = 1e-14;
 /// A residual beyond this share of the applied loads has not taken them up.
-constexpr double lost_load = 0.5;
+constexpr double lost_load = 1e-3;
+/// A body that contact alone is to hold is lost when it has moved by so many sizes of the mesh.
+constexpr double farthest_motion = 1e4;
 /// A rigid body is one up to this share of its size.
 constexpr double largest_violation = 1e-9;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
@@ -96,6 +99,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     if (observer_) observer_(history.back());
     if (measure.converged && is_whole && (!is_joint || (correction.changes == 0 && mixed_->geometry_is_at_rest())) && is_satisfied(state.u)) {
       if (!is_joint && !relations_.update) polish(state, external, offset);
+      require_at_hand(time, state.u);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;
@@ -104,6 +108,18 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
   fail(time, history);
+}
+
+/// So far away whatever is left of the loads passes for rounding.
+void NewtonSolver::require_at_hand(double time, const Eigen::VectorXd& u) const {
+  if (!mixed_ || tangent_.springs().empty()) return;
+  double farthest = 0.0;
+  for (int dof = 0; dof < dofs_.size(); ++dof)
+    if (dofs_.component_of(dof) <= Component::dz) farthest = std::max(farthest, std::abs(u[dof]));
+  Box box;
+  for (const Point& node : mesh_.nodes) box.extend(Eigen::Vector3d(node.data()));
+  const double size = box.diagonal().norm();
+  if (farthest > farthest_motion * size) throw_lost_body(time, farthest / size, tangent_.unheld());
 }
 
 /// Beyond the most, where the residuals promise to get there in so many.

@@ -102,6 +102,7 @@ class NewtonSolver {
   void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
+  void require_at_hand(double time, const Eigen::VectorXd& u) const;
   int further_iterations(double time, const std::vector<IterationReport>& history, double excess) const;
   bool is_satisfied(const Eigen::VectorXd& u) const;
   bool searches(int iteration) const;
