@@ -27,7 +27,7 @@ constexpr double softest_penalties = 1.0 / 4096.0;
 class CondensedSearch {
  public:
   CondensedSearch(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : problem_(problem), state_(state), given_(state.statuses), start_{state, problem.free, problem.held}, newton_(schur, problem, state) {}
+      : problem_(problem), state_(state), given_(state.statuses), start_{state, first_jumps(problem), problem.held}, newton_(schur, problem, state) {}
 
   /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
   /// then from laws that are smooth at first; then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at
@@ -53,9 +53,12 @@ class CondensedSearch {
     if (led_away) otherwise([&] { return settle(Rubbing::by_law); });
     otherwise([&] { return raise_penalties(); });
     otherwise([&] { return raise_friction(); });
-    conclude(solved || return_far());
-    for (std::size_t p = 0; p < given_.size(); ++p) solution_.changes += given_[p] != state_.statuses[p];
-    return solution_;
+    const bool returns = !solved && return_far();
+    conclude(solved);
+    if (!returns) return counted_changes();
+    solution_.is_far = true;
+    solution_.verdict = CondensedVerdict::solved;
+    return counted_changes();
   }
 
   /// By Newton's method alone, from a state near the solution and the jumps that go with it.
@@ -104,6 +107,11 @@ class CondensedSearch {
     newton_.go_to(start_);
   }
 
+  CondensedSolution counted_changes() {
+    for (std::size_t p = 0; p < given_.size(); ++p) solution_.changes += given_[p] != state_.statuses[p];
+    return solution_;
+  }
+
   /// Jumps are those that go with the forces of these multipliers.
   bool start_as_expected() {
     if (problem_.components == 1 || problem_.expected.size() != state_.multipliers.size()) return false;
@@ -113,7 +121,8 @@ class CondensedSearch {
   }
 
   void conclude(bool solved) {
-    solution_.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution_.is_far = solved && !newton_.stays_near();
+    solution_.verdict = solved && newton_.stays_near() ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution_.forces = newton_.forces();
   }
 

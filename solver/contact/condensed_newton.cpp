@@ -59,12 +59,14 @@ int direct_rows(const CondensedProblem& problem, bool is_nodal) {
 
 }  // namespace
 
+const Eigen::VectorXd& first_jumps(const CondensedProblem& problem) { return problem.begin.size() > 0 ? problem.begin : problem.free; }
+
 bool has_penalty(const CondensedProblem& problem) {
   return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
 }
 
 CondensedNewton::CondensedNewton(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-    : schur_(schur), problem_(problem), state_(state), jumps_(problem.free), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem, is_nodal_)) {
+    : schur_(schur), problem_(problem), state_(state), jumps_(first_jumps(problem)), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem, is_nodal_)) {
   assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
   assert(state.statuses.size() == problem.points.size());
 }
@@ -97,13 +99,15 @@ void CondensedNewton::take_penalties(double share) {
   penalty_share_ = share;
 }
 
-bool CondensedNewton::stays_near() const { return scale_ <= farthest_state * nearest_; }
+bool CondensedNewton::is_far() const { return scale_ > problem_.farthest; }
+
+bool CondensedNewton::stays_near() const { return scale_ <= farthest_state * nearest_ && !is_far(); }
 
 void CondensedNewton::balance_jumps() {
   forces_ = multiplier_forces(problem_, state_, forces_.size());
   number_unknowns();
   require_columns();
-  jumps_ = balanced_jumps();
+  jumps_ = problem_.begin.size() > 0 ? problem_.begin : balanced_jumps();
   take_jumps_of_penalties();
 }
 

@@ -17,6 +17,8 @@
 
 namespace comma::solver {
 
+/// Those that Newton's method begins with.
+const Eigen::VectorXd& first_jumps(const CondensedProblem& problem);
 /// Multipliers, statuses, and the jumps and forces on the rows that go with them.
 struct CondensedPlace {
   CondensedState state;
@@ -58,6 +60,8 @@ class CondensedNewton {
   void take_penalties(double share);
 
   const Eigen::VectorXd& forces() const { return forces_; }
+  /// Whether jumps are those of bodies that nothing holds.
+  bool is_far() const;
   /// Whether the present state is one that bodies come to: no farther than some times the nearest one that was met.
   bool stays_near() const;
   /// Whether the last attempt ended for want of patience.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -44,6 +45,9 @@ struct ShareSearch {
   int failures = 0, left_out = 0;
 };
 
+/// A body that contact alone is to hold is lost when it has moved by so many sizes of the mesh.
+inline constexpr double farthest_motion = 1e3;
+
 /// Find multipliers and jumps d with
 ///     d = free + S (w t(multiplier, d) - held),     sum over points of w N_i r(multiplier, d) = 0 for each node i,
 /// t and r being traction and residual of the law at the points, S the compliance of the rows.
@@ -52,7 +56,9 @@ struct CondensedProblem {
   std::vector<CondensedSpring> springs;
   Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
   Eigen::VectorXd held;         ///< forces on the rows
+  Eigen::VectorXd begin;        ///< jumps near those of the solution, where the free ones lead far away: a body that contact alone holds hardly resists; empty: the free ones are near
   double displacement = 0.0;    ///< the largest (a length): what its rounding makes of jumps is nothing
+  double farthest = std::numeric_limits<double>::infinity();  ///< jumps beyond are those of bodies that nothing holds (a length)
   int node_count = 0;
   int components = 1;           ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself

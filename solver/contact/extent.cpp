@@ -11,4 +11,10 @@ double extent(const Mesh& mesh, std::span<const int> cells) {
   return box.diagonal().norm();
 }
 
+double extent(const Mesh& mesh) {
+  Box box;
+  for (const Point& node : mesh.nodes) box.extend(Eigen::Vector3d(node[0], node[1], node[2]));
+  return box.diagonal().norm();
+}
+
 }  // namespace comma::solver

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "solver/mesh/disjoint_sets.hpp"
 
@@ -86,6 +88,10 @@ class SharedFriction {
     }
     if (lets_creep()) solution.verdict = CondensedVerdict::too_many_iterations;
     solution.by_shears = solution.verdict == CondensedVerdict::solved;
+    if (solution.verdict != CondensedVerdict::solved && far_) {
+      state = far_->first;
+      solution = far_->second;
+    }
     return counted(start, state, solution);
   }
 
@@ -156,8 +162,14 @@ class SharedFriction {
 
   CondensedSolution solve_once(CondensedState& state) { return solve_once(state, methods_.solve); }
   CondensedSolution solve_once(CondensedState& state, const CondensedMethods::Method& method) {
-    CondensedSolution solution = method(problem_, state);
+    return near(method(problem_, state), state);
+  }
+  /// What was solved far away is kept, and no solution yet.
+  CondensedSolution near(CondensedSolution solution, const CondensedState& state) {
     iterations_ += solution.iterations;
+    if (!solution.is_far) return solution;
+    if (!far_) far_.emplace(state, solution);
+    solution.verdict = CondensedVerdict::too_many_iterations;
     return solution;
   }
 
@@ -213,8 +225,7 @@ class SharedFriction {
     if (solution.verdict == CondensedVerdict::solved) return solution;
     if (!lets_creep()) {
       state = start;
-      solution = methods_.solve(given_, state);
-      iterations_ += solution.iterations;
+      solution = near(methods_.solve(given_, state), state);
       if (solution.verdict == CondensedVerdict::solved) return solution;
     }
     state = start;
@@ -335,6 +346,7 @@ class SharedFriction {
   ShareSearch own_search_;
   ShareSearch& search_;
   int iterations_ = 0;
+  std::optional<std::pair<CondensedState, CondensedSolution>> far_;
 };
 
 }  // namespace

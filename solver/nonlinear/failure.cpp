@@ -23,7 +23,9 @@ constexpr double unbalanced_share = 1e-2;
 /// Of a nonlinear one, a residual below the first share of the loads is; below the second, one that iterations no longer shrink.
 constexpr double residual_rounding_share = 1e-12, resting_share = 1e-8;
 
-bool is_unbalanced(const IterationReport& last, bool is_linear) { return is_linear && last.relative_residual > unbalanced_share; }
+bool is_unbalanced(std::span<const IterationReport> history, bool is_linear) {
+  return is_linear && std::ranges::any_of(history, [](const IterationReport& each) { return each.relative_residual > unbalanced_share; });
+}
 
 /// The later half of the iterations has not brought a tenth of what the earlier one left.
 bool is_at_rest(std::span<const IterationReport> history) {
@@ -46,8 +48,8 @@ constexpr std::string_view hold_it =
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
-  if (is_unbalanced(last, is_linear) && !unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
-  if (is_unbalanced(last, is_linear))
+  if (is_unbalanced(history, is_linear) && !unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
+  if (is_unbalanced(history, is_linear))
     return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
   if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
   if (is_rounding(history)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
@@ -60,9 +62,9 @@ std::string likely_cause(std::span<const IterationReport> history, bool is_linea
 std::string remedy(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
-  if (is_unbalanced(last, is_linear) && !unheld.empty())
+  if (is_unbalanced(history, is_linear) && !unheld.empty())
     return std::string(hold_it);
-  if (is_unbalanced(last, is_linear))
+  if (is_unbalanced(history, is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
   if (is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";

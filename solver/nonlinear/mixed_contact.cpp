@@ -480,6 +480,17 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   return changes;
 }
 
+/// Where the loads alone would take points much further than they have come, jumps begin as they were before these were applied.
+void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset) {
+  constexpr double much_further = 100.0;
+  problem_.begin.resize(0);
+  if (problem_.components == 1) return;
+  const Eigen::VectorXd now = jumps(elimination_.transformation() * before + offset);
+  if (largest_component(problem_.free) <= much_further * largest_component(now)) return;
+  problem_.begin = Eigen::VectorXd::Zero(problem_.free.size());
+  problem_.begin.head(now.size()) = now;
+}
+
 /// Solves the law of contact with the compliance at hand and moves the bodies. By how much forces on the rows change, as a share of the
 /// largest; nothing where a compliance that is not exact finds no solution.
 std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
@@ -496,7 +507,9 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
     const int unknown = tangent_.springs()[k].first;
     problem_.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
   }
+  begin_near(before, offset);
   problem_.indefinite = tangent_.is_indefinite();
+  problem_.farthest = problem_.springs.empty() ? std::numeric_limits<double>::infinity() : farthest_motion * extent(mesh_);
   if (!problem_.springs.empty() || problem_.indefinite) close_nearest(free);
 
   const CondensedState earlier = state_;

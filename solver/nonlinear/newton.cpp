@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/box_tree.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -28,8 +28,6 @@ constexpr double negligible_step = 4e-16;
 constexpr double rounding_share = 1e-14;
 /// A residual beyond this share of the applied loads has not taken them up.
 constexpr double lost_load = 1e-3;
-/// A body that contact alone is to hold is lost when it has moved by so many sizes of the mesh.
-constexpr double farthest_motion = 1e4;
 /// A rigid body is one up to this share of its size.
 constexpr double largest_violation = 1e-9;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
@@ -116,9 +114,7 @@ void NewtonSolver::require_at_hand(double time, const Eigen::VectorXd& u) const 
   double farthest = 0.0;
   for (int dof = 0; dof < dofs_.size(); ++dof)
     if (dofs_.component_of(dof) <= Component::dz) farthest = std::max(farthest, std::abs(u[dof]));
-  Box box;
-  for (const Point& node : mesh_.nodes) box.extend(Eigen::Vector3d(node.data()));
-  const double size = box.diagonal().norm();
+  const double size = extent(mesh_);
   if (farthest > farthest_motion * size) throw_lost_body(time, farthest / size, tangent_.unheld());
 }
 
