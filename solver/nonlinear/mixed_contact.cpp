@@ -480,13 +480,11 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   return changes;
 }
 
-/// Where the loads alone would take points much further than they have come, jumps begin as they were before these were applied.
+/// Jumps begin as they were before the loads of this iteration were applied: bodies that contact alone holds are taken far by these, and the law of friction is not linear on the way back.
 void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset) {
-  constexpr double much_further = 100.0;
   problem_.begin.resize(0);
   if (problem_.components == 1) return;
   const Eigen::VectorXd now = jumps(elimination_.transformation() * before + offset);
-  if (largest_component(problem_.free) <= much_further * largest_component(now)) return;
   problem_.begin = Eigen::VectorXd::Zero(problem_.free.size());
   problem_.begin.head(now.size()) = now;
 }
