@@ -135,6 +135,9 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
 
 void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem, const solver::ContactDoubts& doubts, Context& context) {
   static const solver::ContactDefinition bounds_alone;
+  if (!doubts.loose().empty())
+    context.diagnostics.alarm("loose-body", fmt::format("{}: beside closed contact {}: how far it has moved so is arbitrary", call.command, doubts.loose()), call.span,
+                              "hold it by DDL_IMPO, by a weak spring, or by friction");
   for (const solver::ContactDoubt& doubt : doubts.all()) {
     const Advice advice = advice_on(doubt, problem.contact ? *problem.contact : bounds_alone, *problem.model->mesh);
     context.diagnostics.alarm(advice.code, call.command + ": " + advice.message, call.span, advice.hint);

@@ -135,9 +135,28 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
 
 }  // namespace
 
+namespace {
+
+/// The stiffness (its lower triangle) with one as large as its largest against each of the rows, as far as these move the unknowns: what else they move stays where it is.
+SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness) {
+  std::vector<char> moves(static_cast<std::size_t>(stiffness.rows()), 0);
+  for (const int unknown : unknowns) moves[static_cast<std::size_t>(unknown)] = 1;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index row = 0; row < rows.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(rows, row); it; ++it)
+      if (moves[static_cast<std::size_t>(it.col())]) entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
+  SymmetricMatrix own(rows.rows(), stiffness.rows());
+  own.setFromTriplets(entries.begin(), entries.end());
+  const SymmetricMatrix products = SymmetricMatrix(own.transpose()) * own;
+  const SymmetricMatrix lower = products.triangularView<Eigen::Lower>();
+  return stiffness + stiffness.diagonal().maxCoeff() * lower;
+}
+
+}  // namespace
+
 std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
                                       const SymmetricMatrix& reduced_stiffness, std::span<const int> null_rows,
-                                      int singular_digits) {
+                                      int singular_digits, const RowMatrix* held) {
   // One digit of leave: the energy weighs a support differently than a pivot does.
   const double tolerance = std::pow(10.0, 1 - (singular_digits < 0 ? default_digits : singular_digits));
   const std::set<int> suspects(null_rows.begin(), null_rows.end());
@@ -146,9 +165,10 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
     const bool suspect = std::any_of(unknowns.begin(), unknowns.end(), [&](int row) { return suspects.contains(row); });
     if (!suspect && !suspects.empty()) continue;
     if (result.size() == most_free_parts) break;
-    const auto motions = free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, tolerance);
+    auto motions = free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, tolerance);
+    if (held != nullptr && !motions.empty()) motions = free_rigid_motions(mesh, dofs, elimination, held_by(*held, unknowns, reduced_stiffness), unknowns, tolerance);
     if (motions.empty()) {
-      if (suspect) result.push_back(mechanism(mesh, dofs, null_vector(elimination, reduced_stiffness, unknowns)));
+      if (suspect && held == nullptr) result.push_back(mechanism(mesh, dofs, null_vector(elimination, reduced_stiffness, unknowns)));
       continue;
     }
     FreePart part;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -48,9 +49,13 @@ class ContactDoubts {
   /// Takes the doubt if there is no deeper one of its kind in its zone.
   void note(const ContactDoubt& doubt);
   const std::vector<ContactDoubt>& all() const { return all_; }
+  /// In words, what neither supports nor contact hold in the end, and the loads do not move either: where it stands is arbitrary.
+  void note_loose(const std::string& motions) { loose_ = motions; }
+  const std::string& loose() const { return loose_; }
 
  private:
   std::vector<ContactDoubt> all_;
+  std::string loose_;
 };
 
 /// Contact forces are short by about the share that points sink in: below this it passes for what a penalty is expected to leave.

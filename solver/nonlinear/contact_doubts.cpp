@@ -43,6 +43,25 @@ Eigen::VectorXd MixedContact::forces_of(int zone, Eigen::VectorXd forces) const 
   return forces;
 }
 
+void MixedContact::note_loose_bodies(ContactDoubts& doubts) const {
+  if (tangent_.springs().empty() || reduced_rows_.rows() == 0) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  int count = 0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p)) continue;
+    const int held = point.law.friction > 0.0 ? point.rows : 1;  // the limit of what slides goes with the pressure
+    for (int c = 0; c < held; ++c, ++count) {
+      const int row = point.first_row + c;
+      const double size = std::sqrt(reduced_rows_.row(row).squaredNorm());
+      for (RowMatrix::InnerIterator it(reduced_rows_, row); it && size > 0.0; ++it) entries.emplace_back(count, static_cast<int>(it.col()), it.value() / size);
+    }
+  }
+  RowMatrix rows(count, reduced_rows_.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  doubts.note_loose(tangent_.unheld_beside(&rows));
+}
+
 /// The part of the contact forces along the surfaces.
 Eigen::VectorXd MixedContact::shears() const {
   Eigen::VectorXd shears = forces_;

@@ -147,7 +147,7 @@ void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has
   for (const ContactZone& zone : contact.zones) friction = std::max(friction, zone.mixed.friction);
   if (friction < strong_friction)
     throw Error("contact-cycling", message,
-                unheld.empty() ? way_to_settle(contact) : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point, or take smaller steps");
+                unheld.empty() ? way_to_settle(contact) : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point; or " + way_to_settle(contact));
   throw Error("contact-cycling",
               fmt::format("{}; with COULOMB = {:g} friction is stronger than the pressure that causes it, and a state of rest need not exist, "
                           "or be the only one",

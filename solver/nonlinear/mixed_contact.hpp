@@ -90,6 +90,8 @@ class MixedContact {
 
   /// Of a step that has converged at u: how far penalties, and faces too coarse for what they touch, let the bodies into each other. Costs a solve where there are penalties.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
+  /// Of the last step: motions of bodies that nothing holds, not even the points that are closed.
+  void note_loose_bodies(ContactDoubts& doubts) const;
   /// How far contact forces move the points, at most (a length).
   double pushed_back();
 

@@ -86,6 +86,7 @@ void StaticRun::run(const StepPlan& plan) {
       throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
                   "with reuse= the steps up to there are kept; ACTION='CONTINUE' goes on");
   }
+  if (mixed_) mixed_->note_loose_bodies(doubts_);
   if (surface_doubts_) surface_doubts_->conclude(doubts_);
 }
 

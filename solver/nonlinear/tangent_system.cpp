@@ -109,12 +109,14 @@ SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind k
   return reduced;
 }
 
-std::string TangentSystem::unheld() const {
+std::string TangentSystem::unheld() const { return unheld_beside(nullptr); }
+
+std::string TangentSystem::unheld_beside(const RowMatrix* held) const {
   if (springs_.empty() || !is_constant()) return {};
   std::vector<int> rows;
   for (const auto& spring : springs_) rows.push_back(spring.first);
   const SymmetricMatrix reduced = elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), TangentKind::tangent));
-  return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits), *model_.mesh);
+  return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits, held), *model_.mesh);
 }
 
 /// The skew half of the tangent, by its strictly lower triangle.

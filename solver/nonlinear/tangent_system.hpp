@@ -70,6 +70,8 @@ class TangentSystem {
 
   /// In words, what nothing but whoever allowed springs holds; empty where there are none, or where the tangent changes with the displacement.
   std::string unheld() const;
+  /// The same of what moves rigidly beside what holds these rows of the reduced unknowns, if any.
+  std::string unheld_beside(const RowMatrix* held) const;
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
