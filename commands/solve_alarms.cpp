@@ -101,6 +101,11 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               fmt::format("the surfaces of zone {} have moved on since they were paired: the gap at {} is {:.3g} off, {:.0f} % of what contact pushes back",
                           zone, mesh.node_name(doubt.node), doubt.length, 100.0 * doubt.share),
               how_to_follow(contact)};
+    case solver::DoubtKind::strong_friction:
+      return {"strong-friction",
+              fmt::format("zone {} bears {:.0f} % more friction than COULOMB times what presses on it: the limit of points between nodes is that of multipliers which they share with open points",
+                          zone, 100.0 * doubt.share),
+              "refine the slave side there, or put points on the nodes (INTEGRATION='AUTO' on linear faces)"};
     case solver::DoubtKind::weak_friction:
       return {"weak-friction",
               fmt::format("faces of zone {} are partly in contact, and their points that slide lack {:.0f} % of the friction that COULOMB times all that presses would be: the limit there is that of "

@@ -25,6 +25,7 @@ enum class DoubtKind : std::uint8_t {
   held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,  ///< master nodes between slave points have gone through the slave side
   weak_friction,  ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers of nodes they share with open ones
+  strong_friction,  ///< or bear more: a point that opens leaves friction to others of its face, which press less
   coarse_face,  ///< points between nodes overlap: faces that are partly in contact press for all of their points together
   kept_facet,  ///< points that hopped between two facets are left on one of them
   restless_geometry,  ///< updates move the surfaces to and fro, and would go on doing so
@@ -35,7 +36,7 @@ enum class DoubtKind : std::uint8_t {
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`, `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back (infinite where it pushes nothing); `weak_friction`: of what points that slide lack in the limit of all
+  double share = 0.0;    ///< of the depth, slip or motion in what the kind compares it with; `passed_master`, `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back (infinite where it pushes nothing); `weak_friction`, `strong_friction`: of what points that slide lack in the limit of all, or points bear beyond theirs
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`

@@ -24,7 +24,7 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
   if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
   if (rows_.rows() == 0) return;
   note_coarse_faces(u, doubts);
-  note_weak_friction(doubts);
+  note_friction_between_nodes(doubts);
   const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
   if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
@@ -106,19 +106,32 @@ void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& do
   }
 }
 
-/// The limit of friction is that of the multiplier, without the augmentation by the gap, and a face that is partly in contact has little of the multiplier where it presses.
-void MixedContact::note_weak_friction(ContactDoubts& doubts) const {
-  std::vector<double> limit(definition_.zones.size(), 0.0), missing = limit;
+/// The limit of friction is that of the multiplier, without the augmentation by the gap, and a face that is partly in contact has little of the multiplier where it presses, or more of it than presses.
+void MixedContact::note_friction_between_nodes(ContactDoubts& doubts) const {
+  struct Friction {
+    double limit = 0.0, missing = 0.0;              ///< of points between nodes, and what those that slide lack
+    double limit_of_all = 0.0, shear_of_all = 0.0;  ///< with points on nodes, which share multipliers with them
+  };
+  std::vector<Friction> zones(definition_.zones.size());
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (point.rows < 2 || point.node_count < 2 || state_.statuses[p] == ContactStatus::open) continue;
-    const auto zone = static_cast<std::size_t>(points_[p].zone);
+    if (point.rows < 2 || state_.statuses[p] == ContactStatus::open) continue;
+    Friction& zone = zones[static_cast<std::size_t>(points_[p].zone)];
     const double own_limit = point.law.friction * std::abs(forces_[point.first_row]);
-    limit[zone] += own_limit;
-    if (state_.statuses[p] == ContactStatus::sliding) missing[zone] += own_limit - forces_.segment(point.first_row + 1, point.rows - 1).norm();
+    const double shear = forces_.segment(point.first_row + 1, point.rows - 1).norm();
+    zone.limit_of_all += own_limit;
+    zone.shear_of_all += shear;
+    if (point.node_count < 2) continue;
+    zone.limit += own_limit;
+    if (state_.statuses[p] == ContactStatus::sliding) zone.missing += own_limit - shear;
   }
-  for (std::size_t zone = 0; zone < limit.size(); ++zone)
-    if (missing[zone] > doubtful_friction * limit[zone]) doubts.note({.kind = DoubtKind::weak_friction, .zone = static_cast<int>(zone), .share = missing[zone] / limit[zone]});
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const Friction& zone = zones[k];
+    const int number = static_cast<int>(k);
+    if (zone.missing > doubtful_friction * zone.limit) doubts.note({.kind = DoubtKind::weak_friction, .zone = number, .share = zone.missing / zone.limit});
+    const double beyond = zone.shear_of_all - zone.limit_of_all;
+    if (zone.limit > 0.0 && beyond > doubtful_friction * zone.limit_of_all) doubts.note({.kind = DoubtKind::strong_friction, .zone = number, .share = beyond / zone.limit_of_all});
+  }
 }
 
 void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {

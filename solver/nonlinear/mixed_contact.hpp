@@ -157,7 +157,7 @@ class MixedContact {
   void add_nodes_without_contact(Positions positions, double instant, std::vector<NodeContact>& contacts) const;
   void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
   void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);
-  void note_weak_friction(ContactDoubts& doubts) const;
+  void note_friction_between_nodes(ContactDoubts& doubts) const;
   void begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
