@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "commands/field_reading.hpp"
@@ -43,6 +44,8 @@ void add_list(Table& table, const Keywords& list) {
     throw DiagnosticError("wrong-count", fmt::format("CREA_TABLE: {} rows stand against {} values", rows.size(), cells.size()),
                           list.span_of("NUME_LIGN"));
   }
+  if (std::set<std::int64_t>(rows.begin(), rows.end()).size() < rows.size())
+    throw DiagnosticError("repeated-row", "CREA_TABLE: NUME_LIGN names a row twice", list.span_of("NUME_LIGN"), "give each value a row of its own");
   for (std::size_t i = 0; i < cells.size(); ++i) put(table, rows.empty() ? i : static_cast<std::size_t>(rows[i] - 1), column, cells[i]);
 }
 

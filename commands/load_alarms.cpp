@@ -57,6 +57,7 @@ void warn_of_weight_out_of_plane(const Call& call, const LoadedModel& target, Co
 void warn_of_weightless_cells(const Call& call, const LoadedModel& target, Context& context) {
   for (const char* keyword : {"PESANTEUR", "ROTATION"})
     for (const Keywords& load : call.factors(keyword)) {
+      if (!names_a_place(load, cell_places)) continue;
       const std::vector<int> cells = selected_cells(load, target.mesh);
       const auto bears = [&](int cell) { return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none && !target.model.is_skin(cell); };
       if (std::ranges::any_of(cells, bears)) continue;

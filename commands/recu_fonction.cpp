@@ -52,6 +52,8 @@ int point_of(const Call& call, const solver::ElementField& field, int cell, cons
     if (point <= points) return static_cast<int>(point) - 1;
     throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), points), call.span_of("POINT"));
   }
+  if (!call.given("GROUP_NO") && !call.given("NOEUD"))
+    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read at one of their points", call.span, "give POINT, or the node of the cell where the field is at nodes (..._ELNO)");
   const int node = node_of(call, mesh);
   const auto nodes = mesh.cell(cell);
   const auto found = std::find(nodes.begin(), nodes.end(), node);

@@ -186,9 +186,8 @@ void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, 
 }
 
 void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell, Context& context) {
-  const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
   const interpreter::Keywords& given = call.factor("ETAT_INIT");
-  const bool by_strains = law.relation == solver::Relation::hyperelastic;
+  const bool by_strains = !problem.behaviours || (*problem.behaviours)[static_cast<std::size_t>(cell)].relation == solver::Relation::hyperelastic;
   context.diagnostics.alarm("unused-stresses",
                             fmt::format("{}: the stresses that ETAT_INIT/SIGM gives cell {} are not those of its {}, which its law takes: SIGM has no effect there", call.command,
                                         problem.model->mesh->cell_name(cell), by_strains ? "displacements (DEPL)" : "internal variables (VARI)"),

@@ -56,7 +56,7 @@ struct CondensedProblem {
   std::vector<CondensedSpring> springs;
   Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
   Eigen::VectorXd held;         ///< forces on the rows
-  Eigen::VectorXd begin;        ///< jumps near those of the solution, where the free ones lead far away: a body that contact alone holds hardly resists; empty: the free ones are near
+  Eigen::VectorXd begin;        ///< jumps that Newton's method begins with, near those of the solution: the free ones may be far away, since a body that contact alone holds hardly resists; empty: the free ones
   double displacement = 0.0;    ///< the largest (a length): what its rounding makes of jumps is nothing
   double farthest = std::numeric_limits<double>::infinity();  ///< jumps beyond are those of bodies that nothing holds (a length)
   int node_count = 0;
