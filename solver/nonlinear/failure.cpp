@@ -45,6 +45,17 @@ bool is_rounding(std::span<const IterationReport> history) {
 constexpr std::string_view hold_it =
     "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point, and whether friction can bear them";
 
+/// The same residuals come again and again: more iterations bring no others.
+bool goes_to_and_fro(std::span<const IterationReport> history) {
+  constexpr std::size_t enough = 6;
+  constexpr double same = 1e-3;
+  if (history.size() < enough) return false;
+  const auto last = history.last(enough);
+  for (std::size_t k = 2; k < enough; ++k)
+    if (std::abs(last[k].absolute_residual - last[k - 2].absolute_residual) > same * last[k].absolute_residual) return false;
+  return true;
+}
+
 std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
@@ -53,6 +64,7 @@ std::string likely_cause(std::span<const IterationReport> history, bool is_linea
     return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
   if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
   if (is_rounding(history)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
+  if (goes_to_and_fro(history)) return "the iterations go to and fro between the same states";
   if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
     return "the residual grows: the step is too large for Newton's method";
@@ -67,6 +79,7 @@ std::string remedy(std::span<const IterationReport> history, bool is_linear, con
   if (is_unbalanced(history, is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
   if (is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (goes_to_and_fro(history)) return "take smaller steps, or search along the correction (RECH_LINEAIRE): more iterations do not help";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
 }
 

@@ -114,6 +114,14 @@ TEST_CASE("Newton's method: a limit below rounding is told from a slow residual"
   CHECK_THROWS_WITH(throw_no_convergence(1.0, iterations(0.7), {}, false), Catch::Contains("shrinks too slowly"));
 }
 
+TEST_CASE("Newton's method: iterations that go to and fro are told from slow ones") {
+  std::vector<IterationReport> history(10);
+  for (std::size_t k = 0; k < history.size(); ++k) history[k].relative_residual = history[k].absolute_residual = k % 2 == 0 ? 0.12 : 0.086;
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, history, {}, false), Catch::Contains("to and fro"));
+  for (std::size_t k = 0; k < history.size(); ++k) history[k].absolute_residual *= 1.0 - 0.01 * static_cast<double>(k);
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, history, {}, false), Catch::Contains("shrinks too slowly"));
+}
+
 TEST_CASE("Mixed contact stays open over a gap that the load does not close") {
   Stack stack(3, 4, 0.1);
   stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
