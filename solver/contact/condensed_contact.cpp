@@ -54,11 +54,10 @@ class CondensedSearch {
     otherwise([&] { return raise_penalties(); });
     otherwise([&] { return raise_friction(); });
     const bool returns = !solved && return_far();
-    conclude(solved);
-    if (!returns) return counted_changes();
-    solution_.is_far = true;
-    solution_.verdict = CondensedVerdict::solved;
-    return counted_changes();
+    conclude(solved || returns);
+    solution_.is_far = returns;
+    for (std::size_t p = 0; p < given_.size(); ++p) solution_.changes += given_[p] != state_.statuses[p];
+    return solution_;
   }
 
   /// By Newton's method alone, from a state near the solution and the jumps that go with it.
@@ -107,11 +106,6 @@ class CondensedSearch {
     newton_.go_to(start_);
   }
 
-  CondensedSolution counted_changes() {
-    for (std::size_t p = 0; p < given_.size(); ++p) solution_.changes += given_[p] != state_.statuses[p];
-    return solution_;
-  }
-
   /// Jumps are those that go with the forces of these multipliers.
   bool start_as_expected() {
     if (problem_.components == 1 || problem_.expected.size() != state_.multipliers.size()) return false;
@@ -122,7 +116,7 @@ class CondensedSearch {
 
   void conclude(bool solved) {
     solution_.is_far = solved && !newton_.stays_near();
-    solution_.verdict = solved && newton_.stays_near() ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
+    solution_.verdict = solved ? CondensedVerdict::solved : CondensedVerdict::too_many_iterations;
     solution_.forces = newton_.forces();
   }
 

@@ -15,7 +15,7 @@ struct CondensedSolution {
   Eigen::VectorXd forces;  ///< on the rows
   int iterations = 0;
   int changes = 0;         ///< of status, beside the start
-  bool is_far = false;      ///< solved further away than bodies go (CondensedProblem::farthest), and nowhere nearer: it says what nothing holds
+  bool is_far = false;      ///< solved, and further away than bodies go (CondensedProblem::farthest): of solve_condensed, where there is nothing nearer; it says what nothing holds
   bool by_shears = false;  ///< points have a share_augmentation, and no solution by shares was found: it is one by shears
 };
 
