@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "commands/commands.hpp"
@@ -279,10 +280,10 @@ void add_extremes(Table& table, const Call& call, const Keywords& occurrence, co
 
 // MINMAX reads results of its own.
 void warn_of_idle_steps(const Call& call, interpreter::Diagnostics& diagnostics) {
-  const auto& occurrences = call.factors("MINMAX");
-  const auto reads_all = [](const Keywords& occurrence) { return occurrence.has("RESULTAT") && !occurrence.has("INST") && !occurrence.has("NUME_ORDRE") && !occurrence.has("LIST_INST") && !occurrence.has("LIST_ORDRE"); };
-  if (std::ranges::none_of(occurrences, reads_all)) return;
-  for (const char* keyword : {"INST", "NUME_ORDRE", "LIST_INST", "LIST_ORDRE"})
+  static constexpr std::array steps = {"INST", "NUME_ORDRE", "LIST_INST", "LIST_ORDRE"};
+  const auto reads_all = [](const Keywords& occurrence) { return occurrence.has("RESULTAT") && std::ranges::none_of(steps, [&](const char* keyword) { return occurrence.has(keyword); }); };
+  if (std::ranges::none_of(call.factors("MINMAX"), reads_all)) return;
+  for (const char* keyword : steps)
     if (call.given(keyword))
       diagnostics.alarm("idle-keyword", fmt::format("POST_ELEM/{} does not count for MINMAX, which takes all steps of its own RESULTAT", keyword), call.at(keyword).name_span, fmt::format("write {} inside MINMAX=_F(...)", keyword));
 }

@@ -404,10 +404,9 @@ class LevelCheck {
     const auto guess = guesses_.find(pending.name);
     const std::string near = guess == guesses_.end() ? nearest(pending.name, known) : guess->second;
     std::string hint = hint_on_former_keyword(label_, pending.name);
-    if (!hint.empty()) return context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span, hint);
-    if (!home.empty())
+    if (hint.empty() && !home.empty())
       hint = fmt::format("it belongs inside {}=_F(...)", home);
-    else if (!near.empty())
+    else if (hint.empty() && !near.empty())
       hint = fmt::format("did you mean {}?", near);
     context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span,
                                hint);

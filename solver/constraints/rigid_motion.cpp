@@ -133,10 +133,6 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
                      fmt::join(part.motions, ", "));
 }
 
-}  // namespace
-
-namespace {
-
 /// The stiffness (its lower triangle) with one as large as its largest against each of the rows, as far as these move the unknowns: what else they move stays where it is.
 SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness) {
   std::vector<char> moves(static_cast<std::size_t>(stiffness.rows()), 0);

@@ -11,9 +11,6 @@
 namespace comma::solver {
 namespace {
 
-/// Places are exact to this share of a facet's size.
-constexpr double rounding_of_place = 1e-10;
-
 /// How far outside a slave face, in its reference coordinates, a master node still faces it.
 constexpr double border = 1e-6;
 

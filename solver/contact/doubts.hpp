@@ -59,6 +59,8 @@ class ContactDoubts {
   std::string loose_;
 };
 
+/// Places are exact to this share of a facet's size.
+inline constexpr double rounding_of_place = 1e-10;
 /// Contact forces are short by about the share that points sink in: below this it passes for what a penalty is expected to leave.
 inline constexpr double doubtful_share = 1e-2;
 /// A depth beyond this share of the size of the slave side is no more a contact.

@@ -1,6 +1,7 @@
 #include "solver/contact/watched_zones.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,31 +22,35 @@ std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contac
 
 namespace {
 
-/// Bodies that touch lie in each other by the rounding of their places: this share of a facet's size.
-constexpr double rounding_of_place = 1e-10;
+struct Overlap {
+  ContactPair pair;
+  double depth = 0.0;
+};
 
-bool is_too_deep(const ContactPair& pair, double depth, const ContactDefinition& contact, const Mesh& mesh) {
-  return depth > contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance && depth > rounding_of_place * extent(mesh, pair.facet);
+/// Deeper than the zone allows, and than rounding.
+std::vector<Overlap> overlaps(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
+  std::vector<Overlap> found;
+  for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
+    const double depth = -gap_at(pair, mesh, now);
+    if (depth > contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance && depth > rounding_of_place * extent(mesh, pair.facet)) found.push_back({pair, depth});
+  }
+  return found;
 }
 
 }  // namespace
 
 void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant, ContactDoubts& doubts) {
-  for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
-    const double depth = -gap_at(pair, mesh, now);
-    if (is_too_deep(pair, depth, contact, mesh)) doubts.note({.kind = DoubtKind::watched_overlap, .zone = pair.zone, .length = depth, .node = pair.slave});
-  }
+  for (const auto& [pair, depth] : overlaps(contact, mesh, now, instant)) doubts.note({.kind = DoubtKind::watched_overlap, .zone = pair.zone, .length = depth, .node = pair.slave});
 }
 
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
-  for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
-    const double depth = -gap_at(pair, mesh, now);
-    if (!is_too_deep(pair, depth, contact, mesh)) continue;
-    throw Error("contact-interpenetration",
-                fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
-                            mesh.cell_name(pair.facet), pair.zone + 1),
-                "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)");
-  }
+  const std::vector<Overlap> found = overlaps(contact, mesh, now, instant);
+  if (found.empty()) return;
+  const auto& [pair, depth] = found.front();
+  throw Error("contact-interpenetration",
+              fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
+                          mesh.cell_name(pair.facet), pair.zone + 1),
+              "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)");
 }
 
 }  // namespace comma::solver
