@@ -145,6 +145,19 @@ void warn_of_mixed_faces(const Call& call, const solver::ContactDefinition& defi
   }
 }
 
+// What belongs to projected gradients, or to zones that are watched alone, where there are none.
+void warn_of_idle_options(const Call& call, interpreter::Diagnostics& diagnostics) {
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  const auto any_has = [&](const char* keyword, const char* word) { return std::ranges::any_of(zones, [&](const Keywords& zone) { return zone.has(keyword) && zone.text(keyword) == word; }); };
+  const auto warn = [&](const char* keyword, const char* lacking) {
+    if (call.given(keyword))
+      diagnostics.alarm("idle-coefficient", fmt::format("DEFI_CONTACT: {} is given and nothing takes it: no zone has {}", keyword, lacking), call.span_of(keyword), fmt::format("give a zone {}, or leave {} out", lacking, keyword));
+  };
+  if (!any_has("ALGO_CONT", "GCP"))
+    for (const char* keyword : {"RESI_ABSO", "ITER_GCP_MAXI", "PRE_COND"}) warn(keyword, "ALGO_CONT='GCP'");
+  if (call.has("STOP_INTERP") && call.text("STOP_INTERP") == "OUI" && !any_has("RESOLUTION", "NON")) warn("STOP_INTERP", "RESOLUTION='NON'");
+}
+
 // Coefficients of a weak formulation that the zone does not take are in no equation.
 void warn_of_idle_coefficients(const Call& call, const solver::ContactDefinition& definition, interpreter::Diagnostics& diagnostics) {
   if (definition.formulation != solver::ContactFormulation::mixed) return;
@@ -177,6 +190,7 @@ void warn_of_contact(const Call& call, const solver::ContactDefinition& definiti
   warn_of_shared_nodes(call, definition, mesh, diagnostics);
   warn_of_idle_exclusions(call, definition, mesh, diagnostics);
   warn_of_idle_coefficients(call, definition, diagnostics);
+  warn_of_idle_options(call, diagnostics);
   warn_of_inward_directions(call, definition, mesh, diagnostics);
   warn_of_inward_normals(call, definition, mesh, diagnostics);
 }

@@ -54,13 +54,18 @@ void impose_components(const Keywords& keywords, const std::vector<int>& nodes, 
   for (const NamedComponent& named : mixed_keywords) impose_component(keywords, named, nodes, target, origin, load, alarms);
 }
 
-void hold(const std::vector<int>& nodes, std::span<const Component> components, const LoadedModel& target, const solver::Origin& origin,
+// Returns whether any of the nodes has one of the components.
+bool hold(const std::vector<int>& nodes, std::span<const Component> components, const LoadedModel& target, const solver::Origin& origin,
           solver::Load& load) {
+  bool any = false;
   for (const int node : nodes) {
     for (const Component component : components) {
-      if (target.dofs.dof(node, component) >= 0) impose(node, component, {}, origin, load);
+      if (target.dofs.dof(node, component) < 0) continue;
+      impose(node, component, {}, origin, load);
+      any = true;
     }
   }
+  return any;
 }
 
 // BLOCAGE holds what a node has of a kind of motion; LIAISON="ENCASTRE" all of it.
@@ -68,8 +73,12 @@ void impose_holds(const Keywords& keywords, const std::vector<int>& nodes, const
                   solver::Load& load) {
   const auto blocked = keywords.given("BLOCAGE") ? keywords.texts("BLOCAGE") : std::vector<std::string>{};
   const auto holds = [&](const char* word) { return keywords.given("LIAISON") || std::ranges::find(blocked, word) != blocked.end(); };
-  if (holds("DEPLACEMENT")) hold(nodes, translations, target, origin, load);
-  if (holds("ROTATION")) hold(nodes, rotations, target, origin, load);
+  bool any = false;
+  if (holds("DEPLACEMENT")) any |= hold(nodes, translations, target, origin, load);
+  if (holds("ROTATION")) any |= hold(nodes, rotations, target, origin, load);
+  if (any || nodes.empty() || blocked.empty()) return;
+  throw DiagnosticError("unknown-component", fmt::format("BLOCAGE: none of these nodes has what '{}' holds", fmt::join(blocked, "', '")), keywords.at("BLOCAGE").name_span,
+                        "the elements of the model around them have no such components");
 }
 
 // Imposes the motion that `keyword` names along a direction of each node. Nodes of no element are passed over, unless they all are.

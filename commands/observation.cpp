@@ -146,6 +146,8 @@ void Observer::observe(int number, Table& table) {
 void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const {
   for (const Observation& observation : observations_) {
     const Keywords& keywords = observation.keywords;
+    constexpr std::array idle = {"POINT", "SOUS_POINT", "EVAL_ELGA"};
+    if (observation.at_nodes) warn_of_idle_places("OBSERVATION", keywords, std::span(idle).first(keywords.text("EVAL_ELGA") == "VALE" ? 2 : 3), diagnostics);
     if (const auto missed = missed_instants(observation.tolerance, observation.instants, computed); !missed.empty())
       diagnostics.alarm("unknown-step", fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")), keywords.span,
                         "name instants of INCREMENT/LIST_INST");
@@ -179,6 +181,7 @@ void Observer::observe(Observation& observation, const solver::ResultStep& step,
   const bool by_formula = keywords.text("EVAL_CMP") == "FORMULE";
   for (const int component : by_formula ? std::vector<int>{0} : chosen_components(keywords, components)) {
     const auto* nodal = std::get_if<solver::NodalField>(&field);
+    observation.at_nodes = nodal != nullptr;
     std::vector<Sample> samples = nodal != nullptr
                                       ? samples_of(*nodal, component, mesh_, observation.nodes)
                                       : samples_of(std::get<solver::ElementField>(field), component, mesh_, observation.cells, keywords);

@@ -35,7 +35,7 @@ class Observer {
     std::vector<int> nodes, cells;
     std::vector<double> instants;  ///< empty: every step
     InstantTolerance tolerance;    ///< of these
-    bool was_due = false;
+    bool was_due = false, at_nodes = false;  ///< whether the field has its values there
     std::size_t rows = 0;
   };
 

@@ -113,9 +113,21 @@ void read_between_steps(const Call& call, const solver::Result& result, solver::
   for (const double instant : function.x) function.y.push_back(polyline(instant));
 }
 
+// Of what says where a value is, that which a field at nodes has no use for.
+void warn_of_idle_places_of(const Call& call, interpreter::Diagnostics& diagnostics) {
+  if (!call.given("NOM_CHAM")) return;
+  const std::vector<solver::ResultStep>& steps = call.data<ResultConcept>("RESULTAT").result.steps;
+  const std::string& name = call.text("NOM_CHAM");
+  const auto holds_it = [&](const solver::ResultStep& step) { return step.fields.contains(name) && std::holds_alternative<solver::NodalField>(step.fields.at(name)); };
+  if (std::ranges::none_of(steps, holds_it)) return;
+  constexpr std::array idle = {"GROUP_MA", "MAILLE", "POINT", "SOUS_POINT"};
+  commands::warn_of_idle_places("RECU_FONCTION", call, idle, diagnostics);
+}
+
 void read_result(const Call& call, solver::TabulatedFunction& function, interpreter::Diagnostics& diagnostics) {
   const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
   function.parameter = "INST";
+  warn_of_idle_places_of(call, diagnostics);
   const bool between = call.text("INTERP_NUME") == "OUI" && (call.given("LIST_INST") || call.given("INST"));
   if (between) {
     read_between_steps(call, result, function);

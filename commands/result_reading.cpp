@@ -87,6 +87,12 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
   return steps;
 }
 
+void warn_of_idle_places(const char* command, const Keywords& keywords, std::span<const char* const> idle, interpreter::Diagnostics& diagnostics) {
+  for (const char* keyword : idle)
+    if (keywords.given(keyword))
+      diagnostics.alarm("idle-keyword", fmt::format("{}: {} has no effect here: the field has its values at nodes", command, keyword), keywords.span_of(keyword), "leave it out, or name a field on cells");
+}
+
 void warn_of_missing_instants(const char* command, const Keywords& keywords, interpreter::Diagnostics& diagnostics) {
   if (!keywords.has("RESULTAT") || !keywords.given("LIST_INST")) return;
   const solver::Result& result = keywords.data<ResultConcept>("RESULTAT").result;

@@ -19,6 +19,9 @@ std::vector<const solver::ResultStep*> selected_steps(const interpreter::Keyword
 /// A list of instants is one of computations as a rule: alarm `unknown-step` where RESULTAT, if that is given, has no step at some of LIST_INST.
 void warn_of_missing_instants(const char* command, const interpreter::Keywords& keywords, interpreter::Diagnostics& diagnostics);
 
+/// What `keywords` say of a value's place within a cell counts for nothing where the field is one at nodes: alarm `idle-keyword` for each of `idle` that is given.
+void warn_of_idle_places(const char* command, const interpreter::Keywords& keywords, std::span<const char* const> idle, interpreter::Diagnostics& diagnostics);
+
 /// How near a stored instant must lie to the one asked for.
 struct InstantTolerance {
   double precision = 1e-6;

@@ -217,10 +217,18 @@ TestedValue result_value(const Keywords& test, const ResultConcept& data, const 
   return as_reference(test, field_value(test, held, mesh, all ? multipliers_of(data, step) : Values()));
 }
 
+// Cells count beside nodes where values are reduced (TYPE_TEST), and a field at nodes has no points.
+void warn_of_idle_places_of(const Keywords& test, const solver::Field& field, Context& context) {
+  if (!std::holds_alternative<NodalField>(field)) return;
+  constexpr std::array idle = {"POINT", "SOUS_POINT", "GROUP_MA", "MAILLE"};
+  commands::warn_of_idle_places("TEST_RESU", test, std::span(idle).first(test.given("TYPE_TEST") ? 2 : 4), context.diagnostics);
+}
+
 void test_result(const Keywords& test, Context& context) {
   const auto& data = interpreter::data_of<ResultConcept>(test.concept_of("RESULTAT"), "RESULTAT");
   const solver::ResultStep& step = only_step(test, data.result, "a value is tested at one");
   const TestedValue value = result_value(test, data, step);
+  if (!test.given("PARA")) warn_of_idle_places_of(test, layered_field_of(test, step, test.text("NOM_CHAM")), context);
   const std::string& what = test.given("PARA") ? test.text("PARA") : test.text("NOM_CHAM");
   report(test, label_of(test, what) + fmt::format(", INST={:g}", step.instant), value, context);
 }
@@ -228,6 +236,7 @@ void test_result(const Keywords& test, Context& context) {
 void test_field(const Keywords& test, Context& context) {
   const FieldConcept& data = number_field(test.concept_of("CHAM_GD"), test, "CHAM_GD");
   const std::string label = label_of(test, test.concept_of("CHAM_GD")->name);
+  warn_of_idle_places_of(test, data.field, context);
   if (test.given("NOM_VARI")) {
     report(test, label, as_reference(test, field_value(test, by_variable_names(test, data.field, data.behaviours.get()), *data.mesh)), context);
     return;
