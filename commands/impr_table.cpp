@@ -61,6 +61,9 @@ TableLayout layout_of(const Call& call) {
   return layout;
 }
 
+// Scripts that read Code_Aster's tables look for the last line of the title that a table has by itself: the names of the columns follow.
+std::string own_title(const Call& call, const TableLayout& layout) { return fmt::format("{} (comma)\n{}TABLE_SDASTER", call.concept_of("TABLE")->name, layout.comment); }
+
 std::string page_text(const Table& page, const Call& call, const TableLayout& layout) {
   const std::string& format = call.text("FORMAT");
   if (format == "XMGRACE") return as_curve(page, call);
@@ -80,6 +83,7 @@ Product impr_table(const Call& call, Context& context) {
   if (call.has("TRI")) sort_rows(table, call.factor("TRI"));
   const TableLayout layout = layout_of(call);
   if (call.has("TITRE")) table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n" + layout.comment + " "));
+  if (table.title.empty() && call.text("FORMAT") == "TABLEAU") table.title = own_title(call, layout);
   std::string text;
   for (Table& page : pages_of(table, call)) {
     if (call.has("NOM_PARA")) page = with_columns(page, columns_of(page, call));
