@@ -58,8 +58,8 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)"};
     case solver::DoubtKind::soft_bound:
       return {"soft-penalty",
-              fmt::format("with COEF_PENA = {:.3g} bounds are passed by {:.3g}, {:.0f} % of what they would be without them: forces come out too small by about that share",
-                          doubt.penalty, doubt.length, 100.0 * doubt.share),
+              fmt::format("with COEF_PENA = {:.3g} bounds of zone {} are passed by {:.3g}, {:.0f} % of what they would be without them: forces come out too small by about that share",
+                          doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
               fmt::format("take COEF_PENA = {:.0e}, or ALGO_CONT='CONTRAINTE'", doubt.wanted)};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",

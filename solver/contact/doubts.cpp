@@ -80,12 +80,13 @@ PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions pos
   return result;
 }
 
-void PassedMaster::look(Positions positions, double pushed_back, double time) {
-  pushed_back_ = std::max(pushed_back_, pushed_back);
+void PassedMaster::look(Positions positions, std::span<const double> pushed_back, double time) {
   for (int index = 0; index < static_cast<int>(definition_.zones.size()); ++index) {
     const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
     // Averages let master nodes a little way in; what lies beyond a pairing distance is let in altogether.
     if (!zone.resolved || (zone.mixed.local_average && zone.pairing_distance < 0.0)) continue;
+    const double pushed = pushed_back[static_cast<std::size_t>(index)];
+    pushed_back_[index] = std::max(pushed_back_[index], pushed);
     if (!initial_.contains(index)) {
       std::vector<Eigen::Vector3d> places;
       for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);
@@ -96,10 +97,10 @@ void PassedMaster::look(Positions positions, double pushed_back, double time) {
     double sum = 0.0;
     int touching = 0;
     for (const auto& [node, depth] : now.depth) {
-      if (depth < -doubtful_share * pushed_back) continue;
+      if (depth < -doubtful_share * pushed) continue;
       const auto known = before.depth.find(node);
       // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay in front does.
-      if (!(pushed_back > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
+      if (!(pushed > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
       sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
       ++touching;
     }
@@ -113,8 +114,9 @@ void PassedMaster::conclude(ContactDoubts& doubts) const {
     const bool is_soft = std::ranges::any_of(doubts.all(), [zone = zone](const ContactDoubt& each) {
       return each.zone == zone && (each.kind == DoubtKind::soft_penalty || each.kind == DoubtKind::deep_penalty);
     });
-    if (is_soft || depth <= doubtful_passage * pushed_back_) continue;
-    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = pushed_back_ > 0.0 ? depth / pushed_back_ : std::numeric_limits<double>::infinity(), .length = depth});
+    const double pushed = pushed_back_.at(zone);
+    if (is_soft || depth <= doubtful_passage * pushed) continue;
+    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = pushed > 0.0 ? depth / pushed : std::numeric_limits<double>::infinity(), .length = depth});
   }
 }
 
@@ -133,18 +135,18 @@ void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, 
     if (now.status != PairingStatus::paired || !zone.resolved || zone.mixed.local_average) continue;
     StaleGap gap{.zone = now.zone, .node = now.slave, .is = gap_at(now, mesh, positions), .size = extent(mesh, now.facet)};
     if (before.status == PairingStatus::paired) gap.solved = gap_at(before, mesh, positions);
-    note_stale_gap(gap, gaps.pushed_back, doubts);
+    note_stale_gap(gap, gaps.pushed_back[static_cast<std::size_t>(now.zone)], doubts);
   }
 }
 
 void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions, std::span<const ContactPoint> before, std::span<const ContactPoint> now,
-                         double pushed_back, ContactDoubts& doubts) {
+                         std::span<const double> pushed_back, ContactDoubts& doubts) {
   for (std::size_t p = 0; p < before.size() && p < now.size(); ++p) {
     const ContactZone& zone = definition.zones[static_cast<std::size_t>(now[p].zone)];
     if (now[p].status != PairingStatus::paired || !zone.resolved || !zone.mixed.local_average) continue;
     StaleGap gap{.zone = now[p].zone, .node = now[p].node, .is = mean_gap(now[p], positions), .size = extent(mesh, now[p].facet)};
     if (before[p].status == PairingStatus::paired) gap.solved = mean_gap(before[p], positions);
-    note_stale_gap(gap, pushed_back, doubts);
+    note_stale_gap(gap, pushed_back[static_cast<std::size_t>(now[p].zone)], doubts);
   }
 }
 

@@ -88,9 +88,9 @@ class PassedMaster {
  public:
   PassedMaster(const ContactDefinition& definition, const Mesh& mesh) : definition_(definition), mesh_(mesh) {}
 
-  /// After each step. `pushed_back`: how far contact forces move the surfaces apart; `time`: at which thicknesses are read. Throws what
+  /// After each step. `pushed_back`: how far contact forces move the surfaces of each zone apart; `time`: at which thicknesses are read. Throws what
   /// pair_surfaces throws.
-  void look(Positions positions, double pushed_back, double time);
+  void look(Positions positions, std::span<const double> pushed_back, double time);
   /// After the last one; after other doubts.
   void conclude(ContactDoubts& doubts) const;
 
@@ -103,7 +103,7 @@ class PassedMaster {
 
   const ContactDefinition& definition_;
   const Mesh& mesh_;
-  double pushed_back_ = 0.0;
+  std::map<int, double> pushed_back_;  ///< by zone, the most
   std::unordered_map<int, Depths> initial_;  ///< by zone
   std::map<int, double> deepest_;              ///< by zone, on the mean
 };
@@ -112,17 +112,17 @@ class PassedMaster {
 double gap_at(const ContactPair& pair, const Mesh& mesh, Positions positions);
 
 /// Slave nodes whose gap, as pairs `before` have it, is not that of pairs `now`, of the surfaces as they are. `pushed_back`: how far contact
-/// forces move the slave side, the measure of what counts.
+/// forces move the slave side of each zone, the measure of what counts.
 struct StaleGaps {
   const std::vector<ContactPair>& before;
   const std::vector<ContactPair>& now;
-  double pushed_back = 0.0;
+  std::span<const double> pushed_back;
 };
 
 /// Doubts of kind `stale_geometry`, of errors beyond `doubtful_share` of what contact pushes back. Zones of local averages have other gaps:
 void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions, const StaleGaps& gaps, ContactDoubts& doubts);
 /// The same of their mean gaps, as the points `before` have them and as the points `now` of the same patches have them.
 void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions, std::span<const ContactPoint> before, std::span<const ContactPoint> now,
-                         double pushed_back, ContactDoubts& doubts);
+                         std::span<const double> pushed_back, ContactDoubts& doubts);
 
 }  // namespace comma::solver

@@ -45,7 +45,9 @@ ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const Uni
     throw Error("not-finite", fmt::format("a bound of a unilateral condition is infinite or not a number at t = {:.6g}", time), "look at the function of COEF_IMPO");
   set.full = stacked(gaps, bounds);
   const int pair_count = static_cast<int>(set.pairs.size());
+  for (const int slot : set.row_slots) set.row_zones.push_back(set.pairs[static_cast<std::size_t>(slot)].zone);
   for (int row = 0; row < static_cast<int>(bounds.bounds.size()); ++row) set.row_slots.push_back(pair_count + row);
+  for (std::size_t k = 0; k < unilateral.size(); ++k) set.row_zones.insert(set.row_zones.end(), unilateral[k].nodes.size(), static_cast<int>(k));
   set.slot_count = pair_count + static_cast<int>(bounds.bounds.size());
   return set;
 }

@@ -21,6 +21,7 @@ struct ConditionSet {
   std::vector<ContactPair> pairs;
   Inequalities full;              ///< over all degrees of freedom
   std::vector<int> row_slots;     ///< slot behind each full row
+  std::vector<int> row_zones;     ///< its zone of contact, or its unilateral condition
   int slot_count = 0;
 
   bool empty() const { return full.bounds.size() == 0; }

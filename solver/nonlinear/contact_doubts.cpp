@@ -77,11 +77,37 @@ Eigen::VectorXd MixedContact::jumps_without(const Eigen::VectorXd& contact_force
   return jumps(u) - reduced_rows_ * push;
 }
 
-double MixedContact::pushed_back() {
-  if (!schur_ || forces_.size() == 0) return 0.0;
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
-  forces.head(forces_.size()) = forces_;
-  return schur_->times(forces).head(forces_.size()).cwiseAbs().maxCoeff();
+/// Zone by zone, by all forces or by its own alone: those of another zone may push the other way, and where a zone has none they are no measure of it.
+std::vector<double> MixedContact::pushed_back() {
+  std::vector<double> result(definition_.zones.size(), 0.0);
+  if (!schur_ || forces_.size() == 0) return result;
+  std::vector<std::vector<std::size_t>> points_of(result.size());
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (problem_.points[p].rows > 0) points_of[static_cast<std::size_t>(points_[p].zone)].push_back(p);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(schur_->size());
+  all.head(forces_.size()) = forces_;
+  const Eigen::VectorXd pushed_by_all = schur_->times(all);
+  for (std::size_t zone = 0; zone < result.size(); ++zone) {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
+    const auto rows_of = [&](std::size_t p) { return Eigen::seqN(problem_.points[p].first_row, problem_.points[p].rows); };
+    for (const std::size_t p : points_of[zone]) forces(rows_of(p)) = forces_(rows_of(p));
+    if (forces.isZero(0.0)) continue;
+    const Eigen::VectorXd pushed = result.size() > 1 ? schur_->times(forces) : pushed_by_all;
+    for (const std::size_t p : points_of[zone]) result[zone] = std::max({result[zone], largest_component(pushed(rows_of(p))), largest_component(pushed_by_all(rows_of(p)))});
+  }
+  return result;
+}
+
+/// How far the surfaces of a zone have moved, at most.
+double MixedContact::motion_of(int zone, const Eigen::VectorXd& u) const {
+  const ContactZone& definition = definition_.zones[static_cast<std::size_t>(zone)];
+  double most = 0.0;
+  for (const std::vector<int>* cells : {&definition.slave_cells, &definition.master_cells})
+    for (const int cell : *cells)
+      for (const int node : mesh_.cell(cell))
+        for (const Component component : {Component::dx, Component::dy, Component::dz})
+          if (const int dof = dofs_.dof(node, component); dof >= 0) most = std::max(most, std::abs(u[dof]));
+  return most;
 }
 
 /// Between nodes the law holds in the mean over the points of a face: one that is pressed at few of its points cannot press there alone, and lets the master in.
@@ -99,9 +125,10 @@ void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& do
     area[zone] += points_[p].weight;
   }
   if (std::ranges::all_of(area, [](double each) { return each == 0.0; })) return;
-  const double reach = std::max(pushed_back(), doubtful_share * largest_component(u));
+  const std::vector<double> pushed = pushed_back();
   for (std::size_t zone = 0; zone < area.size(); ++zone) {
-    const double mean = area[zone] > 0.0 ? overlap[zone] / area[zone] : 0.0;
+    if (!(area[zone] > 0.0)) continue;
+    const double mean = overlap[zone] / area[zone], reach = std::max(pushed[zone], doubtful_share * motion_of(static_cast<int>(zone), u));
     if (mean > doubtful_passage * reach) doubts.note({.kind = DoubtKind::coarse_face, .zone = static_cast<int>(zone), .share = mean / reach, .length = mean});
   }
 }
@@ -157,7 +184,7 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
 
 void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
                               ContactDoubts& doubts) const {
-  const double least = negligible_slip * largest_component(u);
+  const double least = negligible_slip * motion_of(zone, u);
   double creep = 0.0;
   double reach = 0.0;
   double limit = 0.0;

@@ -93,7 +93,7 @@ class MixedContact {
   /// Of the last step: motions of bodies that nothing holds, not even the points that are closed.
   void note_loose_bodies(ContactDoubts& doubts) const;
   /// How far contact forces move the points, at most (a length).
-  double pushed_back();
+  std::vector<double> pushed_back();
 
   /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
   std::optional<ElementField> patch_state(const Eigen::VectorXd& u) const;
@@ -141,6 +141,7 @@ class MixedContact {
   Eigen::VectorXd shears() const;
   Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
   /// The forces without those of other zones.
+  double motion_of(int zone, const Eigen::VectorXd& u) const;
   Eigen::VectorXd forces_of(int zone, Eigen::VectorXd forces) const;
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;

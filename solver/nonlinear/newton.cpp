@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -322,24 +323,44 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
   return compliance_times(row_multipliers_) - reduced_.inequalities.softness.cwiseProduct(row_multipliers_);
 }
 
-double NewtonSolver::pushed_back() {
-  return largest_component(push_of_active());
+int NewtonSolver::zone_of(int row) const { return conditions_->row_zones[static_cast<std::size_t>(reduced_.origin[static_cast<std::size_t>(row)])]; }
+
+std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
+  std::vector<double> result(zones, 0.0);
+  std::map<int, std::vector<int>> rows_of;
+  for (const int row : active_) rows_of[zone_of(row)].push_back(row);
+  const Eigen::VectorXd pushed_by_all = push_of_active();
+  for (const auto& [zone, rows] : rows_of) {
+    double& most = result[static_cast<std::size_t>(zone)];
+    most = largest_component(pushed_by_all(rows));
+    if (rows_of.size() == 1) continue;
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(row_multipliers_.size());
+    own(rows) = row_multipliers_(rows);
+    const Eigen::VectorXd pushed = compliance_times(own) - reduced_.inequalities.softness.cwiseProduct(own);
+    most = std::max(most, largest_component(pushed(rows)));
+  }
+  return result;
 }
 
 void NewtonSolver::note_doubts(ContactDoubts& doubts) {
   const Eigen::VectorXd& softness = reduced_.inequalities.softness;
   if (active_.empty() || softness.isZero(0.0)) return;
   const Eigen::VectorXd pushed = push_of_active();
-  double passed = 0.0, reach = 0.0, softest = 0.0;
+  struct Passed {
+    double most = 0.0, reach = 0.0, softest = 0.0;
+  };
+  std::map<int, Passed> conditions;
   for (const int row : active_) {
     if (!(softness[row] > 0.0)) continue;
+    Passed& passed = conditions[zone_of(row)];
     const double here = softness[row] * row_multipliers_[row];
-    reach = std::max(reach, here + pushed[row]);
-    if (here <= passed) continue;
-    passed = here;
-    softest = softness[row];
+    passed.reach = std::max(passed.reach, here + pushed[row]);
+    if (here <= passed.most) continue;
+    passed.most = here;
+    passed.softest = softness[row];
   }
-  note_soft_penalty({.kind = DoubtKind::soft_bound, .length = passed, .penalty = 1.0 / softest}, reach, doubts);
+  for (const auto& [condition, passed] : conditions)
+    if (passed.most > 0.0) note_soft_penalty({.kind = DoubtKind::soft_bound, .zone = condition, .length = passed.most, .penalty = 1.0 / passed.softest}, passed.reach, doubts);
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {

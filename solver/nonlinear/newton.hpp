@@ -63,8 +63,8 @@ class NewtonSolver {
   /// What residuals may do from now on.
   void watch(const ResidualWatch& residuals) { watch_ = residuals; }
 
-  /// How far contact forces move the conditions' nodes, at most (a length).
-  double pushed_back();
+  /// How far contact forces, all or those of the zone alone, move the nodes of its conditions that are closed, at most, zone by zone (lengths).
+  std::vector<double> pushed_back(std::size_t zones);
   /// Of a step that has converged: how far bounds that give way are passed.
   void note_doubts(ContactDoubts& doubts);
 
@@ -114,6 +114,7 @@ class NewtonSolver {
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
   bool by_compliance() const;
   Eigen::VectorXd push_of_active();
+  int zone_of(int row) const;
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
   ActiveSetSolution solve_conditions(const ActiveSetProblem& problem);
   ActiveSetSolution solve_by_gradients(const ActiveSetProblem& problem);

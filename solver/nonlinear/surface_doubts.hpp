@@ -13,7 +13,7 @@ namespace comma::solver {
 struct SurfaceState {
   double instant = 0.0;
   Positions now;
-  double pushed_back = 0.0;  ///< how far contact forces move the surfaces apart (a length)
+  std::vector<double> pushed_back;  ///< how far contact forces move the surfaces of each zone apart (lengths)
   /// The pairs that were solved with, where the geometry may have moved on since; empty: it has not.
   std::function<std::vector<ContactPair>()> pairs;
   std::span<const ContactPoint> averages;                     ///< the points that were solved with, where there are patches of averages

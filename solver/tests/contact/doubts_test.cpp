@@ -54,7 +54,7 @@ TEST_CASE("Surfaces that have moved on since they were paired are told of by wha
   const auto told = [&](double slide, double pushed_back) {
     const auto before = pair_surfaces(definition, mesh, places(0.0)), now = pair_surfaces(definition, mesh, places(slide));
     ContactDoubts doubts;
-    note_stale_geometry(definition, mesh, places(slide), {before, now, pushed_back}, doubts);
+    note_stale_geometry(definition, mesh, places(slide), {before, now, std::span(&pushed_back, 1)}, doubts);
     return doubts.all();
   };
   CHECK(told(0.0, 0.0).empty());
@@ -83,7 +83,7 @@ TEST_CASE("Mean gaps that are not those which were solved for are told of") {
   now.offset = 1.03;
   const auto told = [&](double pushed_back) {
     ContactDoubts doubts;
-    note_stale_averages(sides.definition, sides.mesh, places, std::span(&solved, 1), std::span(&now, 1), pushed_back, doubts);
+    note_stale_averages(sides.definition, sides.mesh, places, std::span(&solved, 1), std::span(&now, 1), std::span(&pushed_back, 1), doubts);
     return doubts.all();
   };
   CHECK(told(1.0).empty());  // no average
@@ -127,7 +127,7 @@ TEST_CASE("Of the doubts about a zone the deepest stays, one of each kind") {
 
 TEST_CASE("Master nodes that have gone through the slave side are told of by their mean depth") {
   Sides sides(2, 16);
-  const auto told = [&](double deep, double pushed_back) {
+  const auto told = [&](double deep, double pushed_back, double other = 0.0) {
     std::vector<Eigen::Vector3d> places;
     for (const auto& node : sides.mesh.nodes) places.emplace_back(node[0], node[1], node[2]);
     // Every other master node, of the ones in front of the slave.
@@ -135,7 +135,9 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
       for (const int node : sides.mesh.cell(cell)) places[static_cast<std::size_t>(node)][1] = 1.0 + (node % 2 == 0 ? deep : 0.0);
     ContactDoubts found;
     PassedMaster passed(sides.definition, sides.mesh);
-    passed.look(places, pushed_back, 0.0);
+    std::vector<double> by_zone(sides.definition.zones.size(), other);
+    by_zone.front() = pushed_back;
+    passed.look(places, by_zone, 0.0);
     passed.conclude(found);
     return found.all();
   };
@@ -151,6 +153,12 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
   REQUIRE(told(0.2, 0.0).size() == 1);
   CHECK(std::isinf(told(0.2, 0.0).front().share));
   CHECK(told(-0.2, 0.0).empty());
+  // What another zone pushes back is no measure of this one.
+  sides.definition.zones.push_back(sides.definition.zones.front());
+  sides.definition.zones.back().resolved = false;
+  REQUIRE(told(0.2, 1.0, 100.0).size() == 1);
+  CHECK(told(0.2, 1.0, 100.0).front().share == exactly(half.front().share));
+  sides.definition.zones.pop_back();
   sides.definition.zones.front().mixed.local_average = true;
   CHECK(told(0.2, 1.0).empty());
   sides.definition.zones.front().pairing_distance = 0.1;
