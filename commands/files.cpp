@@ -28,6 +28,13 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::
   return found;
 }
 
+// A link leads out of the folder that a file of somebody else may use.
+void require_no_link(const fs::path& path, const interpreter::Span& where) {
+  std::error_code absent;
+  if (fs::is_symlink(path, absent))
+    throw interpreter::DiagnosticError("forbidden-file", fmt::format("{} is a link, which could lead out of the folder", path.filename().string()), where, "put the file itself there, or name it in an .export");
+}
+
 }  // namespace
 
 // The unit of "fort.20", under which a file of the .export or beside the command file stands anyway.
@@ -51,7 +58,10 @@ std::optional<fs::path> Files::named_input(int unit) const {
 }
 
 fs::path Files::input(int unit, const std::vector<std::string>& extensions) const {
-  if (auto named = named_input(unit)) return *named;
+  if (auto named = named_input(unit)) {
+    read_.push_back(*named);
+    return *named;
+  }
   if (const auto own = named_.find(unit); own != named_.end()) unit = unit_in(own->second.string()).value_or(unit);
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
@@ -91,7 +101,16 @@ fs::path Files::found(int unit, const std::vector<std::string>& extensions) cons
 }
 
 fs::path Files::included(int unit, const interpreter::Span& where) const {
-  if (auto named = named_input(unit)) return *named;
+  const fs::path file = included_by_unit(unit, where);
+  read_.push_back(file);
+  return file;
+}
+
+fs::path Files::included_by_unit(int unit, const interpreter::Span& where) const {
+  if (auto named = named_input(unit)) {
+    require_no_link(*named, where);
+    return *named;
+  }
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }
@@ -113,8 +132,11 @@ fs::path Files::included(const std::string& name, const interpreter::Span& where
     if (file.input && file.path.filename() == wanted) return file.path;
   }
   const fs::path candidate = command_file_.parent_path() / wanted;
-  // A link could lead out of the folder again.
-  if (fs::is_regular_file(fs::symlink_status(candidate))) return candidate;
+  if (fs::is_regular_file(candidate)) {
+    require_no_link(candidate, where);
+    read_.push_back(candidate);
+    return candidate;
+  }
   throw interpreter::DiagnosticError("missing-file", "there is no file " + name + " beside the command file", where);
 }
 
@@ -122,17 +144,25 @@ bool Files::is_read(const fs::path& path) const {
   std::error_code absent;
   const auto same = [&](const fs::path& other) { return fs::equivalent(path, other, absent); };
   return std::ranges::any_of(units_, [&](const auto& entry) { return same(entry.first); }) ||
-         std::ranges::any_of(exported_, [&](const ExportFile& file) { return file.input && same(file.path); });
+         std::ranges::any_of(exported_, [&](const ExportFile& file) { return file.input && same(file.path); }) || std::ranges::any_of(read_, same) || same(command_file_);
+}
+
+fs::path Files::safe_output(fs::path path) const {
+  require_no_link(path, {});
+  const bool is_own = std::ranges::any_of(written_, [&](const auto& entry) { return entry.second == path; });
+  if (is_own || !is_read(path)) return path;
+  throw interpreter::DiagnosticError("overwritten-input", fmt::format("{} is read by this study, and would be written over", path.filename().string()), {},
+                                     "give what is written another unit, or another name (DEFI_FICHIER)");
 }
 
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
   const auto exported = std::ranges::find_if(exported_, [&](const ExportFile& file) { return file.unit == unit && file.output; });
   if (exported != exported_.end()) return written_[unit] = exported->path;
-  if (const auto own = named_.find(unit); own != named_.end()) return written_[unit] = output_folder_ / own->second;
+  if (const auto own = named_.find(unit); own != named_.end()) return written_[unit] = safe_output(output_folder_ / own->second);
   const auto named = [&](const std::string& middle) { return output_folder_ / (command_file_.stem().string() + middle + extension); };
   const std::string numbered = "." + std::to_string(unit) + ".";
   const bool plain = unit == default_unit && !is_read(named("."));
-  return written_[unit] = named(plain ? "." : numbered);
+  return written_[unit] = safe_output(named(plain ? "." : numbered));
 }
 
 void Files::name_output(int unit, const std::string& name) {

@@ -38,12 +38,13 @@ class Files {
 
   /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of the
   /// command file, or one that the .export names). Throws DiagnosticError `missing-file`; `forbidden-file` for a name
-  /// that leads elsewhere.
+  /// that leads elsewhere, and for a link.
   std::filesystem::path included(int unit, const interpreter::Span& where) const;
   std::filesystem::path included(const std::string& name, const interpreter::Span& where) const;
 
   /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,
   /// `<stem>.<unit>.<extension>` for another, or where the file has been read.
+  /// Throws DiagnosticError `overwritten-input` where that file is read by the study and was not written by it, `forbidden-file` where it is a link.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
   /// From now on the file of the unit has this name (of an output: unless the .export has one for it); an empty name gives the unit back.
@@ -54,6 +55,8 @@ class Files {
   static std::optional<int> unit_in(const std::string& name);
   std::optional<std::filesystem::path> named_input(int unit) const;
   bool is_read(const std::filesystem::path& path) const;
+  std::filesystem::path included_by_unit(int unit, const interpreter::Span& where) const;
+  std::filesystem::path safe_output(std::filesystem::path path) const;
   std::vector<std::string> stems() const;
   std::filesystem::path found(int unit, const std::vector<std::string>& extensions) const;
 
@@ -62,6 +65,7 @@ class Files {
   std::filesystem::path output_folder_;
   mutable std::map<std::filesystem::path, int> units_;    ///< of files that were found by their names
   mutable std::map<int, std::filesystem::path> written_;  ///< by unit
+  mutable std::vector<std::filesystem::path> read_;       ///< what DEFI_FICHIER names as input, and what INCLUDE reads
   std::map<int, std::filesystem::path> named_;            ///< outputs that the command file names, by unit
 };
 

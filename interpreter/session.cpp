@@ -37,7 +37,10 @@ Value Session::call(const CommandCall& written, bool eager) {
     return Value::unknown();
   }
   if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
-    if (checked.complete) action->second(checked.call);
+    if (checked.complete) {
+      name_files();
+      action->second(checked.call);
+    }
     return Value();
   }
 
@@ -51,7 +54,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   const int id = node.id;
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
   // Loops that compute at once would keep all that they have given up.
-  if (page.destroys && may_run(id)) executor_.run_in_turn(id);
+  if ((page.destroys || page.role == Role::naming) && may_run(id)) executor_.run_in_turn(id);
   if (eager && may_run(id)) {
     try {
       if (!executor_.force(id)) return Value::unknown();
@@ -62,6 +65,13 @@ Value Session::call(const CommandCall& written, bool eager) {
     }
   }
   return product ? Value(product) : Value();
+}
+
+// What acts at once may open a file that a command before it names, which itself waits for what is written before.
+void Session::name_files() {
+  if (options_.check_only || diagnostics_.has_errors()) return;
+  for (const CommandNode& node : graph_.nodes())
+    if (node.role == Role::naming && node.state == NodeState::waiting) executor_.run_now(node.id);
 }
 
 bool Session::force(const ConceptPtr& handle) {

@@ -66,6 +66,7 @@ class Session : public CommandHost {
  private:
   ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
   bool may_run(int node) const;
+  void name_files();
 
   const Catalogue& catalogue_;
   Diagnostics& diagnostics_;

@@ -104,3 +104,33 @@ TEST_CASE("A unit that the command file names writes under that name until it is
   CHECK(files.output(37, "resu", 8) == fs::path("/here/a.37.resu"));
   for (const char* elsewhere : {"/etc/passwd", "../b.txt", "deep/b.txt", ".."}) CHECK_THROWS_AS(files.name_output(37, elsewhere), DiagnosticError);
 }
+
+TEST_CASE("What the study reads is not written over") {
+  const Folder folder;
+  const auto mesh = folder.file("my.mail"), command_file = folder.file("a.comm");
+  Files files(command_file, {}, folder.path);
+  files.name_output(20, "my.mail");
+  CHECK(files.input(20, {"mail"}) == mesh);
+  CHECK_THROWS_WITH(files.output(20, "mail", 30), Catch::Contains("my.mail is read by this study"));
+  files.name_output(21, "a.comm");
+  CHECK_THROWS_WITH(files.output(21, "resu", 8), Catch::Contains("a.comm is read by this study"));
+  // What it has written itself it may read and write again.
+  files.name_output(22, "own.mail");
+  const auto own = files.output(22, "mail", 30);
+  std::ofstream(own) << "";
+  CHECK(files.input(22, {"mail"}) == own);
+  CHECK(files.output(22, "mail", 30) == own);
+}
+
+TEST_CASE("Nothing is written, and no commands are read, through a link") {
+  const Folder folder, elsewhere;
+  const auto outside = elsewhere.file("outside.txt");
+  fs::create_symlink(outside, folder.path / "link.txt");
+  fs::create_symlink(outside, folder.path / "a.resu");
+  Files files(folder.file("a.comm"), {}, folder.path);
+  files.name_output(37, "link.txt");
+  CHECK_THROWS_WITH(files.output(37, "resu", 8), Catch::Contains("link.txt is a link"));
+  CHECK_THROWS_WITH(files.output(8, "resu", 8), Catch::Contains("a.resu is a link"));
+  CHECK_THROWS_WITH(files.included(37, {}), Catch::Contains("link.txt is a link"));
+  CHECK_THROWS_WITH(files.included("link.txt", {}), Catch::Contains("link.txt is a link"));
+}

@@ -71,7 +71,7 @@ TEST_CASE("INCLUDE reads what lies in the folder, by name or by unit, and nothin
   CHECK(codes("INCLUDE(DONNEE='../secret.comm')\n") == Codes{"forbidden-file"});
   CHECK(codes("INCLUDE(DONNEE='" + (folder.outside() / "secret.comm").string() + "')\n") == Codes{"forbidden-file"});
   CHECK(codes("INCLUDE(DONNEE='..')\n") == Codes{"forbidden-file"});
-  CHECK(codes("INCLUDE(DONNEE='link.comm')\n") == Codes{"missing-file"});
+  CHECK(codes("INCLUDE(DONNEE='link.comm')\n") == Codes{"forbidden-file"});
   CHECK(codes("INCLUDE(DONNEE='nowhere.comm')\n") == Codes{"missing-file"});
   CHECK(codes("INCLUDE(UNITE=92)\n") == Codes{"missing-file"});
   CHECK(codes("INCLUDE(DONNEE='study.comm')\n") == Codes{"include-depth"});
