@@ -8,6 +8,7 @@
 #include "commands/commands.hpp"
 #include "commands/fortran_format.hpp"
 #include "commands/reductions.hpp"
+#include "commands/row_keys.hpp"
 #include "commands/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -139,37 +140,20 @@ Table reduce(const Table& table, const Keywords& action) {
   return reduced;
 }
 
-// Reals that went through different computations still name one place or one instant.
-constexpr double key_precision = 1e-9;
-
-/// Whether cells name the same; reals that look alike in a format do (FORMAT_R).
-class SameKey {
- public:
-  explicit SameKey(const Keywords& action) {
-    if (action.has("FORMAT_R")) format_.emplace(action.text("FORMAT_R"));
-  }
-  bool operator()(const Cell& a, const Cell& b) const {
-    const auto x = number_in(a), y = number_in(b);
-    if (!x || !y) return a == b;
-    if (format_) return (*format_)(*x) == (*format_)(*y);
-    return std::abs(*x - *y) <= key_precision * std::max(std::abs(*x), std::abs(*y));
-  }
-
- private:
-  std::optional<RealFormat> format_;
-};
+SameKey same_key(const Keywords& action) { return action.has("FORMAT_R") ? SameKey(RealFormat(action.text("FORMAT_R"))) : SameKey(); }
 
 // UNIQUE: of the rows that agree in the columns the first.
 void keep_different(Table& table, const Keywords& action) {
   const auto columns = columns_of(table, action);
-  const SameKey same(action);
+  RowKeys known(columns, same_key(action));
   std::vector<std::vector<Cell>> kept;
-  for (auto& row : table.rows) {
-    const auto agrees = [&](const std::vector<Cell>& other) {
-      return std::ranges::all_of(columns, [&](int column) { return same(row[static_cast<std::size_t>(column)], other[static_cast<std::size_t>(column)]); });
-    };
-    if (std::ranges::none_of(kept, agrees)) kept.push_back(std::move(row));
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (known.find(table.rows[i], columns)) continue;
+    known.add(table.rows[i], i);
+    first.push_back(i);
   }
+  for (const std::size_t i : first) kept.push_back(std::move(table.rows[i]));
   table.rows = std::move(kept);
 }
 
@@ -192,30 +176,31 @@ void show_statistics(const Table& table, const Context& context) {
 /// cell stays.
 class Join {
  public:
-  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left), same_(action) {
+  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left), same_(same_key(action)) {
     std::vector<std::string> keys = action.texts("NOM_PARA");
     if (keys.empty()) {
       std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys), [&](const auto& name) { return right.column(name) >= 0; });
     }
     if (keys.empty()) throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common", action.span_of("TABLE"));
-    for (const std::string& name : keys) keys_.emplace_back(column_of(left, name, action), column_of(right, name, action));
+    for (const std::string& name : keys) {
+      left_keys_.push_back(column_of(left, name, action));
+      right_keys_.push_back(column_of(right, name, action));
+    }
     for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
   }
 
   Table run(bool restricted) {
+    RowKeys unused(right_keys_, same_);
+    for (std::size_t i = 0; i < right_.rows.size(); ++i) unused.add(right_.rows[i], i);
     std::vector<bool> used(right_.rows.size(), false);
     std::vector<std::vector<Cell>> rows;
-    std::size_t first_unused = 0;  // keys mostly stand in the same order
     for (auto& row : result_.rows) {
-      bool matched = false;
-      while (first_unused < used.size() && used[first_unused]) ++first_unused;
-      for (std::size_t i = first_unused; i < right_.rows.size() && !matched; ++i) {
-        matched = !used[i] && agree(row, right_.rows[i]);
-        if (!matched) continue;
-        fill(row, i);
-        used[i] = true;
+      const auto match = unused.take(row, left_keys_);
+      if (match) {
+        fill(row, *match);
+        used[*match] = true;
       }
-      if (matched || !restricted) rows.push_back(std::move(row));
+      if (match || !restricted) rows.push_back(std::move(row));
     }
     for (std::size_t i = 0; i < right_.rows.size() && !restricted; ++i) {
       if (!used[i]) fill(rows.emplace_back(result_.columns.size()), i);
@@ -225,12 +210,6 @@ class Join {
   }
 
  private:
-  bool agree(const std::vector<Cell>& left, const std::vector<Cell>& right) const {
-    return std::all_of(keys_.begin(), keys_.end(), [&](const auto& key) {
-      return same_(left[static_cast<std::size_t>(key.first)], right[static_cast<std::size_t>(key.second)]);
-    });
-  }
-
   void fill(std::vector<Cell>& row, std::size_t source) const {
     for (std::size_t i = 0; i < targets_.size(); ++i) row[static_cast<std::size_t>(targets_[i])] = right_.rows[source][i];
   }
@@ -238,8 +217,7 @@ class Join {
   const Table& right_;
   Table result_;
   SameKey same_;
-  std::vector<std::pair<int, int>> keys_;
-  std::vector<int> targets_;
+  std::vector<int> left_keys_, right_keys_, targets_;
 };
 
 Table acted(Table table, const Keywords& action, const Context& context) {

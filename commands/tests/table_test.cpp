@@ -8,6 +8,7 @@
 #include "commands/concepts.hpp"
 #include "commands/fortran_format.hpp"
 #include "commands/reductions.hpp"
+#include "commands/row_keys.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 
@@ -89,4 +90,34 @@ TEST_CASE("A command file reads a table cell by column and row") {
   CHECK(table.subscript(Value::tuple({Value("NOEUD"), Value(1)})).as_text() == "N1");
   CHECK_THROWS_AS(table.subscript(Value::tuple({Value("DX"), Value(2)})), DiagnosticError);
   CHECK_THROWS_AS(table.subscript(Value("DX")), DiagnosticError);
+}
+
+TEST_CASE("Rows are found by what they name, numbers by what they are but for rounding") {
+  using Cells = std::vector<Cell>;
+  const std::vector<int> columns = {0, 2};
+  const std::vector<Cells> rows = {{std::string("A"), 1.0, 0.1}, {std::string("B"), 2.0, 0.1}, {std::string("A"), 3.0, 0.1}, {std::string("A"), 4.0, Cell()}, {std::int64_t{2}, 5.0, 1.0}};
+  RowKeys known(columns, SameKey());
+  for (std::size_t i = 0; i < rows.size(); ++i) known.add(rows[i], i);
+  const auto found = [&](const Cell& first, const Cell& second) { return known.find(Cells{first, second}, std::vector<int>{0, 1}); };
+  CHECK(found(std::string("A"), 0.1 * (1.0 + 5e-10)) == std::size_t{0});
+  CHECK(!found(std::string("A"), 0.1 * (1.0 + 5e-9)));
+  CHECK(found(std::string("A"), Cell()) == std::size_t{3});
+  CHECK(found(2.0, std::int64_t{1}) == std::size_t{4});
+  CHECK(!found(std::string("2"), 1.0));
+  CHECK(known.take(rows[0], columns) == std::size_t{0});
+  CHECK(known.take(rows[0], columns) == std::size_t{2});
+  CHECK(!known.take(rows[0], columns));
+  // Where the words of two neighbours differ.
+  const double edge = 1.234565;
+  for (const double side : {1.0 - 4e-10, 1.0, 1.0 + 4e-10})
+    for (const double other : {1.0 - 4e-10, 1.0, 1.0 + 4e-10}) {
+      const Cells held = {Cell(edge * side)};
+      RowKeys one({0}, SameKey());
+      one.add(held, 7);
+      CHECK(one.find(Cells{Cell(edge * other)}, std::vector<int>{0}) == std::size_t{7});
+    }
+  const Cells held = {Cell(1.04)};
+  RowKeys printed({0}, SameKey(RealFormat("F4.1")));
+  printed.add(held, 1);
+  CHECK(printed.find(Cells{Cell(0.96)}, std::vector<int>{0}) == std::size_t{1});
 }
