@@ -101,11 +101,10 @@ FreePart mechanism(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& 
   part.rigid = false;
   std::vector<int> order(motion.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    // Mirror images differ by rounding; the numbering decides then.
-    return std::abs(motion[a]) > std::abs(motion[b]) * (1.0 + moving);
-  });
   const double largest = motion.lpNorm<Eigen::Infinity>();
+  // Mirror images differ by rounding; the numbering decides then.
+  const auto size = [&](int dof) { return std::llround(std::abs(motion[dof]) / (moving * largest)); };
+  if (largest > 0.0) std::ranges::stable_sort(order, std::ranges::greater(), size);
   std::set<int> nodes;
   std::vector<std::string> names;
   for (const int dof : order) {
@@ -133,10 +132,13 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
                      fmt::join(part.motions, ", "));
 }
 
-/// The stiffness (its lower triangle) with one as large as its largest against each of the rows, as far as these move the unknowns: what else they move stays where it is.
+/// The stiffness (its lower triangle) with one as large as the largest of the unknowns against each of the rows, as far as these move the unknowns: what else they move stays where it is.
 SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness) {
   std::vector<char> moves(static_cast<std::size_t>(stiffness.rows()), 0);
   for (const int unknown : unknowns) moves[static_cast<std::size_t>(unknown)] = 1;
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  double largest = 0.0;
+  for (const int unknown : unknowns) largest = std::max(largest, diagonal[unknown]);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rows.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(rows, row); it; ++it)
@@ -145,7 +147,7 @@ SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, co
   own.setFromTriplets(entries.begin(), entries.end());
   const SymmetricMatrix products = SymmetricMatrix(own.transpose()) * own;
   const SymmetricMatrix lower = products.triangularView<Eigen::Lower>();
-  return stiffness + stiffness.diagonal().maxCoeff() * lower;
+  return stiffness + largest * lower;
 }
 
 }  // namespace

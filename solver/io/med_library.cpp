@@ -105,8 +105,11 @@ MedVersion version_in(const std::string& path) {
 /// A file that a later minor version wrote, which the library refuses by its stamp alone: a copy of it with the library's own. It is gone from the folder once it is open.
 class StampedCopy {
  public:
-  explicit StampedCopy(const std::string& path) : path_((std::filesystem::temp_directory_path() / fmt::format("comma-{}-{}.med", getpid(), ++count)).string()) {
+  explicit StampedCopy(const std::string& path) {
     std::error_code failure;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
+    if (failure) throw_unreadable(path, "of a file of a later MED version a copy is read, and there is no folder for temporary files", "set TMPDIR to one that exists");
+    path_ = (folder / fmt::format("comma-{}-{}.med", getpid(), ++count)).string();
     std::filesystem::copy_file(path, path_, std::filesystem::copy_options::overwrite_existing, failure);
     if (failure) throw_unreadable(path, fmt::format("of a file of a later MED version a copy is read, and {} cannot be written", path_), "make room there, or set TMPDIR");
     std::filesystem::permissions(path_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, failure);
