@@ -64,12 +64,11 @@ struct Making {
   }
 
   // The step at an instant, made in its place among the others if there is none so near. `state`: what it goes on from; null: as it was.
-  solver::ResultStep& step_at(double instant, double reach, const Origin& state) {
+  solver::ResultStep& step_at(double instant, const InstantTolerance& tolerance, const Origin& state) {
     auto& steps = product.result.steps;
-    const auto found = std::ranges::find_if(steps, [&](const auto& step) { return std::abs(step.instant - instant) <= reach; });
-    if (found != steps.end()) {
-      if (state) origins[static_cast<std::size_t>(found - steps.begin())] = state;
-      return *found;
+    if (const std::size_t found = nearest_step(product.result, instant, tolerance); found < steps.size()) {
+      if (state) origins[found] = state;
+      return steps[found];
     }
     const auto later = std::ranges::find_if(steps, [&](const auto& step) { return step.instant > instant; });
     origins.insert(origins.begin() + (later - steps.begin()), current);
@@ -196,7 +195,7 @@ void add_field(Making& making, const Call& call, const Keywords& occurrence) {
   take_support(making.product, occurrence, data);
   const Origin state = state_of(making, occurrence);
   for (const double instant : instants_of(occurrence)) {
-    solver::ResultStep& step = making.step_at(instant, instant_reach(occurrence, instant), state);
+    solver::ResultStep& step = making.step_at(instant, instant_tolerance(occurrence), state);
     step.fields.insert_or_assign(field_name(call, occurrence), at_instant(data, instant, occurrence.span));
   }
 }

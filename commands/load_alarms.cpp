@@ -23,7 +23,7 @@ void warn_of_inward_normals(const Keywords& occurrence, const char* keyword, con
   const std::vector<int> inward = solver::inward_skin(target.mesh, skin);
   if (inward.empty()) return;
   const std::string groups = occurrence.given("GROUP_MA") ? fmt::format(" of {}", fmt::join(occurrence.texts("GROUP_MA"), ", ")) : "";
-  context.diagnostics.alarm("inward-normal",
+  context.diagnostics.alarm("inward-surface",
                             fmt::format("{}: the normals of {} of the {} cells{} point into the body, that of {} for one: what acts along them has the other sign there", keyword,
                                         inward.size(), skin.size(), groups, target.mesh.cell_name(inward.front())),
                             occurrence.span, "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
@@ -132,12 +132,15 @@ std::vector<int> places_of(const ForceKeyword& keyword, const Keywords& force, c
   return cells;
 }
 
+// PRES of FORCE_COQUE is F3 against the normal.
+std::string name_of_part(const ForceKeyword& keyword, const std::string& name) { return std::string_view(keyword.name) == "FORCE_COQUE" && name == "PRES" ? "F3" : name; }
+
 // What replaces what other occurrences give: the number or function of a component; of keywords that count whole, anything.
 std::vector<std::pair<std::string, const interpreter::Keyword*>> overloading_parts(const ForceKeyword& keyword, const Keywords& force) {
   if (keyword.overloading == Overloading::whole) return {{keyword.name, nullptr}};
   std::vector<std::pair<std::string, const interpreter::Keyword*>> parts;
   for (const interpreter::Keyword& item : force.items)
-    if (item.given && (item.value.is_concept() || item.value.is_number())) parts.emplace_back(item.name, &item);
+    if (item.given && (item.value.is_concept() || item.value.is_number())) parts.emplace_back(name_of_part(keyword, item.name), &item);
   return parts;
 }
 
@@ -152,7 +155,7 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
         const auto [known, is_first] = last.try_emplace({place, name}, item);
         if (is_first) continue;
         const interpreter::Keyword* before = std::exchange(known->second, item);
-        if (before != nullptr && is_same_amount(*before, *item)) continue;
+        if (before != nullptr && before->name == item->name && is_same_amount(*before, *item)) continue;
         ++found.count;
         if (found.example.empty()) found.example = fmt::format("{} at {}", name, place_name(keyword, target, place));
       }

@@ -58,7 +58,12 @@ Product meca_statique(const Call& call, Context& context) {
   product->result.model = product->problem.model;
   const solver::LinearStaticOptions options = options_of(call);
   context.console.progress(fmt::format("MECA_STATIQUE {}", call.result->name));
-  const auto wanted = new_instants(instants(call), product->result);
+  const std::vector<double> asked = instants(call), wanted = new_instants(asked, product->result);
+  if (wanted.size() < asked.size())
+    context.diagnostics.alarm("known-instants",
+                              fmt::format("MECA_STATIQUE: {} has {} of the {} instants already, and they are not computed anew: what is given here counts at the others alone", call.result->name,
+                                          asked.size() - wanted.size(), asked.size()),
+                              call.has("LIST_INST") ? call.span_of("LIST_INST") : call.span, "make another result, or name other instants (INST, LIST_INST)");
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
   warn_of_scene(call, product->problem, context);

@@ -291,6 +291,7 @@ void warn_of_idle_steps(const Call& call, interpreter::Diagnostics& diagnostics)
 void list_extremes(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   warn_of_idle_steps(call, diagnostics);
   for (const Keywords& occurrence : call.factors("MINMAX")) {
+    warn_of_missing_instants("POST_ELEM", occurrence, diagnostics);
     for (const FieldSource& source : field_sources(occurrence)) add_extremes(table, call, occurrence, source);
   }
 }

@@ -77,8 +77,9 @@ const solver::ResultStep& step_at(const solver::Result& result, const MethodArgu
   if (!given.has("value") || (parameter != "NUME_ORDRE" && parameter != "INST")) throw DiagnosticError("type-error", "a step is named by its number or its instant", {}, "write RESULT.getField(\"DEPL\", 1), or value=1.0, para=\"INST\"");
   const double value = given.real("value");
   const InstantTolerance tolerance{given.real("prec", 1e-6), given.text("crit", "RELATIF") != "ABSOLU"};
-  for (const solver::ResultStep& step : result.steps)
-    if (parameter == "INST" ? tolerance.meets(value, step.instant) : static_cast<double>(step.order) == value) return step;
+  const auto numbered = [&] { return static_cast<std::size_t>(std::ranges::find(result.steps, value, [](const solver::ResultStep& step) { return static_cast<double>(step.order); }) - result.steps.begin()); };
+  const std::size_t step = parameter == "INST" ? nearest_step(result, value, tolerance) : numbered();
+  if (step < result.steps.size()) return result.steps[step];
   throw DiagnosticError("unknown-step", fmt::format("the result has no step {}={}", parameter, value));
 }
 

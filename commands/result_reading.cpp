@@ -27,15 +27,10 @@ std::string known_instants(const solver::Result& result) {
                      result.steps.back().instant);
 }
 
-// The nearest within the tolerance, the first of equals; null where no step stands there.
+// Null where no step stands there.
 const ResultStep* find_step(const Keywords& keywords, const solver::Result& result, double instant) {
-  const InstantTolerance tolerance = instant_tolerance(keywords);
-  const ResultStep* nearest = nullptr;
-  for (const ResultStep& step : result.steps) {
-    if (!tolerance.meets(instant, step.instant)) continue;
-    if (nearest == nullptr || std::abs(step.instant - instant) < std::abs(nearest->instant - instant)) nearest = &step;
-  }
-  return nearest;
+  const std::size_t nearest = nearest_step(result, instant, instant_tolerance(keywords));
+  return nearest == result.steps.size() ? nullptr : &result.steps[nearest];
 }
 
 const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
@@ -63,6 +58,15 @@ InstantTolerance instant_tolerance(const Keywords& keywords) {
   if (precisions.size() > which) tolerance.precision = precisions[which];
   if (criteria.size() > which) tolerance.relative = criteria[which] == "RELATIF";
   return tolerance;
+}
+
+std::size_t nearest_step(const solver::Result& result, double instant, const InstantTolerance& tolerance) {
+  std::size_t nearest = result.steps.size();
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const auto distance = [&](std::size_t k) { return std::abs(result.steps[k].instant - instant); };
+    if (tolerance.meets(instant, result.steps[i].instant) && (nearest == result.steps.size() || distance(i) < distance(nearest))) nearest = i;
+  }
+  return nearest;
 }
 
 double instant_reach(const Keywords& keywords, double instant) { return instant_tolerance(keywords).reach(instant); }

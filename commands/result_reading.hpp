@@ -22,7 +22,7 @@ void warn_of_missing_instants(const char* command, const interpreter::Keywords& 
 /// What `keywords` say of a value's place within a cell counts for nothing where the field is one at nodes: alarm `idle-keyword` for each of `idle` that is given.
 void warn_of_idle_places(const char* command, const interpreter::Keywords& keywords, std::span<const char* const> idle, interpreter::Diagnostics& diagnostics);
 
-/// How near a stored instant must lie to the one asked for.
+/// How near a stored instant must lie to the one asked for; see nearest_step.
 struct InstantTolerance {
   double precision = 1e-6;
   bool relative = true;
@@ -31,6 +31,9 @@ struct InstantTolerance {
   /// Whether a step that stands there is the one `wanted`.
   bool meets(double wanted, double stands) const { return std::abs(wanted - stands) <= reach(wanted); }
 };
+
+/// Index of the step that stands nearest to an instant, of those within the tolerance, the first of equals; the number of steps where none does.
+std::size_t nearest_step(const solver::Result& result, double instant, const InstantTolerance& tolerance);
 
 /// PRECISION and CRITERE, but in TEST_* the second values of TOLE_MACHINE and CRITERE, whose first ones are the verdict's (U4.92.01).
 InstantTolerance instant_tolerance(const interpreter::Keywords& keywords);

@@ -21,7 +21,6 @@ const std::map<Key, std::string_view>& keywords() {
       {{"AFFE_CHAR_MECA", "EPSA_CALCULEE"}, "AFFE_VARC of AFFE_MATERIAU gives such strains now"},
       {{"AFFE_MODELE", "PARTITION"}, "leave it out: comma does not divide models among processors"},
       {{"MODI_MAILLAGE", "MODELE"}, leave_out},
-      {{"IMPR_RESU", "MODELE"}, leave_out},
       {{"IMPR_RESU/RESU", "VERI_DOM"}, leave_out},
       {{"CALC_CHAMP", "OPTION"}, "CONTRAINTE, DEFORMATION, ENERGIE, CRITERES, VARI_INTERNE, PROPRIETES and FORCE name the fields now"},
       {{"POST_RELEVE_T/ACTION", "CHEMIN"}, "GROUP_NO names the nodes of the line now: DEFI_GROUP finds them (OPTION='SEGM_DROI_ORDO')"},
