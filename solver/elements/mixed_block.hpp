@@ -120,6 +120,9 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
+  /// The pressure as an unknown has no part in them.
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override { Base::add_initial_stress_forces(law_stresses(stresses), forces); }
+
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     double* target = out.data();
     each_mixed_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
