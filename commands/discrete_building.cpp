@@ -27,11 +27,7 @@ bool turns(Formulation formulation) {
   return formulation == Formulation::spring_rotation_2d || formulation == Formulation::spring_rotation_3d;
 }
 
-bool is_discrete(Formulation formulation) { return solver::discrete_components(formulation) > 0; }
-
-bool has_own_axes(Formulation formulation) {
-  return is_discrete(formulation) || formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-}
+bool has_own_axes(Formulation formulation) { return is_discrete(formulation) || is_beam(formulation); }
 
 const char* modelisation(bool plane, bool rotations) {
   if (plane) return rotations ? "2D_DIS_TR" : "2D_DIS_T";

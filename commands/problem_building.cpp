@@ -85,8 +85,19 @@ void take_iterations(const Keywords& solver, SolverChoice& choice) {
   choice.options.most_iterations = static_cast<int>(solver.integer("NMAX_ITER"));
 }
 
+// Discrete elements alone need no materials (U4.51.01).
+bool needs_materials(const solver::Model& model) {
+  return std::ranges::any_of(model.formulations, [](solver::Formulation each) { return each != solver::Formulation::none && !solver::is_discrete(each); });
+}
+
 void take_materials(const Call& call, solver::StaticProblem& problem) {
-  if (!call.has("CHAM_MATER")) return;
+  if (!call.has("CHAM_MATER")) {
+    if (problem.materials || !problem.model || needs_materials(*problem.model)) return;
+    auto none = std::make_shared<solver::MaterialField>();
+    none->by_cell.resize(static_cast<std::size_t>(problem.model->mesh->cell_count()));
+    problem.materials = std::move(none);
+    return;
+  }
   const auto& materials = call.data<MaterialFieldConcept>("CHAM_MATER");
   if (problem.model) require_mesh(call, "CHAM_MATER", materials.mesh.get(), *problem.model->mesh);
   problem.materials = materials.field.get();
@@ -147,6 +158,7 @@ solver::StaticProblem static_problem(const Call& call) {
   solver::StaticProblem problem;
   problem.model = call.data<ModelConcept>("MODELE").model;
   take_materials(call, problem);
+  if (!problem.materials) throw DiagnosticError("missing-keyword", call.command + " needs CHAM_MATER", call.span, "give the materials; a model of discrete elements alone needs none");
   problem.properties = std::make_shared<const solver::ElementProperties>();
   take_properties(call, problem);
   take_loads(call, problem);

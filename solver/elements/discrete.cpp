@@ -22,6 +22,7 @@ class DiscreteBlock final : public ElementBlock {
       const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
       stiffnesses_.push_back(&stiffness);
       symmetric_ = symmetric_ && stiffness.matrix == stiffness.matrix.transpose();
+      if (node_count_ == 2 && !pulls_alike(stiffness.matrix)) ends_ = {0, 1};
     }
   }
 
@@ -66,28 +67,31 @@ class DiscreteBlock final : public ElementBlock {
   }
 
   std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return 1; }
+  int point_count() const override { return static_cast<int>(ends_.size()); }
 
   std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
 
-  /// The force with which the part beyond the element pulls at its last node, in the element's own axes: N > 0 in tension.
+  /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where those at both ends are not alike (a full
+  /// matrix, such as that of a beam), at each end, as of a beam.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
     const int translations = discrete_translations(formulation_);
     std::array<int, max_size> dofs;
     double* target = out.data();
-    for (int element = 0; element < map_.element_count(); ++element, target += k) {
+    for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
       const DiscreteStiffness& stiffness = *stiffnesses_[element];
-      std::array<double, component_count> force{};
-      for (int i = 0; i < k; ++i) {
-        for (int j = 0; j < stiffness.matrix.cols(); ++j) {
-          force[i] += stiffness.matrix((node_count_ - 1) * k + i, j) * u[dofs[j]];
+      for (const int end : ends_) {
+        const double sign = end == node_count_ - 1 ? 1.0 : -1.0;
+        std::array<double, component_count> force{};
+        for (int i = 0; i < k; ++i) {
+          for (int j = 0; j < stiffness.matrix.cols(); ++j) force[i] += sign * stiffness.matrix(end * k + i, j) * u[dofs[j]];
         }
+        to_local(force.data(), stiffness.axes, translations, target);
+        if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);
+        if (formulation_ == Formulation::spring_rotation_2d) target[2] = force[2];
+        target += k;
       }
-      to_local(force.data(), stiffness.axes, translations, target);
-      if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);
-      if (formulation_ == Formulation::spring_rotation_2d) target[2] = force[2];
     }
   }
 
@@ -111,6 +115,13 @@ class DiscreteBlock final : public ElementBlock {
   static constexpr int max_size = 2 * component_count;
   using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_size, max_size>;
 
+  /// Whether what pulls at one end pulls back at the other, whatever the displacements.
+  static bool pulls_alike(const Eigen::MatrixXd& k) {
+    const Eigen::Index half = k.rows() / 2;
+    constexpr double rounding = 1e-12;
+    return (k.topRows(half) + k.bottomRows(half)).cwiseAbs().maxCoeff() <= rounding * k.cwiseAbs().maxCoeff();
+  }
+
   static void to_local(const double* global, const Eigen::Matrix3d& axes, int dimension, double* local) {
     for (int i = 0; i < dimension; ++i) {
       local[i] = 0.0;
@@ -123,6 +134,7 @@ class DiscreteBlock final : public ElementBlock {
   std::vector<int> cells_;
   ElementMap map_;
   std::vector<const DiscreteStiffness*> stiffnesses_;
+  std::vector<int> ends_ = {node_count_ - 1};  ///< at which forces are reported
   bool symmetric_ = true;
 };
 

@@ -405,7 +405,7 @@ const BeamSection& slender_section(const BlockInput& input, int cell) {
     throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", name));
   }
   const BeamSection& section = found->second;
-  const bool bends = input.model.formulations[cell] == Formulation::euler_beam || input.model.formulations[cell] == Formulation::timoshenko_beam;
+  const bool bends = is_beam(input.model.formulations[cell]);
   if (!is_complete(section, bends) || (varies(section) && !is_complete(*section.end, bends))) {
     throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area{}", name,
                                                   bends ? ", second moments of area and torsion constant" : ""));

@@ -16,7 +16,7 @@ namespace comma::solver {
 namespace {
 
 bool is_slender(Formulation formulation) {
-  return is_beam(formulation) || formulation == Formulation::bar || formulation == Formulation::bar_2d;
+  return is_beam(formulation) || is_bar(formulation);
 }
 
 /// The section where a point of `count` lies: points go from the first node to the second, one alone is in the middle.

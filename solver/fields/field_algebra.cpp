@@ -95,8 +95,7 @@ int point_count(const Model& model, int cell, Support support, bool skin) {
     return static_cast<int>(quadrature(type, stiffness_family(type, formulation)).size());
   }
   if (is_plate(formulation)) return static_cast<int>(quadrature(type, plate_family(type)).size());
-  const bool beam = formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;
-  return beam ? 2 : 1;
+  return is_beam(formulation) ? 2 : 1;
 }
 
 }  // namespace

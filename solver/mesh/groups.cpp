@@ -15,13 +15,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-Vector unit(const Point& direction) {
-  const Vector result = to_vector(direction);
-  const double length = result.norm();
-  if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
-  return result / length;
-}
-
 template <typename Predicate>
 std::vector<int> nodes_where(const Mesh& mesh, Predicate predicate) {
   std::vector<int> result;
@@ -141,7 +134,7 @@ std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, No
 }
 
 std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, double angle, bool either_sense) {
-  const Vector wanted = unit(direction);
+  const Vector wanted = unit(to_vector(direction));
   std::vector<int> result;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     if (dimension(mesh.cell_types[cell]) != mesh.dimension - 1) continue;
@@ -171,21 +164,21 @@ std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double r
 }
 
 std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius) {
-  const Vector direction = unit(axis);
+  const Vector direction = unit(to_vector(axis));
   return nodes_where(
       mesh, [&](const Vector& position) { return distance_from_axis(position, to_vector(point), direction) <= radius; });
 }
 
 std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius,
                                    double tolerance) {
-  const Vector direction = unit(axis);
+  const Vector direction = unit(to_vector(axis));
   return nodes_where(mesh, [&](const Vector& position) {
     return std::abs(distance_from_axis(position, to_vector(point), direction) - radius) <= tolerance;
   });
 }
 
 std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Point& normal, double tolerance) {
-  const Vector direction = unit(normal);
+  const Vector direction = unit(to_vector(normal));
   return nodes_where(
       mesh, [&](const Vector& position) { return std::abs(direction.dot(position - to_vector(point))) <= tolerance; });
 }
@@ -196,7 +189,7 @@ std::vector<int> nodes_along_segment(const Mesh& mesh, std::span<const int> node
                                      double tolerance) {
   const Vector origin = place(mesh, start);
   const Vector chord = place(mesh, end) - origin;
-  const Vector direction = unit({chord.x(), chord.y(), chord.z()});
+  const Vector direction = unit(chord);
   std::vector<std::pair<double, int>> places;
   for (const int node : nodes) {
     const Vector position = place(mesh, node);

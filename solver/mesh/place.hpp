@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "solver/error.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {
@@ -10,5 +11,12 @@ namespace comma::solver {
 inline Eigen::Vector3d to_vector(const Point& point) { return Eigen::Vector3d(point.data()); }
 inline Point to_point(const Eigen::Vector3d& at) { return {at[0], at[1], at[2]}; }
 inline Eigen::Vector3d place(const Mesh& mesh, int node) { return to_vector(mesh.nodes[node]); }
+
+/// The direction with length 1. Throws Error `zero-vector`.
+inline Eigen::Vector3d unit(const Eigen::Vector3d& direction) {
+  const double length = direction.norm();
+  if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
+  return direction / length;
+}
 
 }  // namespace comma::solver

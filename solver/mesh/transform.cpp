@@ -15,12 +15,6 @@ using Vector = Eigen::Vector3d;
 /// Directions (in radians) closer than this are the same but for rounding.
 constexpr double smallest_angle = 1e-12;
 
-Vector unit(const Vector& direction) {
-  const double length = direction.norm();
-  if (!(length > 0.0)) throw Error("zero-vector", "a direction must not be the zero vector");
-  return direction / length;
-}
-
 template <class Move>
 void move_nodes(Mesh& mesh, Move move) {
   for (Point& node : mesh.nodes) {

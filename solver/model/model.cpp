@@ -46,12 +46,12 @@ ComponentMask components_of_formulation(Formulation formulation) {
   return 0;
 }
 
-bool is_spring(Formulation formulation) {
+}  // namespace
+
+bool is_discrete(Formulation formulation) {
   return formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ||
          formulation == Formulation::spring_3d || formulation == Formulation::spring_rotation_3d;
 }
-
-}  // namespace
 
 int continuum_dimension(Formulation formulation) {
   switch (formulation) {
@@ -80,7 +80,7 @@ bool has_element(Formulation formulation, CellType type) {
   const int continuum = continuum_dimension(formulation);
   if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
   if (is_plate(formulation)) return type == CellType::tria3 || type == CellType::quad4 || type == CellType::seg2;
-  if (is_spring(formulation)) return type == CellType::poi1 || type == CellType::seg2;
+  if (is_discrete(formulation)) return type == CellType::poi1 || type == CellType::seg2;
   return formulation != Formulation::none && type == CellType::seg2;
 }
 

@@ -30,6 +30,8 @@ int mixed_field_count(Formulation formulation);
 /// Whether elements are flat plates in space, with three translations and three rotations a node.
 bool is_plate(Formulation formulation);
 bool is_bar(Formulation formulation);
+/// Springs, masses and dampers, on points and segments.
+bool is_discrete(Formulation formulation);
 bool is_beam(Formulation formulation);
 bool is_plane_stress(Formulation formulation);  ///< with full or reduced integration
 bool is_reduced(Formulation formulation);       ///< integrated at fewer points
