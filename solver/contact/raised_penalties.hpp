@@ -13,12 +13,16 @@ namespace comma::solver {
 struct Excess {
   std::vector<double> depth;
   std::vector<double> slip;
+  std::vector<double> softness{};  ///< the stiffness of the bodies over the penalty given, of contact or friction, where that is the softer; empty: 1
 };
 
 /// The penalties of the zones of a contact are raised by one factor a zone (U4.44.11: ADAPTATION='ADAPT_COEF' with PENE_MAXI and
 /// GLIS_MAXI; U4.34.03: ACTION='ADAPT_COEF_PENA' of the event INTERPENETRATION), and never lowered.
 class RaisedPenalties {
  public:
+  /// Beyond, rounding of the gaps makes pressures.
+  static constexpr double most_beside_bodies = 1e12;
+
   explicit RaisedPenalties(std::size_t zones = 0) : contact_(zones, 1.0), friction_(zones, 1.0) {}
 
   /// From now on all zones allow this depth (a length) in place of their own, and no factor goes beyond `most`.
@@ -43,7 +47,7 @@ class RaisedPenalties {
   std::vector<double> contact_;   ///< by which the penalty of each zone is raised, >= 1
   std::vector<double> friction_;  ///< the same of its penalty of friction
   std::optional<double> depth_limit_;
-  double most_ = 1e12;  ///< beyond, rounding of the gaps makes pressures
+  std::optional<double> most_;  ///< as given; nothing: `most_beside_bodies` times what is as stiff as the bodies
 };
 
 }  // namespace comma::solver

@@ -538,13 +538,15 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
 bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
   const Eigen::VectorXd now = jumps(u);
   const std::size_t zones = definition_.zones.size();
-  Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0)};
+  Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0), std::vector<double>(zones, 1.0)};
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto zone = static_cast<std::size_t>(points_[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || is_free_of_force(p)) continue;
     const std::optional<double> deepest = penalties_.allowed_depth(mixed);
+    const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty, mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
+    excess.softness[zone] = std::max(excess.softness[zone], (points_[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
       excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);

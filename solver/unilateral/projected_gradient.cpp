@@ -23,16 +23,18 @@ class ProjectedGradient {
         first_(options.start),
         scaling_(options.scaling.size() ? options.scaling : VectorXd::Ones(problem.excess.size())),
         limits_(scaling_.cwiseProduct((gradient_share * problem.scale).cwiseMin(options.tolerance))),
+        allowed_(options.tolerance * scaling_),
         limit_(options.max_iterations > 0 ? options.max_iterations
-                                          : 100 + default_iterations * static_cast<int>(problem.excess.size())) {}
+                                          : 100 + default_iterations * static_cast<int>(problem.excess.size())),
+        last_(options.max_iterations > 0 ? limit_ : further_iterations * limit_) {}
 
   ActiveSetSolution run() {
     start();
     const double step = 1.0 / largest_eigenvalue();
     VectorXd direction = free_gradient();
-    while (!settled()) {
-      if (solution_.iterations == limit_) {
-        solution_.verdict = ActiveSetVerdict::too_many_iterations;
+    while (!is_within(limits_)) {
+      if (solution_.iterations >= limit_ && (is_within(allowed_) || solution_.iterations >= last_)) {
+        if (!is_within(allowed_)) solution_.verdict = ActiveSetVerdict::too_many_iterations;
         break;
       }
       ++solution_.iterations;
@@ -82,9 +84,9 @@ class ProjectedGradient {
   VectorXd chopped_gradient() const { return (x_.array() > 0.0).select(0.0, gradient_.cwiseMin(0.0)); }
   VectorXd reduced(const VectorXd& free, double step) const { return free.cwiseMin(x_ / step); }
 
-  bool settled() const {
+  bool is_within(const VectorXd& most) const {
     const VectorXd left = free_gradient() + chopped_gradient();
-    return (left.array().abs() <= limits_.array()).all();
+    return (left.array().abs() <= most.array()).all();
   }
 
   bool has_curvature(const VectorXd& p, const VectorXd& image_of_p) {
@@ -135,8 +137,8 @@ class ProjectedGradient {
   const ActiveSetProblem& problem_;
   const VectorXd& first_;
   const VectorXd scaling_;
-  const VectorXd limits_;
-  const int limit_;
+  const VectorXd limits_, allowed_;
+  const int limit_, last_;
   VectorXd x_, gradient_;
   ActiveSetSolution solution_;
 };

@@ -64,4 +64,14 @@ TEST_CASE("A depth for all zones replaces their own, and a factor that would be 
   CHECK_THROWS_AS(raised.raise({{9.0}, {0.0}}), Error);
 }
 
+TEST_CASE("How far a penalty may be raised is measured by the bodies, not by what was given") {
+  const auto raised_to = [](double softness, double excess) {
+    RaisedPenalties raised(1);
+    return raised.raise({{excess}, {0.0}, {softness}});
+  };
+  CHECK_THROWS_AS(raised_to(1.0, 1e13), Error);
+  CHECK(raised_to(1e6, 1e13));
+  CHECK_THROWS_AS(raised_to(1e6, 1e19), Error);
+}
+
 }  // namespace comma::solver
