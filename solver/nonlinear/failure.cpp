@@ -45,25 +45,31 @@ bool is_rounding(std::span<const IterationReport> history) {
 constexpr std::string_view hold_it =
     "hold by DDL_IMPO what contact does not; a body that begins with a gap is closed by CONTACT_INIT='OUI' (ZONE, FORMULATION='CONTINUE'); else look at which way the loads push and the normals point, and whether friction can bear them";
 
-/// The same residuals come again and again: more iterations bring no others.
-bool goes_to_and_fro(std::span<const IterationReport> history) {
+/// The residual is the same as so many iterations before, in the last ones.
+bool comes_again(std::span<const IterationReport> history, std::size_t period) {
   constexpr std::size_t enough = 6;
   constexpr double same = 1e-3;
   if (history.size() < enough) return false;
   const auto last = history.last(enough);
-  for (std::size_t k = 2; k < enough; ++k)
-    if (std::abs(last[k].absolute_residual - last[k - 2].absolute_residual) > same * last[k].absolute_residual) return false;
+  for (std::size_t k = period; k < enough; ++k)
+    if (std::abs(last[k].absolute_residual - last[k - period].absolute_residual) > same * last[k].absolute_residual) return false;
   return true;
 }
 
-std::string likely_cause(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
+bool stands_still(std::span<const IterationReport> history) { return comes_again(history, 1); }
+/// More iterations bring no other residuals.
+bool goes_to_and_fro(std::span<const IterationReport> history) { return comes_again(history, 2); }
+
+std::string likely_cause(std::span<const IterationReport> history, const IteratedProblem& problem) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
-  if (is_unbalanced(history, is_linear) && !unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
-  if (is_unbalanced(history, is_linear))
+  if (is_unbalanced(history, problem.is_linear) && !problem.unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
+  if (is_unbalanced(history, problem.is_linear) && !problem.has_contact) return "the loads are lost in the rounding of larger forces, such as those of displacements that are imposed";
+  if (is_unbalanced(history, problem.is_linear))
     return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
-  if (is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
+  if (problem.is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
   if (is_rounding(history)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
+  if (stands_still(history)) return "the residual falls no more";
   if (goes_to_and_fro(history)) return "the iterations go to and fro between the same states";
   if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
@@ -71,14 +77,17 @@ std::string likely_cause(std::span<const IterationReport> history, bool is_linea
   return "the residual shrinks too slowly for the iterations allowed";
 }
 
-std::string remedy(std::span<const IterationReport> history, bool is_linear, const std::string& unheld) {
+std::string remedy(std::span<const IterationReport> history, const IteratedProblem& problem) {
   const IterationReport& last = history.back();
   if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
-  if (is_unbalanced(history, is_linear) && !unheld.empty())
+  if (is_unbalanced(history, problem.is_linear) && !problem.unheld.empty())
     return std::string(hold_it);
-  if (is_unbalanced(history, is_linear))
+  if (is_unbalanced(history, problem.is_linear) && !problem.has_contact) return "say how much may be left of them (RESI_GLOB_MAXI, a force)";
+  if (is_unbalanced(history, problem.is_linear))
     return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
-  if (is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (problem.is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (stands_still(history))
+    return "more iterations do not help: where a material flows without hardening the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or search along the correction (RECH_LINEAIRE)";
   if (goes_to_and_fro(history)) return "take smaller steps, or search along the correction (RECH_LINEAIRE): more iterations do not help";
   return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
 }
@@ -127,14 +136,13 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
   return true;
 }
 
-void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
-                          bool is_linear, const std::string& unheld) {
+void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options, const IteratedProblem& problem) {
   const IterationReport& last = history.back();
   throw Error("no-convergence",
               fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}{}, largest residual {:.3e} ({}){}", time,
-                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, is_linear, unheld), but_for_contact(unheld), last.absolute_residual,
+                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, problem), but_for_contact(problem.unheld), last.absolute_residual,
                           last.worst, table(history)),
-              remedy(history, is_linear, unheld));
+              remedy(history, problem));
 }
 
 void throw_lost_body(double time, double sizes, const std::string& unheld) {

@@ -23,9 +23,15 @@ Error advised(const Error& error, const StaticProblem& problem);
 /// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);
 
-/// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause. `unheld`: in words, what nothing but contact holds, or empty.
-[[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options,
-                                       bool is_linear, const std::string& unheld = {});
+/// What iterations were about.
+struct IteratedProblem {
+  bool is_linear = false;    ///< the tangent is the same for every displacement
+  bool has_contact = false;  ///< or other conditions that may open
+  std::string unheld{};      ///< in words, what nothing but contact holds, or empty
+};
+
+/// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
+[[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options, const IteratedProblem& problem);
 
 /// Error `no-convergence`: a body that contact alone was to hold has moved by so many sizes of the mesh. `unheld`: as above.
 [[noreturn]] void throw_lost_body(double time, double sizes, const std::string& unheld);

@@ -432,7 +432,7 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
 }
 
 void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {
-  throw_no_convergence(time, history, options_, tangent_.is_constant(), tangent_.unheld());
+  throw_no_convergence(time, history, options_, {tangent_.is_constant(), has_conditions(), tangent_.unheld()});
 }
 
 }  // namespace comma::solver

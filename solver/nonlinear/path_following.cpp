@@ -108,7 +108,7 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     if (!std::isfinite(measure.absolute)) break;
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
-  throw_no_convergence(time_, history, options_, tangent_.is_constant());
+  throw_no_convergence(time_, history, options_, {.is_linear = tangent_.is_constant()});
 }
 
 void PathFollowing::accept_step(const VectorXd& u) {

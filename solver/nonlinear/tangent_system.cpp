@@ -9,6 +9,7 @@
 #include "solver/constraints/solid_unknowns.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
+#include "solver/mesh/disjoint_sets.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace comma::solver {
@@ -61,11 +62,24 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   version_ = assembler_.stiffness_version();
   kind_ = kind;
   SymmetricMatrix reduced = assembled(u, kind);
-  if (is_symmetric())
-    factorise(std::move(reduced));
-  else
-    factorise(reduced, elimination_.reduce_skew(skew(u)));
+  try {
+    if (is_symmetric())
+      factorise(std::move(reduced));
+    else
+      factorise(reduced, elimination_.reduce_skew(skew(u)));
+  } catch (const Error& error) {
+    if (error.code() == "singular-matrix" && kind != TangentKind::elastic && is_held_elastically(u))
+      throw Error(error.code(), std::string("the bodies are held, but flow so that nothing resists the loads any more; ") + error.what(),
+                  "the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or drive by displacements (DDL_IMPO, PILOTAGE)");
+    throw;
+  }
   return true;
+}
+
+/// Whether the elastic stiffness has a factor where the tangent has none.
+bool TangentSystem::is_held_elastically(const Eigen::VectorXd& u) {
+  if (assembler_.is_linear() || !solver_ || !has_pivots(solver_->method())) return false;
+  return factorise_with(solver_->method(), assembled(u, TangentKind::elastic)).verdict != FactorVerdict::singular;
 }
 
 void TangentSystem::forget() {
@@ -228,13 +242,38 @@ void TangentSystem::measure_rows(const SymmetricMatrix& reduced) {
     }
 }
 
+/// The number of each node's body.
+std::vector<int> TangentSystem::bodies() const {
+  const Mesh& mesh = *model_.mesh;
+  DisjointSets sets(mesh.node_count());
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (model_.formulations[static_cast<std::size_t>(cell)] == Formulation::none) continue;
+    for (const int node : mesh.cell(cell)) sets.join(mesh.cell(cell).front(), node);
+  }
+  const Eigen::SparseMatrix<double>& transformation = elimination_.transformation();
+  for (int column = 0; column < transformation.outerSize(); ++column) {
+    const int kept = dofs_.node_of(elimination_.kept()[static_cast<std::size_t>(column)]);
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transformation, column); it; ++it) sets.join(kept, dofs_.node_of(static_cast<int>(it.row())));
+  }
+  std::vector<int> body(static_cast<std::size_t>(mesh.node_count()));
+  for (int node = 0; node < mesh.node_count(); ++node) body[static_cast<std::size_t>(node)] = sets.root(node);
+  return body;
+}
+
 Eigen::VectorXd TangentSystem::sizes_times(const Eigen::VectorXd& u) const {
-  double translation = 0.0, rotation = 0.0;
+  if (body_of_node_.empty()) body_of_node_ = bodies();
+  const auto body_of = [&](int dof) { return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]); };
+  std::vector<double> translation(body_of_node_.size(), 0.0), rotation = translation;
   for (int dof = 0; dof < dofs_.size(); ++dof) {
-    double& largest = is_rotation(dofs_.component_of(dof)) ? rotation : translation;
+    double& largest = (is_rotation(dofs_.component_of(dof)) ? rotation : translation)[body_of(dof)];
     largest = std::max(largest, std::abs(u[dof]));
   }
-  return translation * (row_sizes_ - rotation_sizes_) + rotation * rotation_sizes_;
+  Eigen::VectorXd result(row_sizes_.size());
+  for (Eigen::Index row = 0; row < result.size(); ++row) {
+    const std::size_t body = body_of(elimination_.kept()[static_cast<std::size_t>(row)]);
+    result[row] = translation[body] * (row_sizes_[row] - rotation_sizes_[row]) + rotation[body] * rotation_sizes_[row];
+  }
+  return result;
 }
 
 Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {

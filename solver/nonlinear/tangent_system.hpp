@@ -97,8 +97,8 @@ class TangentSystem {
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
-  /// |K| |u| with the largest of the translations (and what else is no rotation) in place of each, and the largest rotation in place of each of these:
-  /// bounds what a share of u, its rounding, does to the residual, whatever the unit of length. All unknowns in, reduced_size out.
+  /// |K| |u| with the largest of the translations (and what else is no rotation) of the body in place of each, and its largest rotation in place of each of these:
+  /// bounds what a share of u, its rounding, does to the residual, whatever the unit of length. Bodies are what elements and relations join. All unknowns in, reduced_size out.
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
@@ -110,9 +110,11 @@ class TangentSystem {
   void factorise(SymmetricMatrix reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
   bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);
+  bool is_held_elastically(const Eigen::VectorXd& u);
   LinearMethod chosen_method(const SymmetricMatrix& reduced);
   FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
+  std::vector<int> bodies() const;
 
   const Model& model_;
   const DofMap& dofs_;
@@ -128,6 +130,7 @@ class TangentSystem {
   KnownSolutions known_;  ///< of the symmetric factor
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_, rotation_sizes_;
+  mutable std::vector<int> body_of_node_;  ///< once asked for
   int lost_digits_ = 0;
   bool is_indefinite_ = false;
   bool factorised_ = false;
