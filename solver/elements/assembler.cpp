@@ -188,17 +188,22 @@ void throw_unsupported_element(const Model& model, int cell) {
 
 CellMaterial elastic_material(const BlockInput& input, int cell) {
   const CellMaterial result = cell_material(input.model, input.materials, input.properties, cell);
-  if (is_constant(*result.elasticity)) solid_stiffness(result, MaterialPoint());
+  if (!is_constant(*result.elasticity)) return result;
+  if (const auto* isotropic = std::get_if<IsotropicElasticity>(result.elasticity))
+    moduli(*isotropic, MaterialPoint());
+  else
+    solid_stiffness(result, MaterialPoint());
   return result;
 }
 
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
-  const auto* isotropic = std::get_if<IsotropicElasticity>(elastic_material(input, cell).elasticity);
+  const auto* isotropic = std::get_if<IsotropicElasticity>(cell_material(input.model, input.materials, input.properties, cell).elasticity);
   if (isotropic == nullptr) {
     const bool is_continuum = continuum_dimension(input.model.formulations[static_cast<std::size_t>(cell)]) > 0;
     throw Error("unsupported", fmt::format("the {} on cell {} has an anisotropic material, but needs an isotropic one", is_continuum ? "element" : "bar, beam or plate", input.model.mesh->cell_name(cell)),
                 is_continuum ? "in continua without pressure as an unknown anisotropic elasticity goes with DEFORMATION='PETIT', and with 'GREEN_LAGRANGE' but for plane stress" : "");
   }
+  if (isotropic->young.is_constant() && isotropic->poisson.is_constant()) moduli(*isotropic, MaterialPoint());
   return *isotropic;
 }
 

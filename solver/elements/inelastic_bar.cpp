@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, 1> axial_force = {"N"};
 constexpr double bar_rounding_share = 1e-14;
 constexpr int back_stress_size = 6;
 
-double young_of(const PlasticModuli& moduli) { return 9.0 * moduli.bulk * moduli.shear / (3.0 * moduli.bulk + moduli.shear); }
+/// The bulk modulus may be infinite.
+double young_of(const PlasticModuli& moduli) { return 9.0 * moduli.shear / (3.0 + moduli.shear / moduli.bulk); }
 
 double ratio_or_one(double now, double before) { return before != 0.0 ? now / before : 1.0; }
 

@@ -176,8 +176,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   PlasticMaterial plastic_material(const BlockInput& input, int cell, const Material& material) const {
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
     PlasticMaterial result{&elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
-    if (result.constant) result.point = located(cell, [&] { return plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint()); });
+    if (result.constant) result.point = located(cell, [&] { return compressible(plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint())); });
     return result;
+  }
+
+  static PlasticPoint compressible(PlasticPoint point) {
+    if (!std::isfinite(point.bulk)) require_compressible(0.5);
+    return point;
   }
 
   /// An error says in which cell.
@@ -206,7 +211,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const MaterialPoint at = block.material_point(element, g, x, state);
       if (strained) inelastic += inelastic_strain(elastic.material, at);
       if (material.constant) return;
-      own = plastic_point(*material.elasticity, *material.plasticity, block.law_.relation(), at);
+      own = compressible(plastic_point(*material.elasticity, *material.plasticity, block.law_.relation(), at));
       plastic = &own;
     }
     Constants(const Constants&) = delete;

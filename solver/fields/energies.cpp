@@ -165,6 +165,8 @@ ElementField strain_energy_density(const FieldInput& input, const ElementField& 
     if (!points.covers(cell)) return absent;
     Vector6d value = strain.at(cell, g);
     value.tail<3>() *= 2.0;
+    if (is_plane_stress(input.model.formulations[static_cast<std::size_t>(cell)]))
+      return 0.5 * value.head<4>().dot(plane_stress_stiffness(material_of(input, cell), points.at(cell, g)) * value.head<4>());
     return 0.5 * value.dot(solid_stiffness(material_of(input, cell), points.at(cell, g)) * value);
   });
 }

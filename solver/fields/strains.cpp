@@ -84,8 +84,13 @@ Vector6d engineering(const Eigen::Matrix3d& strain) {
 }
 
 /// The strain across a plane body that carries no stress there.
-double transverse_strain(const Matrix6d& stiffness, const Vector6d& strain, const Vector6d& inelastic) {
+double transverse_strain(const CellMaterial& material, const MaterialPoint& at, const Vector6d& strain, const Vector6d& inelastic) {
   const Vector6d elastic = strain - inelastic;
+  if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity)) {
+    const double poisson = moduli(*isotropic, at).poisson;
+    return inelastic[2] - poisson / (1.0 - poisson) * (elastic[0] + elastic[1]);
+  }
+  const Matrix6d stiffness = solid_stiffness(material, at);
   const double driven = stiffness(2, 0) * elastic[0] + stiffness(2, 1) * elastic[1] + stiffness(2, 3) * elastic[3];
   return inelastic[2] - driven / stiffness(2, 2);
 }
@@ -100,7 +105,7 @@ Vector6d strain_at(const FieldInput& input, int cell, const Eigen::Matrix3d& h, 
   if (!plane_stress && !is_mechanical(kind)) return strain;
   const CellMaterial material = material_of(input, cell);
   const Vector6d inelastic = inelastic_strain(material, at);
-  if (plane_stress) strain[2] = transverse_strain(solid_stiffness(material, at), strain, inelastic);
+  if (plane_stress) strain[2] = transverse_strain(material, at, strain, inelastic);
   return is_mechanical(kind) ? Vector6d(strain - inelastic) : strain;
 }
 

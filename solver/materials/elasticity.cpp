@@ -125,15 +125,18 @@ void check_elasticity(const IsotropicModuli& material) {
   if (!(material.young > 0.0) || !std::isfinite(material.young)) {
     throw Error("invalid-material", fmt::format("Young's modulus is {}, but it must be positive", material.young));
   }
-  if (!(material.poisson > -1.0 && material.poisson < 0.5)) {
-    throw Error(
-        "invalid-material",
-        fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5, both excluded", material.poisson),
-        material.poisson == 0.5 ? "a value such as 0.4999 is nearly incompressible" : "");
-  }
+  if (!(material.poisson > -1.0 && material.poisson <= 0.5))
+    throw Error("invalid-material", fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5", material.poisson));
+}
+
+void require_compressible(double poisson) {
+  if (poisson < 0.5) return;
+  throw Error("invalid-material", "Poisson's ratio is 0.5: such a body keeps its volume, and its stresses do not follow from strains alone",
+              "0.499999999 with INCO_UP or INCO_UPG is that to nine digits (elements of displacements alone lock above 0.49); 0.5 itself goes with elastic plane stress, plates, beams and bars");
 }
 
 Matrix6d solid_stiffness(const IsotropicModuli& material) {
+  require_compressible(material.poisson);
   const double mu = material.young / (2 * (1 + material.poisson));
   const double lambda = material.young * material.poisson / ((1 + material.poisson) * (1 - 2 * material.poisson));
   Matrix6d stiffness = Matrix6d::Zero();

@@ -25,9 +25,12 @@ struct IsotropicModuli {
   double poisson = 0.0;
 };
 
-/// Throws Error `invalid-material` unless young > 0 and -1 < poisson < 1/2.
+/// Throws Error `invalid-material` unless young > 0 and -1 < poisson <= 1/2.
 void check_elasticity(const IsotropicModuli& material);
+/// Throws Error `invalid-material` where poisson is 1/2: stresses do not follow from strains then.
+void require_compressible(double poisson);
 
+/// Throws what require_compressible throws.
 Matrix6d solid_stiffness(const IsotropicModuli& material);
 /// Plane strain and axisymmetry (zz is the hoop direction in the latter).
 Eigen::Matrix4d plane_strain_stiffness(const IsotropicModuli& material);

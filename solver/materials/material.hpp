@@ -31,7 +31,7 @@ struct Expansion {
 /// Isotropic linear elasticity. Stresses in the unit of `young`.
 struct IsotropicElasticity {
   Property young{};    ///< Young's modulus, > 0
-  Property poisson{};  ///< in (-1, 0.5)
+  Property poisson{};  ///< in (-1, 0.5]
   Property density{};
   Expansion expansion{};
   Property drying_shrinkage{};     ///< K_DESSIC: strain for a unit of water content

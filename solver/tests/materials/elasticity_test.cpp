@@ -33,10 +33,14 @@ TEST_CASE("constants without an elastic body behind them are refused", "[materia
   CHECK_NOTHROW(check_elasticity(steel));
   CHECK_NOTHROW(check_elasticity({1.0, 0.0}));
   for (const auto& wrong :
-       {IsotropicModuli{0.0, 0.3}, IsotropicModuli{-1.0, 0.3}, IsotropicModuli{1.0, 0.5}, IsotropicModuli{1.0, -1.0},
+       {IsotropicModuli{0.0, 0.3}, IsotropicModuli{-1.0, 0.3}, IsotropicModuli{1.0, 0.5001}, IsotropicModuli{1.0, -1.0},
         IsotropicModuli{std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
     CHECK_THROWS_AS(check_elasticity(wrong), Error);
   }
+  // What keeps its volume has stresses in a plane without any across it, and none in space.
+  CHECK_NOTHROW(check_elasticity({1.0, 0.5}));
+  CHECK(plane_stress_stiffness(IsotropicModuli{3.0, 0.5})(0, 0) == 4.0);
+  CHECK_THROWS_WITH(solid_stiffness(IsotropicModuli{1.0, 0.5}), Catch::Contains("keeps its volume"));
 }
 
 namespace {
