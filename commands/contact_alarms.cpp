@@ -27,8 +27,9 @@ void warn_of_shared_nodes(const Call& call, const solver::ContactDefinition& def
   for (std::size_t k = 0; k < definition.zones.size(); ++k) {
     const solver::ContactZone& zone = definition.zones[k];
     if (zone.mixed.local_average || !zone.resolved || !(is_mixed || zone.mixed.penalised || zone.mixed.friction > 0.0)) continue;
+    const std::set<int> excluded(zone.excluded_slave_nodes.begin(), zone.excluded_slave_nodes.end());
     for (const int node : mesh.nodes_of_cells(zone.slave_cells)) {
-      if (std::ranges::find(zone.excluded_slave_nodes, node) != zone.excluded_slave_nodes.end()) continue;
+      if (excluded.contains(node)) continue;
       const auto [earlier, is_first] = zones.emplace(node, k);
       if (is_first) continue;
       diagnostics.alarm("shared-slave-nodes",

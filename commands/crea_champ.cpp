@@ -286,6 +286,7 @@ void check_type(const Call& call, const FieldType& type, const solver::Field& fi
 
 Product crea_champ(const Call& call, Context& context) {
   const FieldType type = field_type(call.text("TYPE_CHAM"));
+  if (call.has("TYPE_MAXI")) warn_of_missing_instants("CREA_CHAMP", call, context.diagnostics);
   FieldPtr product = made_by(call, type, context);
   check_type(call, type, product->field);
   finish(call, *product);

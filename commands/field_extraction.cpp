@@ -11,6 +11,7 @@
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_history.hpp"
+#include "solver/mesh/name_finder.hpp"
 
 namespace comma::commands {
 
@@ -155,13 +156,13 @@ class TableReader {
 
   int node_of(const std::vector<Cell>& row) const {
     const std::string name = name_in(row[static_cast<std::size_t>(column("NOEUD"))]);
-    if (const int node = product_.mesh->find_node(name); node >= 0) return node;
+    if (const int node = nodes_.find(name); node >= 0) return node;
     throw DiagnosticError("unknown-node", "CREA_CHAMP: the table names a node that the mesh lacks: " + name, call_.span_of("TABLE"));
   }
 
   int cell_of(const std::vector<Cell>& row) const {
     const std::string name = name_in(row[static_cast<std::size_t>(column("MAILLE"))]);
-    if (const int cell = product_.mesh->find_cell(name); cell >= 0) return cell;
+    if (const int cell = cells_.find(name); cell >= 0) return cell;
     throw DiagnosticError("unknown-cell", "CREA_CHAMP: the table names a cell that the mesh lacks: " + name, call_.span_of("TABLE"));
   }
 
@@ -180,6 +181,7 @@ class TableReader {
   const FieldType& type_;
   FieldConcept& product_;
   const Table& table_;
+  mutable solver::NameFinder nodes_{*product_.mesh, solver::NameFinder::Kind::nodes}, cells_{*product_.mesh, solver::NameFinder::Kind::cells};
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,8 @@ void leave_out_loose(const Keywords& skin, const solver::Mesh& mesh, const std::
                             fmt::format("MODI_MAILLAGE: {} of {} skin cells, {} the first, bound no cell and are not turned", loose.size(),
                                         cells.size(), mesh.cell_name(loose.front())),
                             skin.span, "turn the surface of a rigid body with ORIE_NORM_COQUE");
-  std::erase_if(cells, [&](int cell) { return std::ranges::find(loose, cell) != loose.end(); });
+  const std::set<int> left_out(loose.begin(), loose.end());
+  std::erase_if(cells, [&](int cell) { return left_out.contains(cell); });
 }
 
 void orient_skin(const Keywords& skin, solver::Mesh& mesh, const char* skin_name, const char* support_name, const Context& context) {

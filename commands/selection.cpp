@@ -4,6 +4,7 @@
 
 #include "commands/ordered_set.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/name_finder.hpp"
 
 namespace comma::commands {
 
@@ -51,7 +52,7 @@ std::vector<int> selected_cells(const Keywords& keywords, const solver::Mesh& me
                [&](const std::vector<int>& group) { cells.add_all(group); });
   }
   if (takes(keywords, names.cells)) {
-    each_name(keywords, names.cells, "unknown-cell", "cell", [&](const std::string& name) { return mesh.find_cell(name); },
+    each_name(keywords, names.cells, "unknown-cell", "cell", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::cells)](const std::string& name) mutable { return found.find(name); },
               [&](int index) { cells.add(index); });
   }
   return cells.take();
@@ -68,7 +69,7 @@ std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& me
                [&](const std::vector<int>& group) { nodes.add_all(group); });
   }
   if (takes(keywords, names.nodes)) {
-    each_name(keywords, names.nodes, "unknown-node", "node", [&](const std::string& name) { return mesh.find_node(name); },
+    each_name(keywords, names.nodes, "unknown-node", "node", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable { return found.find(name); },
               [&](int index) { nodes.add(index); });
   }
   for (const int cell : selected_cells(keywords, mesh, names)) nodes.add_all(mesh.cell(cell));
@@ -95,7 +96,7 @@ std::vector<int> listed_nodes(const Keywords& keywords, const solver::Mesh& mesh
                [&](const std::vector<int>& group) { listed.insert(listed.end(), group.begin(), group.end()); });
   }
   if (takes(keywords, nodes)) {
-    each_name(keywords, nodes, "unknown-node", "node", [&](const std::string& name) { return mesh.find_node(name); },
+    each_name(keywords, nodes, "unknown-node", "node", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable { return found.find(name); },
               [&](int index) { listed.push_back(index); });
   }
   return listed;

@@ -219,10 +219,12 @@ class LevelCheck {
       pending_.push_back(std::move(pending));
       return;
     }
-    const std::string also =
-        pending.name == pending.argument->name ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
+    const auto& other = std::ranges::find(pending_, pending.name, &Pending::name)->argument->name;
+    const bool older = pending.name != pending.argument->name;
+    const std::string also = !older ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
+    const bool merge = (older || other != pending.name) && pending.argument->value->is_factor();
     context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
-                               pending.argument->name_span, "keep one of them");
+                               pending.argument->name_span, merge ? fmt::format("write both as occurrences of one: {}=(_F(...), _F(...))", pending.name) : "keep one of them");
   }
 
   /// `certain` is false in a block whose condition depends on a value that is unknown: nothing is missing there.
@@ -359,7 +361,7 @@ class LevelCheck {
   void take_default(const KeywordPage& keyword) {
     if (keyword.required) {
       context_.diagnostics.error("missing-keyword", fmt::format("{} needs {}", label_, keyword.name), span_,
-                                 keyword.doc);
+                                 fmt::format("write {}=...: {}", keyword.name, keyword.doc));
       return;
     }
     Keyword item{keyword.name, Value(), {}, Span(), Span(), false};

@@ -179,8 +179,10 @@ void MixedContact::add_nodes_without_contact(Positions positions, double instant
   for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions, instant)) contacts.push_back({.pair = pair, .gap = gap_at(pair, mesh_, positions)});
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
+    const std::set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
+    if (excluded.empty()) continue;
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
-      if (std::ranges::find(each.excluded_slave_nodes, node) != each.excluded_slave_nodes.end()) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
+      if (excluded.contains(node)) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
   }
 }
 
