@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/dead_directions.hpp"
 #include "solver/contact/extent.hpp"
 #include "solver/contact/patch_points.hpp"
+#include "solver/contact_law/dead_directions.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/mesh/slave_cut.hpp"

@@ -13,11 +13,11 @@
 #include <Eigen/Dense>
 
 #include "solver/constraints/elimination.hpp"
-#include "solver/contact/condensed_contact.hpp"
 #include "solver/contact/contact_field.hpp"
-#include "solver/contact/contact_memory.hpp"
 #include "solver/contact/contact_points.hpp"
 #include "solver/contact/doubts.hpp"
+#include "solver/contact_law/condensed_contact.hpp"
+#include "solver/contact_law/contact_memory.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"

@@ -1,0 +1,33 @@
+#include "solver/contact_law/condensed_problem.hpp"
+
+#include <algorithm>
+
+namespace comma::solver {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point) {
+  Vector3d value = Vector3d::Zero();
+  for (int i = 0; i < point.node_count; ++i)
+    for (int c = 0; c < problem.components; ++c) value[c] += point.shape[i] * state.multipliers[point.nodes[i] * problem.components + c];
+  return value;
+}
+
+double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
+  return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
+}
+
+Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Index rows) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows);
+  for (std::size_t p = 0; p < problem.points.size(); ++p) {
+    const CondensedPoint& point = problem.points[p];
+    if (point.rows == 0 || state.statuses[p] == ContactStatus::open) continue;
+    const Vector3d multiplier = multiplier_at(problem, state, point);
+    const double of_shear = point.law.share_pressure > 0.0 ? std::max(0.0, multiplier[0]) / point.law.share_pressure : 1.0;
+    for (int c = 0; c < point.rows; ++c) forces[point.first_row + c] = (c == 0 ? 1.0 : -of_shear) * point.weight * multiplier[c];
+  }
+  return forces;
+}
+
+}  // namespace comma::solver

@@ -1,0 +1,71 @@
+#include "solver/contact_law/raised_penalties.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and at least this much,
+/// so that a few rounds do.
+constexpr double raise_margin = 1.1;
+constexpr double least_raise = 2.0;
+
+struct Wording {
+  const char* penalty;
+  const char* what;
+  const char* hint;
+};
+
+/// `most`: the largest factor of a zone.
+template <class Most>
+bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, const Most& most, const Wording& wording) {
+  bool raised = false;
+  for (std::size_t zone = 0; zone < excess.size(); ++zone) {
+    if (excess[zone] <= 1.0) continue;
+    factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
+    if (factors[zone] > most(zone))
+      throw Error("no-convergence", fmt::format("a {} {:.2g} times the one given does not keep {} than allowed", wording.penalty, most(zone), wording.what), wording.hint);
+    raised = true;
+  }
+  return raised;
+}
+
+}  // namespace
+
+void RaisedPenalties::limit_depth(double depth, double most) {
+  depth_limit_ = depth;
+  most_ = most;
+}
+
+bool RaisedPenalties::raise(const Excess& excess) {
+  const auto most = [&](std::size_t zone) { return most_.value_or(most_beside_bodies * (excess.softness.empty() ? 1.0 : std::max(1.0, excess.softness[zone]))); };
+  const bool pressed = raise_factors(contact_, excess.depth, most,
+                                     {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
+  const bool rubbed = raise_factors(friction_, excess.slip, most,
+                                    {"penalty of friction", "points that stick from slipping more", "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
+  return pressed || rubbed;
+}
+
+bool RaisedPenalties::are_raised() const {
+  const auto is_raised = [](double factor) { return factor > 1.0; };
+  return std::ranges::any_of(contact_, is_raised) || std::ranges::any_of(friction_, is_raised);
+}
+
+void RaisedPenalties::go_on_from(const RaisedPenalties& others, std::size_t zone) {
+  contact_[zone] = others.contact_[zone];
+  friction_[zone] = others.friction_[zone];
+}
+
+void RaisedPenalties::apply(const MixedZone& zone, int number, CondensedPoint& point) const {
+  if (zone.penalised) point.law.augmentation = contact_penalty(zone, number);
+  if (!zone.friction_penalised) return;
+  const double penalty = friction_penalty(zone, number);
+  point.law.friction_augmentation = penalty;
+  if (point.share_augmentation > 0.0) point.share_augmentation = penalty;
+}
+
+}  // namespace comma::solver

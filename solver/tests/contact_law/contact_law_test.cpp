@@ -1,0 +1,160 @@
+#include "solver/contact_law/contact_law.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "solver/tests/exactly.hpp"
+
+using namespace comma::solver;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Differences {
+  Eigen::Matrix3d traction;
+  Eigen::Matrix3d residual;
+};
+
+/// Central differences of traction and residual by the multiplier or by the jump.
+Differences differences(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump, bool by_jump) {
+  Differences result;
+  for (int k = 0; k < 3; ++k) {
+    const double step = 1e-6 * (by_jump ? jump.norm() : multiplier.norm());
+    const Vector3d shift = step * Vector3d::Unit(k);
+    const auto at = [&](double side) {
+      return by_jump ? contact_law(law, status, multiplier, jump + side * shift) : contact_law(law, status, multiplier + side * shift, jump);
+    };
+    const ContactLawValue after = at(1.0);
+    const ContactLawValue before = at(-1.0);
+    result.traction.col(k) = (after.traction - before.traction) / (2.0 * step);
+    result.residual.col(k) = (after.residual - before.residual) / (2.0 * step);
+  }
+  return result;
+}
+
+void check_tangents(const ContactLaw& law, ContactStatus status) {
+  const Vector3d multiplier(120.0, 25.0, -14.0);
+  const Vector3d jump(-0.03, 0.02, 0.05);
+  const ContactLawValue value = contact_law(law, status, multiplier, jump);
+  const Differences by_multiplier = differences(law, status, multiplier, jump, false);
+  const Differences by_jump = differences(law, status, multiplier, jump, true);
+  // Central differences of steps of 1e-6 lose their fourth digits before the sixth.
+  CHECK((by_multiplier.traction - value.traction_by_multiplier).norm() < 1e-6 * (1.0 + value.traction_by_multiplier.norm()));
+  CHECK((by_multiplier.residual - value.residual_by_multiplier).norm() < 1e-6 * (1.0 + value.residual_by_multiplier.norm()));
+  CHECK((by_jump.traction - value.traction_by_jump).norm() < 1e-6 * (1.0 + value.traction_by_jump.norm()));
+  CHECK((by_jump.residual - value.residual_by_jump).norm() < 1e-6 * (1.0 + value.residual_by_jump.norm()));
+}
+
+}  // namespace
+
+TEST_CASE("Tangents of the contact law are its derivatives") {
+  for (const bool penalised : {false, true})
+    for (const bool friction_penalised : {false, true})
+      for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking})
+        for (const double share_pressure : {0.0, 80.0, -80.0})
+          for (const bool multiplier_takes_part : {false, true}) {
+            ContactLaw law;
+            law.share_pressure = std::abs(share_pressure);
+            if (share_pressure < 0.0) law.held_share = 0.7;
+            if (multiplier_takes_part) law.pressure_share = law.shear_share = 0.75;
+            law.augmentation = 900.0;
+            law.penalised = penalised;
+            law.friction = 0.3;
+            law.friction_augmentation = 700.0;
+            law.friction_penalised = friction_penalised;
+            check_tangents(law, status);
+            law.dead = Eigen::Vector2d(0.6, 0.8);
+            check_tangents(law, status);
+          }
+}
+
+TEST_CASE("A penalty that the multiplier takes part of is the same penalty once the law holds") {
+  ContactLaw law;
+  law.penalised = law.friction_penalised = true;
+  law.friction = 0.3;
+  law.pressure_share = law.shear_share = 0.75;
+  law.augmentation = 500.0;
+  law.friction_augmentation = 250.0;
+  CHECK(law.penalty() == Approx(2000.0));
+  CHECK(law.friction_penalty() == Approx(1000.0));
+  const Vector3d jump(-0.05, 0.004, -0.003), multiplier(100.0, 4.0, -3.0);
+  const ContactLawValue value = contact_law(law, ContactStatus::sticking, multiplier, jump);
+  CHECK(value.residual.norm() == Approx(0.0).margin(1e-12));
+  CHECK(value.traction.isApprox(Vector3d(100.0, -4.0, 3.0), 1e-12));
+}
+
+TEST_CASE("Pointwise, tangents of a shear that slides are its derivatives once the multiplier is that shear") {
+  ContactLaw law;
+  law.augmentation = 900.0;
+  law.friction = 0.3;
+  law.friction_augmentation = 700.0;
+  const Vector3d multiplier(100.0, 18.0, -24.0);  // at the limit of friction
+  const Vector3d jump(-0.03, 0.06, -0.08);
+  const ContactLawValue exact = contact_law(law, ContactStatus::sliding, multiplier, jump);
+  law.pointwise = true;
+  const ContactLawValue value = contact_law(law, ContactStatus::sliding, multiplier, jump);
+  CHECK(value.residual == exact.residual);
+  CHECK((value.traction_by_jump - exact.traction_by_jump).norm() < 1e-12 * exact.traction_by_jump.norm());
+  CHECK((value.residual_by_multiplier - exact.residual_by_multiplier).norm() < 1e-12 * exact.residual_by_multiplier.norm());
+
+  // Without a shear yet, slip brings one along the slip too.
+  const Vector3d none(100.0, 0.0, 0.0), slip(-0.03, 0.1, 0.0);
+  CHECK(contact_law(law, ContactStatus::sliding, none, slip).traction_by_jump(1, 1) == Approx(-0.3 * 100.0 / 0.1));
+}
+
+TEST_CASE("A sliding point bears the limit of friction against the slip; a sticking one its shear") {
+  ContactLaw law;
+  law.friction = 0.5;
+  const Vector3d multiplier(10.0, 5.0, 0.0);
+  const ContactLawValue sliding = contact_law(law, ContactStatus::sliding, multiplier, Vector3d(0.0, 0.2, 0.0));
+  CHECK(sliding.traction[0] == exactly(10.0));
+  CHECK(sliding.traction[1] == exactly(-5.0));
+  CHECK(sliding.residual.norm() == Approx(0.0).margin(1e-15));
+  const ContactLawValue sticking = contact_law(law, ContactStatus::sticking, Vector3d(10.0, 3.0, 1.0), Vector3d::Zero());
+  CHECK(sticking.traction[1] == exactly(-3.0));
+  CHECK(sticking.residual.norm() == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("By shares a shear is a share of the limit of friction, whatever the pressure of their unit") {
+  ContactLaw law;
+  law.friction = 0.5;
+  law.friction_augmentation = 20.0;
+  const Vector3d jump(0.0, 0.1, 0.0);
+  for (const double pressure : {1.0, 40.0}) {
+    law.share_pressure = pressure;
+    law.friction_penalised = false;
+    const Vector3d whole(10.0, law.friction * pressure, 0.0);
+    CHECK(contact_law(law, ContactStatus::sliding, whole, jump).traction[1] == exactly(-5.0));
+    CHECK(contact_law(law, ContactStatus::sliding, whole, jump).residual.tail<2>().norm() == Approx(0.0).margin(1e-14));
+    CHECK(contact_law(law, ContactStatus::sticking, 0.5 * whole + Vector3d(5, 0, 0), Vector3d::Zero()).traction[1] == exactly(-2.5));
+    // A penalty of 0.4 of the limit a unit of slip.
+    law.friction_penalised = true;
+    law.friction_augmentation = 0.4 * law.friction * pressure;
+    CHECK(contact_law(law, ContactStatus::sticking, whole, jump).traction[1] == exactly(-0.04 * 5.0));
+    CHECK(contact_status(law, false, whole, jump) == ContactStatus::sticking);
+    CHECK(contact_status(law, false, whole, 30.0 * jump) == ContactStatus::sliding);
+  }
+}
+
+TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; of the depth where a penalty presses") {
+  ContactLaw law;
+  law.friction = 0.5;
+  const Vector3d overlapping(-0.2, 0.3, 0.4);
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == exactly(5.0));
+  CHECK(contact_status(law, false, Vector3d(10, 4.9, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 5.1, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sliding);
+  law.penalised = true;
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == exactly(10.0));
+}
+
+TEST_CASE("Statuses: an overlap closes, a pull opens, a shear below the limit sticks") {
+  ContactLaw law;
+  law.friction = 0.5;
+  CHECK(contact_status(law, false, Vector3d::Zero(), Vector3d(0.1, 0, 0)) == ContactStatus::open);
+  CHECK(contact_status(law, false, Vector3d(-1, 0, 0), Vector3d::Zero()) == ContactStatus::open);
+  CHECK(contact_status(law, true, Vector3d(-1, 0, 0), Vector3d::Zero()) != ContactStatus::open);
+  CHECK(contact_status(law, false, Vector3d::Zero(), Vector3d(-0.1, 0, 0)) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 4.9, 0), Vector3d::Zero()) == ContactStatus::sticking);
+  CHECK(contact_status(law, false, Vector3d(10, 3, 4.1), Vector3d::Zero()) == ContactStatus::sliding);
+}

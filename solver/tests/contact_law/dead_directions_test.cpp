@@ -1,0 +1,83 @@
+#include "solver/contact_law/dead_directions.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/tests/contact_law/coupled_points.hpp"
+
+using namespace comma::solver;
+
+namespace {
+
+RowMatrix rows_of(const Eigen::Vector3d& normal, const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  Eigen::Matrix3d rows;
+  rows << normal.transpose(), first.transpose(), second.transpose();
+  return rows.sparseView();
+}
+
+}  // namespace
+
+TEST_CASE("Along a direction in which a point cannot move there is no friction") {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  // The tangents are (3, 4) / 5 and (-4, 3) / 5; the unknown along the second axis is gone, but for rounding.
+  std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 0.6 * x + 1e-17 * Eigen::Vector3d::UnitY(), -0.8 * x), points);
+  CHECK(std::abs(points[0].law.dead.dot(Eigen::Vector2d(0.6, -0.8))) < 1e-12);
+  CHECK(std::abs(points[0].law.dead.norm() - 1.0) < 1e-12);
+  CHECK(points[0].law.friction == 0.3);
+
+  points = {point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 1e-12 * x, -1e-12 * x), points);
+  CHECK(points[0].law.friction == 0.0);
+
+  points = {point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(z, 0.6 * x, 1e-3 * Eigen::Vector3d::UnitY()), points);
+  CHECK(points[0].law.dead.isZero());
+}
+
+TEST_CASE("Nor is there any where the surface lies askew to the direction in which both bodies are held") {
+  // Both are held along z. A surface that a step has tilted by 1e-5 has a tangent that is nearly z, and one that is inclined by 1.
+  for (const double tilt : {1e-5, 1.0}) {
+    const Eigen::Vector3d normal(0.0, std::cos(tilt), 0.0), tangent(0.0, -std::sin(tilt), 0.0);
+    std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
+    find_dead_directions(rows_of(normal, Eigen::Vector3d::UnitX(), tangent), points);
+    CHECK(std::abs(points[0].law.dead[0]) < 1e-12);
+    CHECK(std::abs(points[0].law.dead[1]) == Approx(1.0));
+    CHECK(points[0].law.friction == 0.3);
+  }
+  // Held along x as well, they cannot slip.
+  std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
+  find_dead_directions(rows_of(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(), 0.5 * Eigen::Vector3d::UnitY()), points);
+  CHECK(points[0].law.friction == 0.0);
+}
+
+TEST_CASE("In the plane a point on a plane of symmetry has no friction, and one beside it has") {
+  const auto friction_of = [](const Eigen::Matrix2d& rows) {
+    std::vector<CondensedPoint> points{point_on_node(0, 2, 0.3)};
+    find_dead_directions(RowMatrix(rows.sparseView()), points);
+    return points[0].law.friction;
+  };
+  // The unknown along x is gone, but for rounding; the surface lies along it, then inclined to it.
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 1.0, 1e-17, 0.0).finished()) == 0.0);
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 0.8, 0.0, -0.6).finished()) == 0.0);
+  CHECK(friction_of((Eigen::Matrix2d() << 0.0, 1.0, 1e-3, 0.0).finished()) == 0.3);
+}
+
+TEST_CASE("Nodes that are left out of friction are so along the given direction alone, and no others are") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  mesh.add_cell(CellType::tria3, std::vector<int>{0, 1, 2});
+  MixedZone zone;
+  zone.frictionless_nodes = {1};
+  ContactPoint at_it, elsewhere, between;
+  at_it.cell = elsewhere.cell = between.cell = 0;
+  at_it.node = 1;
+  elsewhere.node = 2;
+  CHECK(excluded_direction(zone, at_it, mesh)->isZero());
+  CHECK_FALSE(excluded_direction(zone, elsewhere, mesh));
+  CHECK_FALSE(excluded_direction(zone, between, mesh));
+  zone.frictionless_direction = {0, 2, 0};
+  CHECK(*excluded_direction(zone, at_it, mesh) == Eigen::Vector3d(0, 2, 0));
+  CHECK_FALSE(excluded_direction(zone, elsewhere, mesh));
+  CHECK_THROWS_WITH(excluded_direction(zone, between, mesh), Catch::Contains("points between its nodes"));
+}

@@ -1,0 +1,77 @@
+#include "solver/contact_law/raised_penalties.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/error.hpp"
+
+namespace comma::solver {
+namespace {
+
+MixedZone soft_zone() {
+  MixedZone zone;
+  zone.penalised = zone.friction_penalised = true;
+  zone.augmentation = 100.0;
+  zone.friction_penalty = 5.0;
+  zone.largest_depth = 1e-3;
+  return zone;
+}
+
+/// The penalty of contact and that of friction of a point of zone `number`.
+std::pair<double, double> penalties_of(const RaisedPenalties& raised, int number) {
+  CondensedPoint point;
+  raised.apply(soft_zone(), number, point);
+  return {point.law.augmentation, point.law.friction_augmentation};
+}
+
+}  // namespace
+
+TEST_CASE("A penalty grows by more than points are too deep, so that a pressure that stays makes no point too deep any more") {
+  const double excess = GENERATE(1.01, 3.0, 1e4);
+  RaisedPenalties raised(2);
+  REQUIRE(raised.raise({{excess, 0.5}, {0.0, 0.0}}));
+  const double pressure = 100.0 * excess * 1e-3;
+  CHECK(pressure / penalties_of(raised, 0).first < 1e-3);
+  CHECK(penalties_of(raised, 1).first == 100.0);
+  CHECK(penalties_of(raised, 0).second == 5.0);
+}
+
+TEST_CASE("Where nothing is too much penalties stay as they are, raised ones too") {
+  RaisedPenalties raised(1);
+  raised.raise({{2.0}, {4.0}});
+  const auto before = penalties_of(raised, 0);
+  CHECK_FALSE(raised.raise({{1.0}, {0.9}}));
+  CHECK(penalties_of(raised, 0) == before);
+  CHECK(before.second > 5.0 * 4.0);
+}
+
+TEST_CASE("A computation that goes on takes penalties as they were raised, and its own limits") {
+  RaisedPenalties before(1), after(1);
+  before.raise({{4.0}, {0.0}});
+  CHECK(before.are_raised());
+  after.limit_depth(0.5, 10.0);
+  CHECK_FALSE(after.are_raised());
+  after.go_on_from(before, 0);
+  CHECK(penalties_of(after, 0) == penalties_of(before, 0));
+  CHECK(after.allowed_depth(soft_zone()) == 0.5);
+}
+
+TEST_CASE("A depth for all zones replaces their own, and a factor that would be too large is an error") {
+  RaisedPenalties raised(1);
+  CHECK(raised.allowed_depth(soft_zone()) == 1e-3);
+  raised.limit_depth(0.5, 10.0);
+  CHECK(raised.allowed_depth(soft_zone()) == 0.5);
+  CHECK(raised.raise({{9.0}, {0.0}}));
+  CHECK_THROWS_AS(raised.raise({{9.0}, {0.0}}), Error);
+}
+
+TEST_CASE("How far a penalty may be raised is measured by the bodies, not by what was given") {
+  const auto raised_to = [](double softness, double excess) {
+    RaisedPenalties raised(1);
+    return raised.raise({{excess}, {0.0}, {softness}});
+  };
+  CHECK_THROWS_AS(raised_to(1.0, 1e13), Error);
+  CHECK(raised_to(1e6, 1e13));
+  CHECK_THROWS_AS(raised_to(1e6, 1e19), Error);
+}
+
+}  // namespace comma::solver
