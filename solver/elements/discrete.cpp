@@ -4,20 +4,17 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/discrete_forces.hpp"
+#include "solver/elements/discrete_elements.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-class DiscreteBlock final : public ElementBlock {
+class DiscreteBlock final : public DiscreteElements {
  public:
   DiscreteBlock(const BlockInput& input, std::vector<int> cells)
-      : formulation_(input.model.formulations[cells.front()]),
-        node_count_(static_cast<int>(input.model.mesh->cell(cells.front()).size())),
-        cells_(std::move(cells)),
-        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(*input.model.mesh, cells_)) {
+      : DiscreteElements(input, std::move(cells)) {
     for (const int cell : cells_) {
       const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
       stiffnesses_.push_back(&stiffness);
@@ -35,8 +32,6 @@ class DiscreteBlock final : public ElementBlock {
       map_.add(element, symmetric.data(), column_starts, values);
     }
   }
-
-  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
   bool is_symmetric() const override { return symmetric_; }
 
@@ -66,16 +61,12 @@ class DiscreteBlock final : public ElementBlock {
     }
   }
 
-  std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return static_cast<int>(ends_.size()); }
-
-  std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
 
   /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where those at both ends are not alike (a full
   /// matrix, such as that of a beam), at each end, as of a beam.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
-    const int translations = discrete_translations(formulation_);
     std::array<int, max_size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -87,7 +78,7 @@ class DiscreteBlock final : public ElementBlock {
         for (int i = 0; i < k; ++i) {
           for (int j = 0; j < stiffness.matrix.cols(); ++j) force[i] += sign * stiffness.matrix(end * k + i, j) * u[dofs[j]];
         }
-        to_local(force.data(), stiffness.axes, translations, target);
+        to_local(force.data(), stiffness.axes, translations_, target);
         if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);
         if (formulation_ == Formulation::spring_rotation_2d) target[2] = force[2];
         target += k;
@@ -129,10 +120,6 @@ class DiscreteBlock final : public ElementBlock {
     }
   }
 
-  Formulation formulation_;
-  int node_count_;
-  std::vector<int> cells_;
-  ElementMap map_;
   std::vector<const DiscreteStiffness*> stiffnesses_;
   std::vector<int> ends_ = {node_count_ - 1};  ///< at which forces are reported
   bool symmetric_ = true;

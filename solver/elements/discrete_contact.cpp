@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/discrete_forces.hpp"
+#include "solver/elements/discrete_elements.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -16,16 +16,10 @@ constexpr int largest_size = 2 * component_count;
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_size, 1>;
 using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, largest_size, largest_size>;
 
-class DiscreteContact final : public ElementBlock {
+class DiscreteContact final : public DiscreteElements {
  public:
   DiscreteContact(const BlockInput& input, std::vector<int> cells)
-      : mesh_(*input.model.mesh),
-        formulation_(input.model.formulations[static_cast<std::size_t>(cells.front())]),
-        translations_(discrete_translations(formulation_)),
-        node_count_(static_cast<int>(mesh_.cell(cells.front()).size())),
-        cells_(std::move(cells)),
-        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(mesh_, cells_)),
-        slips_(cells_.size(), Eigen::Vector2d::Zero()) {
+      : DiscreteElements(input, std::move(cells)), slips_(cells_.size(), Eigen::Vector2d::Zero()) {
     for (const int cell : cells_) members_.push_back(member(input, cell));
   }
 
@@ -47,8 +41,6 @@ class DiscreteContact final : public ElementBlock {
       map_.add(element, k.data(), column_starts, values);
     }
   }
-
-  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
 
   /// What the pressure does to friction is left to iterations.
   void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState&, std::span<const int> column_starts, double* values) const override {
@@ -95,9 +87,6 @@ class DiscreteContact final : public ElementBlock {
     }
   }
 
-  std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return 1; }
-  std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
 
   /// At the last node, in the element's own axes: N < 0 where the element is closed.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
@@ -261,12 +250,6 @@ class DiscreteContact final : public ElementBlock {
     return matrix;
   }
 
-  const Mesh& mesh_;
-  Formulation formulation_;
-  int translations_;
-  int node_count_;
-  std::vector<int> cells_;
-  ElementMap map_;
   std::vector<Member> members_;
   std::vector<Eigen::Vector2d> slips_;  ///< where the step began
 };

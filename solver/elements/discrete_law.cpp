@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/discrete_forces.hpp"
+#include "solver/elements/discrete_elements.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -16,16 +16,10 @@ using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, mos
 using ComponentMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_components, most_components>;
 using EndMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * most_components, 2 * most_components>;
 
-class DiscreteLaw final : public ElementBlock {
+class DiscreteLaw final : public DiscreteElements {
  public:
   DiscreteLaw(const BlockInput& input, std::vector<int> cells)
-      : mesh_(*input.model.mesh),
-        relation_(input.behaviour_of(cells.front()).relation),
-        formulation_(input.model.formulations[static_cast<std::size_t>(cells.front())]),
-        translations_(discrete_translations(formulation_)),
-        node_count_(static_cast<int>(mesh_.cell(cells.front()).size())),
-        cells_(std::move(cells)),
-        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(mesh_, cells_)) {
+      : DiscreteElements(input, std::move(cells)), relation_(input.behaviour_of(cells_.front()).relation) {
     for (const int cell : cells_) members_.push_back(member(input, cell));
   }
 
@@ -35,8 +29,6 @@ class DiscreteLaw final : public ElementBlock {
   void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts, double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) add(element, elastic(element, state), column_starts, values);
   }
-  void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const override {}
-
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element) add(element, answer(element, u, state).force, forces);
   }
@@ -45,9 +37,6 @@ class DiscreteLaw final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element) add(element, Eigen::Map<const Components>(reported.data() + element * k, k), forces);
   }
 
-  std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return 1; }
-  std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element) Eigen::Map<Components>(out.data() + element * k, k) = answer(element, u, state).force;
@@ -236,13 +225,7 @@ class DiscreteLaw final : public ElementBlock {
     }
   }
 
-  const Mesh& mesh_;
   Relation relation_;
-  Formulation formulation_;
-  int translations_;
-  int node_count_;
-  std::vector<int> cells_;
-  ElementMap map_;
   std::vector<Member> members_;
 };
 
