@@ -304,6 +304,32 @@ class ContinuumBlock : public ElementBlock {
     return row;
   }
 
+  /// H of displacements at a point.
+  static Eigen::Matrix3d gradient_of_displacement(const Displacements& u, const Sample& sample, const Point& point) {
+    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+    h.template topLeftCorner<Dim, Dim>() = u.relative.transpose() * point.gradients;
+    if constexpr (Axisymmetric) h(2, 2) = sample.values.dot(u.radial) / point.radius;
+    return h;
+  }
+
+  /// The variation of Green and Lagrange's strain at F that a displacement of node a causes.
+  static StrainRow green_lagrange_row(const Eigen::Matrix3d& f, const Sample& sample, const Point& point, int a) {
+    StrainRow row = StrainRow::Zero();
+    const auto g = point.gradients.row(a);
+    for (int i = 0; i < Dim; ++i) {
+      row(0, i) = f(i, 0) * g(0);
+      row(1, i) = f(i, 1) * g(1);
+      row(3, i) = f(i, 0) * g(1) + f(i, 1) * g(0);
+      if constexpr (Dim == 3) {
+        row(2, i) = f(i, 2) * g(2);
+        row(4, i) = f(i, 0) * g(2) + f(i, 2) * g(0);
+        row(5, i) = f(i, 1) * g(2) + f(i, 2) * g(1);
+      }
+    }
+    if constexpr (Axisymmetric) row(2, 0) = f(2, 2) * sample.values(a) / point.radius;
+    return row;
+  }
+
   /// B^T stress, a node a row.
   static void add_forces(const Strain& stress, const Sample& sample, const Point& point, Coordinates& force) {
     Eigen::Matrix<double, Dim, Dim> tensor;

@@ -248,13 +248,6 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     }
   }
 
-  Eigen::Matrix3d gradient_of_displacement(const Displacements& u, int g, const Point& point) const {
-    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-    h.template topLeftCorner<Dim, Dim>() = u.relative.transpose() * point.gradients;
-    if constexpr (Axisymmetric) h(2, 2) = this->samples_[g].values.dot(u.radial) / point.radius;
-    return h;
-  }
-
   /// The gradient that the law is given where that of the displacement is H: the same, unless an element has a volume of its own.
   virtual Eigen::Matrix3d law_gradient(const Eigen::VectorXd&, const VariableState&, int, int, const Coordinates&, const Eigen::Matrix3d& gradient) const {
     return gradient;
@@ -269,7 +262,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Displacements displacements = Base::relative_displacements(u, dofs);
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g)
-        visitor(element, g, x, law_gradient(u, state, element, g, x, gradient_of_displacement(displacements, g, Base::locate(x, this->samples_[g]))));
+        visitor(element, g, x, law_gradient(u, state, element, g, x, Base::gradient_of_displacement(displacements, this->samples_[g], Base::locate(x, this->samples_[g]))));
     }
   }
 
@@ -284,21 +277,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   /// The variation of the strain that a displacement of node a causes: of Green and Lagrange's at F = I + H in large strains.
   StrainRow row(const Eigen::Matrix3d& gradient, int g, const Point& point, int a) const {
     if (!law_.is_large()) return Base::strain_row(this->samples_[g], point, a);
-    const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradient;
-    StrainRow result = StrainRow::Zero();
-    const auto n = point.gradients.row(a);
-    for (int i = 0; i < Dim; ++i) {
-      result(0, i) = f(i, 0) * n(0);
-      result(1, i) = f(i, 1) * n(1);
-      result(3, i) = f(i, 0) * n(1) + f(i, 1) * n(0);
-      if constexpr (Dim == 3) {
-        result(2, i) = f(i, 2) * n(2);
-        result(4, i) = f(i, 0) * n(2) + f(i, 2) * n(0);
-        result(5, i) = f(i, 1) * n(2) + f(i, 2) * n(1);
-      }
-    }
-    if constexpr (Axisymmetric) result(2, 0) = f(2, 2) * this->samples_[g].values(a) / point.radius;
-    return result;
+    return Base::green_lagrange_row(Eigen::Matrix3d::Identity() + gradient, this->samples_[g], point, a);
   }
 
   void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
@@ -320,7 +299,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     Coordinates force = Coordinates::Zero();
     for (int g = 0; g < this->point_count(); ++g) {
       const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = gradient_of_displacement(displacements, g, point);
+      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(displacements, this->samples_[g], point);
       const Strain stress = point.weight * stress_at(element, g, x, gradient).template head<strains>();
       for (int a = 0; a < Nodes; ++a) force.row(a) += (row(gradient, g, point, a).transpose() * stress).transpose();
     }
@@ -344,7 +323,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     std::array<StrainRow, Nodes> rows;
     for (int g = 0; g < this->point_count(); ++g) {
       const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = gradient_of_displacement(u, g, point);
+      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(u, this->samples_[g], point);
       const PointResponse response = respond(element, g, x, gradient, state, how);
       const typename Base::Law law = response.tangent.template topLeftCorner<strains, strains>();
       for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);

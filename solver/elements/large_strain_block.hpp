@@ -123,10 +123,9 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
     Deformed(const LargeStrainBlock& block, int element, int g, const Coordinates& x, const Displacements& u, const VariableState& state)
         : sample(block.samples_[g]), point(Base::locate(x, sample)), behaviour(block, element, g, x, state) {
-      gradient.template topLeftCorner<Dim, Dim>() += u.relative.transpose() * point.gradients;
-      if constexpr (Axisymmetric) gradient(2, 2) += sample.values.dot(u.radial) / point.radius;
       // From H rather than from F: small strains must not drown in the rounding of 1.
-      const Eigen::Matrix3d h = gradient_of_displacement(u);
+      const Eigen::Matrix3d h = Base::gradient_of_displacement(u, sample, point);
+      gradient += h;
       const Eigen::Matrix3d green = 0.5 * (h + h.transpose() + h.transpose() * h);
       elastic = components(green);
       elastic.template tail<strains - 3>() *= 2.0;
@@ -134,30 +133,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       stress.noalias() = *behaviour.law * elastic;
     }
 
-    Eigen::Matrix3d gradient_of_displacement(const Displacements& u) const {
-      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-      h.template topLeftCorner<Dim, Dim>() = u.relative.transpose() * point.gradients;
-      if constexpr (Axisymmetric) h(2, 2) = sample.values.dot(u.radial) / point.radius;
-      return h;
-    }
-
     /// The variation of E that a displacement of node a causes.
-    StrainRow row(int a) const {
-      StrainRow result = StrainRow::Zero();
-      const auto n = point.gradients.row(a);
-      for (int i = 0; i < Dim; ++i) {
-        result(0, i) = gradient(i, 0) * n(0);
-        result(1, i) = gradient(i, 1) * n(1);
-        result(3, i) = gradient(i, 0) * n(1) + gradient(i, 1) * n(0);
-        if constexpr (Dim == 3) {
-          result(2, i) = gradient(i, 2) * n(2);
-          result(4, i) = gradient(i, 0) * n(2) + gradient(i, 2) * n(0);
-          result(5, i) = gradient(i, 1) * n(2) + gradient(i, 2) * n(1);
-        }
-      }
-      if constexpr (Axisymmetric) result(2, 0) = gradient(2, 2) * sample.values(a) / point.radius;
-      return result;
-    }
+    StrainRow row(int a) const { return Base::green_lagrange_row(gradient, sample, point, a); }
   };
 
   void tangent(int element, const Displacements& u, const VariableState& state, Stiffness& k) const {

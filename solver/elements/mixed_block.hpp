@@ -239,7 +239,7 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       const Coordinates x = this->coordinates(element);
       const Unknowns values = values_of(u, element);
       for (int g = 0; g < this->point_count(); ++g)
-        visitor(element, g, x, this->gradient_of_displacement(displacements, g, Base::locate(x, this->samples_[g])), fields_at(values, element, g, x, state));
+        visitor(element, g, x, this->gradient_of_displacement(displacements, this->samples_[g], Base::locate(x, this->samples_[g])), fields_at(values, element, g, x, state));
     }
   }
 
@@ -265,7 +265,7 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     forces.own.setZero();
     for (int g = 0; g < this->point_count(); ++g) {
       const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, g, point);
+      const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, this->samples_[g], point);
       const MixedResponse response = response_at(element, g, x, gradient, fields_at(values, element, g, x, state));
       const Strain stress = point.weight * response.stress.template head<strains>();
       for (int a = 0; a < Nodes; ++a) forces.displacements.row(a) += (this->row(gradient, g, point, a).transpose() * stress).transpose();
@@ -298,7 +298,7 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     tangent.own.setZero();
     for (int g = 0; g < this->point_count(); ++g) {
       const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, g, point);
+      const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, this->samples_[g], point);
       add_point(element, g, x, point, gradient, fields_at(values, element, g, x, state), state, how, tangent);
     }
     tangent.displacements.template triangularView<Eigen::StrictlyUpper>() = tangent.displacements.transpose();

@@ -174,7 +174,7 @@ class StabilisedInelastic final : public Stabilised<InelasticBlock<3, 8, false>>
   Hourglass::Stiffness pattern_stiffness(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
     const Coordinates x = coordinates(element);
     const auto moved = relative_displacements(u, dofs_of(element));
-    const Eigen::Matrix3d gradient = gradient_of_displacement(moved, 0, locate(x, samples_[0]));
+    const Eigen::Matrix3d gradient = gradient_of_displacement(moved, samples_[0], locate(x, samples_[0]));
     const Matrix6d tangent = respond(element, 0, x, gradient, state, &PointLaw::respond).tangent;
     return hourglass(element).stiffness(tangent, projection_);
   }
