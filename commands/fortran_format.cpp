@@ -66,8 +66,6 @@ std::optional<Descriptor> parse(std::string_view format) {
 
 }  // namespace
 
-bool is_real_format(std::string_view format) { return parse(format).has_value(); }
-
 RealFormat::RealFormat(std::string_view format) {
   const auto descriptor = parse(format);
   if (!descriptor) {

@@ -21,10 +21,7 @@ class RealFormat {
   int digits_;
 };
 
-/// Whether the text is a descriptor that format_real knows: E, D, F or G, with a scale factor 1P or not.
-bool is_real_format(std::string_view format);
-
-/// A number by a descriptor. Throws DiagnosticError `bad-format` on one that is not known.
+/// A number by a descriptor: E, D, F or G, with a scale factor 1P or not. Throws DiagnosticError `bad-format` on one that is not known.
 std::string format_real(double value, std::string_view format);
 
 }  // namespace comma::commands

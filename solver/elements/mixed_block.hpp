@@ -37,8 +37,6 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   static constexpr int most_corners = 8;
   static constexpr int most_unknowns = 2 * most_corners;
   static constexpr int stress_count = strains + 1;
-  static constexpr int swelling_row = 6;
-  static constexpr int pressure_row = 7;
   using Corners = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_corners, 1>;
   using Unknowns = Eigen::Matrix<double, most_unknowns, 1>;
 

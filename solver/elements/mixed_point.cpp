@@ -12,9 +12,6 @@ namespace {
 using Eigen::Matrix3d;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-constexpr int swelling_row = 6;
-constexpr int pressure_row = 7;
-
 const Vector6d& trace() {
   static const Vector6d components = (Vector6d() << 1, 1, 1, 0, 0, 0).finished();
   return components;

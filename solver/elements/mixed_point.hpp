@@ -20,6 +20,9 @@ double volume_of(const Eigen::Matrix3d& gradient, VolumeMeasure measure);
 /// for a ratio of -1 or less.
 Eigen::Matrix3d with_volume(const Eigen::Matrix3d& gradient, double swelling, VolumeMeasure measure);
 
+/// Where the swelling and the pressure stand behind the six strains.
+inline constexpr int swelling_row = 6, pressure_row = 7;
+
 /// What works on the strain (Green and Lagrange's of the displacement in large strains, six components with shear angles), the swelling and the
 /// pressure.
 struct MixedResponse {

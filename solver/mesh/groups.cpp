@@ -112,10 +112,6 @@ std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, No
   return result;
 }
 
-std::vector<int> cells_of_type(const Mesh& mesh, std::span<const int> cells, CellType type) {
-  return filtered(cells, [&](int cell) { return mesh.cell_types[cell] == type; });
-}
-
 std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, NodeCriterion criterion) {
   std::vector<bool> chosen(mesh.nodes.size(), false);
   for (const int node : nodes) chosen[static_cast<std::size_t>(node)] = true;
@@ -144,14 +140,6 @@ std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, dou
     if (between <= angle) result.push_back(cell);
   }
   return result;
-}
-
-std::vector<int> nodes_in_box(const Mesh& mesh, const Point& lower, const Point& upper, double tolerance) {
-  const Eigen::Array3d low = to_vector(lower).array() - tolerance;
-  const Eigen::Array3d high = to_vector(upper).array() + tolerance;
-  return nodes_where(mesh, [&](const Vector& position) {
-    return (position.array() >= low).all() && (position.array() <= high).all();
-  });
 }
 
 std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double radius) {

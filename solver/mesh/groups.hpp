@@ -28,8 +28,6 @@ enum class NodeRole { corner, mid_edge, centre };
 /// solid.
 std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, NodeRole role);
 
-std::vector<int> cells_of_type(const Mesh& mesh, std::span<const int> cells, CellType type);
-
 /// How many of its nodes must be chosen for a cell to be.
 enum class NodeCriterion { all, any, majority, corners };
 /// The cells of the mesh, rising, whose nodes (`corners`: whose corners, all of them) are among `nodes` as the criterion says.
@@ -42,7 +40,6 @@ std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, dou
 
 /// Lengths below are in the mesh's unit; `tolerance` is a distance. All return the nodes of the mesh, rising.
 /// Error `zero-vector` where a direction has no length.
-std::vector<int> nodes_in_box(const Mesh& mesh, const Point& lower, const Point& upper, double tolerance);
 /// At most `radius` from the centre.
 std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double radius);
 /// At most `tolerance` from the sphere's surface.

@@ -6,9 +6,6 @@
 #include <utility>
 
 namespace comma::solver {
-namespace {
-
-}  // namespace
 
 SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support, std::vector<int> keys)
     : rows_(std::move(rows)),

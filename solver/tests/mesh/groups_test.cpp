@@ -100,8 +100,6 @@ TEST_CASE("nodes play corner, middle and centre as their coordinates say") {
 
 TEST_CASE("nodes are found by where they lie") {
   const Mesh cube = cube_of_hexa27();
-  CHECK(nodes_in_box(cube, {-1, -1, -1}, {1, 1, 1}, 0.0).size() == 27);
-  CHECK(nodes_in_box(cube, {0, 0, 0}, {1, 1, 1}, 1e-9).size() == 8);
   CHECK(nodes_on_plane(cube, {5, 5, 1}, {0, 0, -3}, 1e-9).size() == 9);
   CHECK(nodes_in_ball(cube, {0, 0, 0}, 1.1).size() == 7);
   CHECK(nodes_on_sphere(cube, {0, 0, 0}, std::sqrt(2.0), 1e-9).size() == 12);
@@ -110,14 +108,12 @@ TEST_CASE("nodes are found by where they lie") {
   CHECK_THROWS_AS(nodes_on_plane(cube, {0, 0, 0}, {0, 0, 0}, 1.0), Error);
 }
 
-TEST_CASE("cells are found by their nodes and types") {
+TEST_CASE("cells are found by their nodes") {
   const Mesh mesh = quadratic_line();
   const Group nodes = {0, 1, 2, 3};
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::all) == Group{1});
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::any) == Group{0, 1});
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::majority) == Group{0, 1});
-  CHECK(cells_of_type(mesh, Group{2, 0}, CellType::seg3) == Group{2, 0});
-  CHECK(cells_of_type(mesh, Group{2, 0}, CellType::seg2).empty());
 }
 
 TEST_CASE("an open line is walked from end to end") {
@@ -161,7 +157,7 @@ TEST_CASE("a fork is not a line") {
 
 TEST_CASE("nodes that follow each other along a line are told from nodes that do not") {
   const Mesh mesh = quadratic_line();
-  const Group along = nodes_along_line(mesh, cells_of_type(mesh, Group{0, 1, 2}, CellType::seg3));
+  const Group along = nodes_along_line(mesh, Group{0, 1, 2});
   CHECK_FALSE(node_out_of_order(mesh, along));
   CHECK_FALSE(node_out_of_order(mesh, Group{along[0], along[2], along[4]}));
   CHECK(node_out_of_order(mesh, Group{along[0], along[4], along[2], along[6]}) == along[4]);
