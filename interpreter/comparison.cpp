@@ -93,13 +93,6 @@ bool ordered(Operator op, const Value& a, const Value& b, int depth) {
   raise_not_ordered(op, a, b);
 }
 
-/// In the items of a list or tuple, or in theirs.
-bool holds_unknown(const Value& value, int depth = 0) {
-  if (value.is_unknown()) return true;
-  if (!value.is_sequence() || depth > deepest_ordered) return false;
-  return std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth + 1); });
-}
-
 /// Whether any number of the array equals the item, which is stretched to it.
 bool holds_equal(const Value& array, const Value& item) {
   Meter meter{Limits{}};
@@ -116,6 +109,12 @@ bool contains_text(const Value& container, const Value& item) {
 }
 
 }  // namespace
+
+bool holds_unknown(const Value& value, int depth) {
+  if (value.is_unknown()) return true;
+  if (!value.is_sequence() || depth > deepest_ordered) return false;
+  return std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth + 1); });
+}
 
 bool truth(const Value& value) {
   if (value.is_bool()) return value.as_bool();

@@ -129,6 +129,15 @@ void Evaluator::spread_mapping(CallArguments& arguments, const Value& mapping, c
   }
 }
 
+namespace {
+
+/// What is not known has no text, within a list neither.
+bool holds_any_unknown(const CallArguments& arguments) {
+  return arguments.any_unknown() || std::ranges::any_of(arguments.positional, [](const Value& value) { return holds_unknown(value); });
+}
+
+}  // namespace
+
 Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   if (callee.is_unknown()) return callee;
   if (const auto* function = callee.as_object<FunctionObject>()) {
@@ -138,6 +147,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   if (const auto* builtin = callee.as_object<BuiltinObject>()) {
     if (builtin->name == "_F") return make_factor(arguments);
     if (arguments.any_unknown()) return Value::unknown();
+    const bool writes = builtin->name == "print" || builtin->name == "repr" || builtin->name == "format";
+    if (writes && holds_any_unknown(arguments)) return Value::unknown();
     return builtin->function(*this, arguments);
   }
   if (const auto* bound = callee.as_object<BoundMethod>()) {
@@ -159,7 +170,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     return method(*this, arguments[0], rest);
   }
   if (const auto* type = callee.as_object<TypeObject>()) {
-    return arguments.any_unknown() ? Value::unknown() : construct(*this, type->name, arguments);
+    const bool is_unknown = type->name == "str" ? holds_any_unknown(arguments) : arguments.any_unknown();
+    return is_unknown ? Value::unknown() : construct(*this, type->name, arguments);
   }
   if (const auto* error = callee.as_object<ExceptionClassObject>()) {
     auto object = make_exception(error->kind, "");

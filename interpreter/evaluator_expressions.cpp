@@ -98,7 +98,7 @@ Value Evaluator::evaluate_formatted(const FormattedNode& node) {
     Value value = evaluate(*piece.value);
     if (piece.conversion != 0) value = convert_value(value, piece.conversion);
     const Value spec = piece.format ? evaluate(*piece.format) : Value("");
-    unknown = unknown || value.is_unknown() || spec.is_unknown();
+    unknown = unknown || holds_unknown(value) || spec.is_unknown();
     if (!unknown) out += format_value(value, spec.as_text(), meter_);
     meter_.allocate(out.size());
   }

@@ -13,16 +13,9 @@ namespace comma::interpreter::numpy {
 
 namespace {
 
-/// What was reported already must not be reported again as no number.
-bool holds_unknown(const Value& value, int depth) {
-  if (value.is_unknown()) return true;
-  return depth > 0 && value.is_sequence() &&
-         std::ranges::any_of(value.items(), [&](const Value& item) { return holds_unknown(item, depth - 1); });
-}
-
 Value array(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("array", arguments, 1, 2, {"dtype"});
-  if (holds_unknown(arguments[0], 2)) return Value::unknown();
+  if (holds_unknown(arguments[0])) return Value::unknown();  // what was reported already must not be reported again as no number
   Numbers numbers = array_argument(evaluator, arguments[0]);
   const auto type = type_argument(arguments, 1);
   return make_value(type ? converted(std::move(numbers), *type) : std::move(numbers));

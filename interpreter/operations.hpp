@@ -19,6 +19,9 @@ Value unary_operation(Operator op, const Value& a);  ///< of an array, an array 
 Value augmented_operation(Operator op, const Value& a, const Value& b, Meter& meter);
 Value compare(Operator op, const Value& a, const Value& b);
 
+/// Whether the value is not known, or one in the items of a list or tuple, or in theirs.
+bool holds_unknown(const Value& value, int depth = 0);
+
 bool truth(const Value& value);
 bool less_than(const Value& a, const Value& b);
 bool contains(const Value& container, const Value& item);

@@ -183,7 +183,7 @@ TEST_CASE("A word that resembles none is told with all of them") {
 }
 
 TEST_CASE("A missing compulsory keyword is told at the command") {
-  expect(Checker().only_of("LOAD", {}), "missing-keyword", "LOAD needs MODEL", "LOAD", "The model that bears it.");
+  expect(Checker().only_of("LOAD", {}), "missing-keyword", "LOAD needs MODEL", "LOAD", "write MODEL=...: The model that bears it.");
 }
 
 TEST_CASE("A text where a number is wanted") {

@@ -190,6 +190,12 @@ TEST_CASE("A concept without data reads as unknown", "[evaluator]") {
   CHECK(run.evaluator->global("z")->is_unknown());
 }
 
+TEST_CASE("What is not known has no text, within a list neither", "[evaluator]") {
+  const Run run("T = DEFI_FONCTION()\nx = [1, (T['DX'], 2)]\nprint(x)\nprint('values=' + str(x))\nprint(f'{x}')\nprint(repr(x))\nprint('end')\n");
+  CHECK(run.findings().empty());
+  CHECK(run.output == "end\n");
+}
+
 TEST_CASE("init and close of code_aster are the commands DEBUT and FIN", "[evaluator]") {
   const Run run(
       "import code_aster\nfrom code_aster import CA\nfrom code_aster.Commands import *\nfrom code_aster.Commands "
