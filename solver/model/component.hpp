@@ -17,6 +17,7 @@ inline constexpr int motion_count = 6;
 
 inline constexpr std::array translation_components = {Component::dx, Component::dy, Component::dz};
 constexpr bool is_rotation(Component component) { return component == Component::drx || component == Component::dry || component == Component::drz; }
+constexpr bool is_motion(Component component) { return static_cast<int>(component) < motion_count; }
 
 std::string_view name_of(Component component);               ///< "DX" ...
 std::optional<Component> component_named(std::string_view name);

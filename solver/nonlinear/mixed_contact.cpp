@@ -489,13 +489,22 @@ void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::Vector
   problem_.begin.head(now.size()) = now;
 }
 
+/// The largest that gaps are differences of.
+double MixedContact::displacement_of_surfaces(const Eigen::VectorXd& u) const {
+  const Eigen::VectorXd magnitudes = tangent_.magnitudes(u);
+  double largest = 0.0;
+  for (int row = 0; row < rows_.outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(rows_, row); it; ++it) largest = std::max(largest, magnitudes[it.col()]);
+  return largest;
+}
+
 /// Solves the law of contact with the compliance at hand and moves the bodies. By how much forces on the rows change, as a share of the
 /// largest; nothing where a compliance that is not exact finds no solution.
 std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                            Eigen::VectorXd& corrected) {
   const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
   const Eigen::VectorXd free = jumps(u);
-  problem_.displacement = largest_component(u);
+  problem_.displacement = displacement_of_surfaces(u);
   check_blocked_points(free);
   const Index point_rows = rows_.rows();
   problem_.held = forces;

@@ -141,6 +141,7 @@ class MixedContact {
   Eigen::VectorXd shears() const;
   Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
   /// The forces without those of other zones.
+  double displacement_of_surfaces(const Eigen::VectorXd& u) const;
   double motion_of(int zone, const Eigen::VectorXd& u) const;
   Eigen::VectorXd forces_of(int zone, Eigen::VectorXd forces) const;
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;

@@ -216,8 +216,13 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
     state.reduced = before + step;
     if (row_multipliers_.size()) correction = correct_with_conditions(state);
   }
-  const double size = largest_component(state.reduced);
-  correction.step = size > 0.0 ? largest_component(state.reduced - before) / size : 0.0;
+  double size = 0.0, change = 0.0;
+  for (Eigen::Index k = 0; k < state.reduced.size(); ++k) {
+    if (!is_motion(dofs_.component_of(elimination_.kept()[static_cast<std::size_t>(k)]))) continue;  // a pressure has another unit
+    size = std::max(size, std::abs(state.reduced[k]));
+    change = std::max(change, std::abs(state.reduced[k] - before[k]));
+  }
+  correction.step = size > 0.0 ? change / size : 0.0;
   state.u = elimination_.transformation() * state.reduced + offset;
   return correction;
 }
@@ -279,10 +284,10 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   // The present multipliers balance the displacements: taking them back gives what those would be without any.
   const Eigen::VectorXd held = push_of_active();
   problem.excess = rows.rows * state.reduced - rows.bounds + held;
-  const double displacement = largest_component(state.reduced);
+  const Eigen::VectorXd magnitudes = tangent_.magnitudes(elimination_.transformation() * state.reduced);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
   for (int row = 0; row < rows.rows.outerSize(); ++row)
-    for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += displacement * std::abs(it.value());
+    for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += magnitudes[elimination_.kept()[static_cast<std::size_t>(it.col())]] * std::abs(it.value());
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
 
   const bool is_exact = !by_compliance() || schur_->is_exact();

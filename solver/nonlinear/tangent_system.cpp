@@ -260,6 +260,21 @@ std::vector<int> TangentSystem::bodies() const {
   return body;
 }
 
+Eigen::VectorXd TangentSystem::magnitudes(const Eigen::VectorXd& u) const {
+  if (body_of_node_.empty()) body_of_node_ = bodies();
+  constexpr int kinds = 3;
+  const auto slot = [&](int dof) {
+    const Component component = dofs_.component_of(dof);
+    const int kind = component <= Component::dz ? 0 : is_rotation(component) ? 1 : 2;
+    return static_cast<std::size_t>(kinds * body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))] + kind);
+  };
+  std::vector<double> largest(kinds * body_of_node_.size(), 0.0);
+  for (int dof = 0; dof < dofs_.size(); ++dof) largest[slot(dof)] = std::max(largest[slot(dof)], std::abs(u[dof]));
+  Eigen::VectorXd result(dofs_.size());
+  for (int dof = 0; dof < dofs_.size(); ++dof) result[dof] = largest[slot(dof)];
+  return result;
+}
+
 Eigen::VectorXd TangentSystem::sizes_times(const Eigen::VectorXd& u) const {
   if (body_of_node_.empty()) body_of_node_ = bodies();
   const auto body_of = [&](int dof) { return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]); };

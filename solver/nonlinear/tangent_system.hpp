@@ -97,6 +97,9 @@ class TangentSystem {
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
+  /// Of each unknown the largest of its kind (translations, rotations, others) in its body: what its rounding is a share of. Bodies are what elements and
+  /// relations join. All unknowns in and out.
+  Eigen::VectorXd magnitudes(const Eigen::VectorXd& u) const;
   /// |K| |u| with the largest of the translations (and what else is no rotation) of the body in place of each, and its largest rotation in place of each of these:
   /// bounds what a share of u, its rounding, does to the residual, whatever the unit of length. Bodies are what elements and relations join. All unknowns in, reduced_size out.
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
