@@ -95,7 +95,7 @@ PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elim
 
 struct ModeEnergies {
   ModeMatrix energy = ModeMatrix::Zero();  ///< R^T K R
-  double largest_diagonal = 0.0;
+  double largest_diagonal = 0.0;           ///< of rotations times 1 / size^2, as the modes have them: whatever the unit of length
 };
 
 /// Rows outside the part do not couple with it, so only its own columns are walked.
@@ -113,7 +113,7 @@ ModeEnergies energies_of(const SymmetricMatrix& stiffness, std::span<const int> 
       if (row != column)
         forces.row(place[column]) += entry.value() * values.row(place[row]);
       else
-        result.largest_diagonal = std::max(result.largest_diagonal, std::abs(entry.value()));
+        result.largest_diagonal = std::max(result.largest_diagonal, std::abs(entry.value()) * values.row(place[column]).cwiseAbs2().maxCoeff());
     }
   }
   result.energy = values.transpose() * forces;

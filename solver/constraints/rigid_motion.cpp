@@ -132,13 +132,14 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
                      fmt::join(part.motions, ", "));
 }
 
-/// The stiffness (its lower triangle) with one as large as the largest of the unknowns against each of the rows, as far as these move the unknowns: what else they move stays where it is.
-SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness) {
+/// The stiffness (its lower triangle) with one as large as the largest of the translations against each of the rows, as far as these move the unknowns: what else they move stays where it is.
+SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness, const DofMap& dofs, const Elimination& elimination) {
   std::vector<char> moves(static_cast<std::size_t>(stiffness.rows()), 0);
   for (const int unknown : unknowns) moves[static_cast<std::size_t>(unknown)] = 1;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   double largest = 0.0;
-  for (const int unknown : unknowns) largest = std::max(largest, diagonal[unknown]);
+  for (const int unknown : unknowns)
+    if (!is_rotation(dofs.component_of(elimination.kept()[static_cast<std::size_t>(unknown)]))) largest = std::max(largest, diagonal[unknown]);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rows.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(rows, row); it; ++it)
@@ -164,7 +165,7 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
     if (!suspect && !suspects.empty()) continue;
     if (result.size() == most_free_parts) break;
     auto motions = free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, tolerance);
-    if (held != nullptr && !motions.empty()) motions = free_rigid_motions(mesh, dofs, elimination, held_by(*held, unknowns, reduced_stiffness), unknowns, tolerance);
+    if (held != nullptr && !motions.empty()) motions = free_rigid_motions(mesh, dofs, elimination, held_by(*held, unknowns, reduced_stiffness, dofs, elimination), unknowns, tolerance);
     if (motions.empty()) {
       if (suspect && held == nullptr) result.push_back(mechanism(mesh, dofs, null_vector(elimination, reduced_stiffness, unknowns)));
       continue;

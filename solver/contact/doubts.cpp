@@ -6,6 +6,7 @@
 
 #include "solver/contact/extent.hpp"
 #include "solver/contact/patch_points.hpp"
+#include "solver/error.hpp"
 #include "solver/mesh/cell_type.hpp"
 
 namespace comma::solver {
@@ -87,26 +88,35 @@ void PassedMaster::look(Positions positions, std::span<const double> pushed_back
     if (!zone.resolved || (zone.mixed.local_average && zone.pairing_distance < 0.0)) continue;
     const double pushed = pushed_back[static_cast<std::size_t>(index)];
     pushed_back_[index] = std::max(pushed_back_[index], pushed);
-    if (!initial_.contains(index)) {
-      std::vector<Eigen::Vector3d> places;
-      for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);
-      initial_.emplace(index, depths(zone, places, time));
+    try {
+      look_at(index, positions, pushed, time);
+    } catch (const Error&) {
+      continue;  // surfaces that cannot be paired the other way round, such as points, tell nothing; others do
     }
-    const Depths& before = initial_.at(index);
-    const Depths now = depths(zone, positions, time);
-    double sum = 0.0;
-    int touching = 0;
-    for (const auto& [node, depth] : now.depth) {
-      if (depth < -doubtful_share * pushed) continue;
-      const auto known = before.depth.find(node);
-      // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay in front does.
-      if (!(pushed > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
-      sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
-      ++touching;
-    }
-    const double mean = touching > 0 ? sum / touching : 0.0;
-    if (mean > rounding_of_place * now.size) deepest_[index] = std::max(deepest_[index], mean);
   }
+}
+
+void PassedMaster::look_at(int index, Positions positions, double pushed, double time) {
+  const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
+  if (!initial_.contains(index)) {
+    std::vector<Eigen::Vector3d> places;
+    for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);
+    initial_.emplace(index, depths(zone, places, time));
+  }
+  const Depths& before = initial_.at(index);
+  const Depths now = depths(zone, positions, time);
+  double sum = 0.0;
+  int touching = 0;
+  for (const auto& [node, depth] : now.depth) {
+    if (depth < -doubtful_share * pushed) continue;
+    const auto known = before.depth.find(node);
+    // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay in front does.
+    if (!(pushed > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
+    sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
+    ++touching;
+  }
+  const double mean = touching > 0 ? sum / touching : 0.0;
+  if (mean > rounding_of_place * now.size) deepest_[index] = std::max(deepest_[index], mean);
 }
 
 void PassedMaster::conclude(ContactDoubts& doubts) const {

@@ -88,8 +88,8 @@ class PassedMaster {
  public:
   PassedMaster(const ContactDefinition& definition, const Mesh& mesh) : definition_(definition), mesh_(mesh) {}
 
-  /// After each step. `pushed_back`: how far contact forces move the surfaces of each zone apart; `time`: at which thicknesses are read. Throws what
-  /// pair_surfaces throws.
+  /// After each step. `pushed_back`: how far contact forces move the surfaces of each zone apart; `time`: at which thicknesses are read. Zones whose surfaces
+  /// cannot be paired the other way round are passed over.
   void look(Positions positions, std::span<const double> pushed_back, double time);
   /// After the last one; after other doubts.
   void conclude(ContactDoubts& doubts) const;
@@ -99,6 +99,7 @@ class PassedMaster {
     double size = 0.0;                      ///< of the largest slave face met
     std::unordered_map<int, double> depth;  ///< of the master nodes that face the slave side; negative outside
   };
+  void look_at(int index, Positions positions, double pushed, double time);
   Depths depths(const ContactZone& zone, Positions positions, double time) const;
 
   const ContactDefinition& definition_;

@@ -30,7 +30,7 @@ std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone) {
   std::set<int> nodes;
   for (const int cell : zone.slave_cells) {
     const auto all = mesh.cell(cell);
-    const auto taken = mesh.cell_types[cell] == CellType::quad8 ? all.first(corners) : all;
+    const auto taken = zone.resolved && mesh.cell_types[cell] == CellType::quad8 ? all.first(corners) : all;
     nodes.insert(taken.begin(), taken.end());
   }
   return {nodes.begin(), nodes.end()};

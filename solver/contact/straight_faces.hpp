@@ -14,7 +14,7 @@
 
 namespace comma::solver {
 
-/// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes of QUAD8 faces.
+/// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes of QUAD8 faces, which straight_edges() ties; of a zone that is watched, all.
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone);
 
 /// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of the zones that are resolved, for the translations that

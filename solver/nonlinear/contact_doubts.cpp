@@ -72,9 +72,14 @@ Eigen::VectorXd MixedContact::shears() const {
 
 /// Where the present loads and the rest of the contact forces would take the points if these did not hold them.
 Eigen::VectorXd MixedContact::jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u) {
-  Eigen::MatrixXd push = reduced_rows_.transpose() * contact_forces;
-  tangent_.solve_once(push);
-  return jumps(u) - reduced_rows_ * push;
+  if (!schur_) {
+    Eigen::MatrixXd push = reduced_rows_.transpose() * contact_forces;
+    tangent_.solve_once(push);
+    return jumps(u) - reduced_rows_ * push;
+  }
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
+  forces.head(contact_forces.size()) = contact_forces;
+  return jumps(u) - schur_->times(forces).head(contact_forces.size());
 }
 
 /// Zone by zone, by all forces or by its own alone: those of another zone may push the other way, and where a zone has none they are no measure of it.

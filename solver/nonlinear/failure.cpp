@@ -166,7 +166,7 @@ void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has
   constexpr double strong_friction = 1.0;
   double friction = 0.0;
   for (const ContactZone& zone : contact.zones) friction = std::max(friction, zone.mixed.friction);
-  if (friction < strong_friction)
+  if (friction < strong_friction || !unheld.empty())
     throw Error("contact-cycling", message,
                 unheld.empty() ? way_to_settle(contact) : "hold by DDL_IMPO what contact does not, look which way the loads push and the normals point; or " + way_to_settle(contact));
   throw Error("contact-cycling",

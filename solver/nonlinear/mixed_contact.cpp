@@ -15,6 +15,7 @@
 #include "solver/contact_law/dead_directions.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
+#include "solver/mesh/place.hpp"
 #include "solver/mesh/slave_cut.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
@@ -27,6 +28,25 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
+
+/// The squares of the normals of faces, summed over their areas; zero for lines.
+Vector3d spread_of_faces(const Mesh& mesh, const std::vector<int>& cells) {
+  Vector3d spread = Vector3d::Zero();
+  for (const int cell : cells) {
+    const auto nodes = mesh.cell(cell);
+    if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 2) continue;
+    const bool is_triangle = corner_count(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3;
+    const Vector3d normal = (place(mesh, nodes[2]) - place(mesh, nodes[0])).cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
+    if (normal.norm() > 0.0) spread += normal.cwiseAbs2() / normal.norm();
+  }
+  return spread;
+}
+
+/// The axis, or another one where it is the normal itself.
+Vector3d axis_beside(const Vector3d& normal, const Vector3d& axis) {
+  if (axis.cross(normal).norm() > empty_row_tolerance) return axis;
+  return {axis[2], axis[0], axis[1]};
+}
 
 /// A gap below this share of the face's size counts as closed at the start (CONTACT_INIT='INTERPENETRE').
 constexpr double touching = 1e-6;
@@ -108,7 +128,7 @@ void MixedContact::pair(Positions positions, double time, double margin) {
     for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
   points_ = contact_points(definition_, model_, positions, time, before);
   ++counters_.pairings;
-  if (zone_directions_.empty()) choose_directions();
+  if (zone_directions_.empty()) choose_directions(positions, time);
   build_rows();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
@@ -162,13 +182,28 @@ void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& d
   for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
 }
 
-/// One direction of space for all tangents of a zone, away from its normals: shears at the nodes of a face then speak of the same
-/// directions.
-void MixedContact::choose_directions() {
+/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at the nodes of a face then speak of the same
+/// directions, whatever state a computation begins with.
+void MixedContact::choose_directions(Positions positions, double time) {
+  if (dimension_ == 2) {
+    zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
+    return;
+  }
+  std::vector<Vector3d> initial;
+  for (int node = 0; node < mesh_.node_count(); ++node) initial.push_back(place(mesh_, node));
+  const bool has_moved = !std::ranges::equal(positions, initial);
+  std::vector<ContactPoint> others;
+  try {
+    if (has_moved) others = contact_points(definition_, model_, initial, time, {});
+  } catch (const Error&) {
+    others.clear();  // surfaces that face each other only now
+  }
   std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
-  for (const ContactPoint& point : points_)
+  for (const ContactPoint& point : others.empty() ? points_ : others)
     spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
-  for (const Vector3d& each : spread) {
+  for (std::size_t zone = 0; zone < spread.size(); ++zone) {
+    if (spread[zone].isZero(0.0)) spread[zone] = spread_of_faces(mesh_, definition_.zones[zone].slave_cells);
+    const Vector3d& each = spread[zone];
     Index axis = 0;
     each.minCoeff(&axis);
     zone_directions_.push_back(Vector3d::Unit(axis));
@@ -179,7 +214,7 @@ MixedContact::Directions MixedContact::directions(const ContactPoint& point) con
   const Vector3d& normal = point.normal;
   if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
   const Vector3d excluded = excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_).value_or(Vector3d::Zero());
-  const Vector3d second = excluded.isZero() ? zone_directions_[static_cast<std::size_t>(point.zone)] : excluded;
+  const Vector3d second = excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
   const Vector3d along = second - normal.dot(second) * normal;
   if (!(along.norm() > empty_row_tolerance * second.norm()))
     throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
@@ -583,11 +618,11 @@ int MixedContact::closed_count() const {
   return static_cast<int>(std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
 }
 
-double MixedContact::penetration(const Eigen::VectorXd& u) const {
+double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) const {
   const Eigen::VectorXd now = jumps(u);
   double deepest = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p)
-    if (problem_.points[p].rows > 0 && !is_free_of_force(p)) deepest = std::max(deepest, -now[problem_.points[p].first_row]);
+    if (problem_.points[p].rows > 0 && !is_free_of_force(p) && (problem_.points[p].law.penalised || !of_penalties)) deepest = std::max(deepest, -now[problem_.points[p].first_row]);
   return deepest;
 }
 

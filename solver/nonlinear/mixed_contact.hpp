@@ -79,8 +79,8 @@ class MixedContact {
   bool has_penalties() const;
   /// From now on penalties are raised, at most by a factor, until no point is deeper than this (a length).
   void limit_depth(double depth, double most_stiffening) { penalties_.limit_depth(depth, most_stiffening); }
-  /// The largest depth of a point at u (a length).
-  double penetration(const Eigen::VectorXd& u) const;
+  /// The largest depth of a point at u (a length), or of one that has a penalty.
+  double penetration(const Eigen::VectorXd& u, bool of_penalties = false) const;
   const std::vector<ContactPoint>& points() const { return points_; }
 
   /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth), or points that stick slip by more
@@ -119,7 +119,7 @@ class MixedContact {
   void close_nearest(const Eigen::VectorXd& jumps);
   CondensedPoint condensed(const ContactPoint& point) const;
   void apply_penalties(int zone, CondensedPoint& point) const;
-  void choose_directions();
+  void choose_directions(Positions positions, double time);
   Directions directions(const ContactPoint& point) const;
   std::vector<char> shared_multipliers() const;
   void share_friction();

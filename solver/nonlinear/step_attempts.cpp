@@ -18,7 +18,7 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   try {
     const int iterations = solve_jointly_or_settled(instant, before, sequence.is_part());
     watch_->check_increment(instant, [&] { return fields_now(instant); });
-    if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u));
+    if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u, true));
     if (!refines_collision(closed_before, sequence)) return iterations;
     return take_again(instant, before, sequence, "meets a change of contact");
   } catch (const Error& error) {

@@ -1,5 +1,6 @@
 #include "solver/linear/generalised_eigen.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,11 @@ TEST_CASE("the smallest eigenvalues of a chain are those of the formula", "[line
       CHECK(x.maxCoeff() == exactly(1.0));
     }
   }
+}
+
+TEST_CASE("more eigenvalues may be asked for than iterations can find", "[linear]") {
+  const SymmetricMatrix a = chain(130), b = signs(130, 0);
+  for (const int count : {124, 126, 129, 130, 500}) CHECK(smallest_eigenvalues({a, nullptr, b}, count).values.size() == static_cast<std::size_t>(std::min(count, 130)));
 }
 
 TEST_CASE("all eigenvalues of an interval are found, and none beyond", "[linear]") {
