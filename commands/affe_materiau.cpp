@@ -182,7 +182,7 @@ std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssign
   return field;
 }
 
-// A cell has the variable where all of its nodes have.
+// A cell has the variable where all of its nodes, or points, have.
 solver::Coverage coverage(const solver::CommandVariable& variable, const solver::Mesh& mesh, int cell) {
   std::size_t given = 0, possible = 0;
   for (const solver::VariableSnapshot& snapshot : variable.snapshots) {
@@ -191,8 +191,9 @@ solver::Coverage coverage(const solver::CommandVariable& variable, const solver:
       possible += mesh.cell(cell).size();
     } else {
       const auto& on_cells = std::get<solver::ElementField>(*snapshot.field);
-      given += on_cells.points(cell) > 0 && !std::isnan(on_cells.at(cell, 0, 0)) ? 1 : 0;
-      ++possible;
+      const int points = on_cells.points(cell);
+      for (int point = 0; point < points; ++point) given += std::isnan(on_cells.at(cell, point, 0)) ? 0 : 1;
+      possible += static_cast<std::size_t>(std::max(points, 1));
     }
   }
   if (given == 0) return solver::Coverage::none;
@@ -200,9 +201,13 @@ solver::Coverage coverage(const solver::CommandVariable& variable, const solver:
 }
 
 void warn_of_partial_variables(const MaterialAssignments& assignments, const solver::MaterialField& field, const solver::Mesh& mesh, Context& context) {
-  for (std::size_t k = 0; k < field.variables.size() && k < assignments.variables.size(); ++k) {
-    if (assignments.variables[k].what.text("NOM_VARC") == "EPSA") return;  // one assignment makes several variables
-    const solver::CommandVariable& variable = field.variables[k];
+  std::size_t next = 0;  // of the field's
+  for (std::size_t k = 0; k < assignments.variables.size() && next < field.variables.size(); ++k) {
+    if (assignments.variables[k].what.text("NOM_VARC") == "EPSA") {  // one assignment makes several variables
+      while (next < field.variables.size() && std::ranges::find(solver::strain_parameters, field.variables[next].variable) != solver::strain_parameters.end()) ++next;
+      continue;
+    }
+    const solver::CommandVariable& variable = field.variables[next++];
     std::vector<int> cells = variable.cells;
     if (cells.empty())
       for (int cell = 0; cell < mesh.cell_count(); ++cell) cells.push_back(cell);

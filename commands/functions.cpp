@@ -207,8 +207,8 @@ Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& ar
 }
 
 const solver::TabulatedFunction& SurfaceConcept::row_near(double value, double reach, const Span& span) const {
-  const auto found = std::ranges::find_if(edges_.x, [&](double each) { return std::abs(each - value) <= reach; });
-  if (found != edges_.x.end()) return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
+  const auto found = std::ranges::min_element(edges_.x, {}, [&](double each) { return std::abs(each - value); });
+  if (found != edges_.x.end() && std::abs(*found - value) <= reach) return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
   throw DiagnosticError("unknown-step", fmt::format("the function of two parameters has none for {}", value), span, fmt::format("it has them for {}", fmt::join(edges_.x, ", ")));
 }
 

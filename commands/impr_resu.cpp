@@ -66,6 +66,12 @@ void keep_nodes_of_cells(solver::ElementField& field, const solver::Mesh& mesh, 
   }
 }
 
+// Nodes choose values of cells at their nodes alone, in text.
+bool is_out_of_reach(const Keywords& print, bool med, const solver::Field& field) {
+  const auto* element = std::get_if<solver::ElementField>(&field);
+  return element != nullptr && names_a_place(print, node_places) && (med || element->support != solver::Support::element_node);
+}
+
 void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, solver::Field& field) {
   if (auto* nodal = std::get_if<solver::NodalField>(&field)) {
     if (names_a_place(print)) *nodal = solver::on_nodes(*nodal, selected_nodes(print, mesh));
@@ -74,7 +80,7 @@ void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, so
   auto& element = std::get<solver::ElementField>(field);
   if (names_a_place(print, cell_places)) element = solver::on_cells(element, selected_cells(print, mesh, cell_places));
   if (!names_a_place(print, node_places)) return;
-  if (med || element.support != solver::Support::element_node) {
+  if (is_out_of_reach(print, med, field)) {
     throw DiagnosticError("unsupported", "IMPR_RESU: nodes choose nothing of a field on cells", print.span, "name cells by GROUP_MA");
   }
   keep_nodes_of_cells(element, mesh, selected_nodes(print, mesh, node_places));
@@ -180,6 +186,19 @@ void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics
                     print.span, "POST_CHAMP with EXTR_COQUE takes one of them");
 }
 
+// Of a result whose fields are not named those are written that nodes choose something of.
+void warn_of_fields_out_of_reach(const Keywords& print, bool med, interpreter::Diagnostics& diagnostics) {
+  if (!print.has("RESULTAT") || print.given("NOM_CHAM")) return;
+  const auto& source = print.concept_of("RESULTAT");
+  std::set<std::string> names;
+  for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+    for (const auto& [name, field] : step->fields)
+      if (is_chosen(print, name) && is_out_of_reach(print, med, field)) names.insert(name);
+  if (names.empty()) return;
+  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: nodes choose nothing of {}, on cells: left out of {}", fmt::join(names, ", "), source->name), print.span,
+                    "name the fields that are meant by NOM_CHAM, or cells by GROUP_MA");
+}
+
 PrintedPart part_of(const Keywords& print, bool med) {
   if (!print.has("RESULTAT") && !print.has("CHAM_GD")) {
     const auto& handle = print.concept_of("MAILLAGE");
@@ -193,7 +212,8 @@ PrintedPart part_of(const Keywords& print, bool med) {
   if (print.has("MAILLAGE")) require_mesh(print, "MAILLAGE", interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh.get(), mesh);
   for (solver::ResultStep& step : part.result.steps) {
     for (auto item = step.fields.begin(); item != step.fields.end();) {
-      const bool kept = choose_components(print, item->second);
+      const bool is_asked_for = print.given("NOM_CHAM") || !whole_result || !is_out_of_reach(print, med, item->second);
+      const bool kept = is_asked_for && choose_components(print, item->second);
       if (kept) choose_places(print, mesh, med, item->second);
       item = kept ? std::next(item) : step.fields.erase(item);
     }
@@ -215,6 +235,8 @@ void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solve
     results.push_back({std::move(part.result), print.given("NOM_RESU_MED") ? print.text("NOM_RESU_MED") : part.name});
     return;
   }
+  if (print.has("RESULTAT") && !print.given("NOM_CHAM"))
+    throw DiagnosticError("missing-keyword", "IMPR_RESU: NOM_CHAM_MED names the fields of NOM_CHAM, and there are none", print.at("NOM_CHAM_MED").name_span, "give NOM_CHAM, or NOM_RESU_MED for a beginning of all names");
   const auto names = print.texts("NOM_CHAM_MED");
   const auto fields = print.given("NOM_CHAM") ? print.texts("NOM_CHAM") : std::vector<std::string>{""};
   if (names.size() != fields.size()) {
@@ -415,6 +437,7 @@ Product impr_resu(const Call& call, Context& context) {
     warn_of_missing_instants("IMPR_RESU", print, context.diagnostics);
     warn_of_missing_names(print, context.diagnostics);
     warn_of_layers(print, context.diagnostics);
+    warn_of_fields_out_of_reach(print, call.text("FORMAT") == "MED", context.diagnostics);
   }
   if (word == "MED") {
     auto& meshes = context.med_files[path.string()];

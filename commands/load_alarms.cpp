@@ -42,9 +42,12 @@ void check_normals(const Call& call, const LoadedModel& target, Context& context
 // A plane body does not move out of its plane.
 void warn_of_weight_out_of_plane(const Call& call, const LoadedModel& target, Context& context) {
   if (!call.has("PESANTEUR")) return;
-  const auto& formulations = target.model.formulations;
-  const bool has_plane = std::ranges::any_of(formulations, [](solver::Formulation each) { return solver::continuum_dimension(each) == 2; });
-  const bool in_space = std::ranges::any_of(formulations, [](solver::Formulation each) { return each != solver::Formulation::none && solver::continuum_dimension(each) != 2; });
+  const int cells = target.mesh.cell_count();
+  bool has_plane = false, in_space = false;
+  for (int cell = 0; cell < cells; ++cell) {
+    has_plane = has_plane || solver::continuum_dimension(target.model.formulations[static_cast<std::size_t>(cell)]) == 2;
+    in_space = in_space || solver::contains(target.model.components_of(cell), solver::Component::dz);
+  }
   if (!has_plane || in_space) return;
   for (const Keywords& weight : call.factors("PESANTEUR")) {
     const auto direction = weight.reals("DIRECTION");

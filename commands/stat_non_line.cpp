@@ -72,8 +72,8 @@ solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initi
     if (!increment.given(instant)) return otherwise;
     const double wanted = increment.real(instant);
     const double reach = increment.real("PRECISION") * (wanted == 0.0 ? 1.0 : std::abs(wanted));
-    const auto found = std::find_if(all.begin(), all.end(), [&](double each) { return std::abs(each - wanted) <= reach; });
-    if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+    const auto nearest = std::ranges::min_element(all, {}, [&](double each) { return std::abs(each - wanted); });
+    if (nearest != all.end() && std::abs(*nearest - wanted) <= reach) return static_cast<std::size_t>(nearest - all.begin());
     throw DiagnosticError("unknown-step", fmt::format("LIST_INST has no instant {}", wanted), increment.span_of(instant),
                           fmt::format("it goes from {} to {}", all.front(), all.back()));
   };

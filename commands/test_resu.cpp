@@ -76,6 +76,7 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
   const auto components = components_tested(test, field.components);
   if (test.given("TYPE_TEST")) {
     auto nodes = names_a_place(test) ? selected_nodes(test, mesh) : std::vector<int>();
+    if (nodes.empty() && names_a_place(test)) throw DiagnosticError("empty-group", "what is named holds no node, and nothing is tested", test.span);
     if (nodes.empty()) {
       nodes.resize(static_cast<std::size_t>(mesh.node_count()));
       std::iota(nodes.begin(), nodes.end(), 0);

@@ -165,6 +165,8 @@ std::vector<double> read_initial_stresses(const ElementBlock& block, const Eleme
 
 /// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
 constexpr double initial_stress_tolerance = 1e-6;
+/// Of the largest of all: below, nothing is left of what cancels.
+constexpr double stress_rounding = 1e-12;
 
 std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed) {
   std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) * block.stress_names().size());
@@ -399,12 +401,16 @@ std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen:
   const ElementField of_plates = has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get())) : ElementField();
   std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh) : read_block(block, stress_names(block), &given, *model_.mesh);
   const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh) : stresses_of(block, u, state_, imposed_.get());
-  double largest = 0.0;
-  for (const double each : known) largest = std::max(largest, std::abs(each));
+  // Forces and moments have units of their own.
+  const std::vector<std::string> names = has_forces ? of_plates.components : stress_names(block);
+  const auto is_moment = [&](std::size_t k) { return names[k % names.size()].starts_with('M') ? 1 : 0; };
+  std::array<double, 2> largest = {0.0, 0.0};
+  for (std::size_t k = 0; k < known.size(); ++k) largest[is_moment(k)] = std::max(largest[is_moment(k)], std::abs(known[k]));
+  const double rounding = stress_rounding * std::max(largest[0], largest[1]);
   bool is_all = true;
   for (std::size_t k = 0; k < known.size(); ++k) {
     const double difference = excess[k] - known[k];
-    const bool is_rounding = std::abs(difference) <= initial_stress_tolerance * std::max(largest, std::abs(excess[k]));
+    const bool is_rounding = std::abs(difference) <= std::max(rounding, initial_stress_tolerance * std::max(largest[is_moment(k)], std::abs(excess[k])));
     excess[k] = is_rounding ? 0.0 : difference;
     is_all = is_all && is_rounding;
   }

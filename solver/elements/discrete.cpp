@@ -107,10 +107,9 @@ class DiscreteBlock final : public DiscreteElements {
   using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_size, max_size>;
 
   /// Whether what pulls at one end pulls back at the other, whatever the displacements.
-  static bool pulls_alike(const Eigen::MatrixXd& k) {
+  bool pulls_alike(const Eigen::MatrixXd& k) const {
     const Eigen::Index half = k.rows() / 2;
-    constexpr double rounding = 1e-12;
-    return (k.topRows(half) + k.bottomRows(half)).cwiseAbs().maxCoeff() <= rounding * k.cwiseAbs().maxCoeff();
+    return is_rounding(k.topRows(half) + k.bottomRows(half), k);
   }
 
   static void to_local(const double* global, const Eigen::Matrix3d& axes, int dimension, double* local) {

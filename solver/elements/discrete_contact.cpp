@@ -173,22 +173,17 @@ class DiscreteContact final : public DiscreteElements {
   }
 
   ElementMatrix rotation_stiffness(const DiscreteStiffness& stiffness, int cell) const {
-    // Of the largest entry, what turning the matrix into global axes leaves.
-    constexpr double rounding_share = 1e-12;
-    const int k = map_.components();
-    const double small = rounding_share * stiffness.matrix.cwiseAbs().maxCoeff();
     ElementMatrix rotations = stiffness.matrix;
+    Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(rotations.rows(), rotations.cols());
     for (int i = 0; i < rotations.rows(); ++i) {
       for (int j = 0; j < rotations.cols(); ++j) {
-        const bool turns = i % k >= translations_;
-        const bool is_coupled = turns != (j % k >= translations_) && std::abs(stiffness.matrix(i, j)) > small;
-        if (is_coupled || std::abs(stiffness.matrix(i, j) - stiffness.matrix(j, i)) > small) {
-          throw Error("unsupported", fmt::format("the discrete element on cell {} has contact, and a stiffness that couples translations and rotations, or is not symmetric", mesh_.cell_name(cell)),
-                      "give it a diagonal stiffness");
-        }
-        if (!turns || j % k < translations_) rotations(i, j) = 0.0;
+        if (is_turn(i) != is_turn(j)) coupling(i, j) = stiffness.matrix(i, j);
+        if (!is_turn(i) || !is_turn(j)) rotations(i, j) = 0.0;
       }
     }
+    if (!is_rounding(coupling, stiffness.matrix) || !is_rounding(stiffness.matrix - stiffness.matrix.transpose(), stiffness.matrix))
+      throw Error("unsupported", fmt::format("the discrete element on cell {} has contact, and a stiffness that couples translations and rotations, or is not symmetric", mesh_.cell_name(cell)),
+                  "give it a diagonal stiffness");
     return rotations;
   }
 

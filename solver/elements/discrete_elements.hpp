@@ -1,6 +1,9 @@
 // What blocks of discrete elements have in common, whatever their law.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,21 @@ class DiscreteElements : public ElementBlock {
         node_count_(static_cast<int>(mesh_.cell(cells.front()).size())),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_, gather_nodes(mesh_, cells_)) {}
+
+  bool is_turn(Eigen::Index unknown) const { return unknown % map_.components() >= translations_; }
+
+  /// Whether `rest` is what turning the stiffness into other axes leaves: translations and rotations have units of their own.
+  bool is_rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& stiffness) const {
+    constexpr double rounding_share = 1e-12;
+    std::array<double, 2> largest = {0.0, 0.0};
+    for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
+      for (Eigen::Index j = 0; j < stiffness.cols(); ++j)
+        if (is_turn(i) == is_turn(j)) largest[is_turn(i)] = std::max(largest[is_turn(i)], std::abs(stiffness(i, j)));
+    for (Eigen::Index i = 0; i < rest.rows(); ++i)
+      for (Eigen::Index j = 0; j < rest.cols(); ++j)
+        if (std::abs(rest(i, j)) > rounding_share * std::sqrt(largest[is_turn(i)]) * std::sqrt(largest[is_turn(j)])) return false;
+    return true;
+  }
 
   const Mesh& mesh_;
   Formulation formulation_;

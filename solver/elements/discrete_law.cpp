@@ -140,9 +140,7 @@ class DiscreteLaw final : public DiscreteElements {
   }
 
   bool is_diagonal(const Eigen::MatrixXd& matrix, const Member& made) const {
-    // Of the largest entry, what turning the matrix into global axes leaves.
-    constexpr double rounding_share = 1e-12;
-    return (matrix - ends(made.turn.transpose() * made.stiffness.asDiagonal() * made.turn)).cwiseAbs().maxCoeff() <= rounding_share * matrix.cwiseAbs().maxCoeff();
+    return is_rounding(matrix - ends(made.turn.transpose() * made.stiffness.asDiagonal() * made.turn), matrix);
   }
 
   /// [K], or [K -K; -K K] of two nodes.
@@ -171,7 +169,7 @@ class DiscreteLaw final : public DiscreteElements {
     const auto nodes = mesh_.cell(cells_[static_cast<std::size_t>(element)]);
     const std::vector<double> shares(nodes.size(), 1.0 / static_cast<double>(nodes.size()));
     MaterialPoint at;
-    state.sample(cells_[static_cast<std::size_t>(element)], nodes, shares, 0, at);
+    state.sample(cells_[static_cast<std::size_t>(element)], nodes, shares, VariableState::all_points, at);
     return at;
   }
 

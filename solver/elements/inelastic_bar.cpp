@@ -259,7 +259,7 @@ class InelasticBar final : public ElementBlock {
       constexpr std::array<double, 2> middle = {0.5, 0.5};
       const auto nodes = map_.nodes(element);
       MaterialPoint at;
-      state.sample(cells_[index], nodes, middle, 0, at);
+      state.sample(cells_[index], nodes, middle, VariableState::all_points, at);
       const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])], &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
       const Eigen::Vector3d centre = 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
       at.place({centre[0], centre[1], centre[2]});

@@ -14,6 +14,9 @@ namespace comma::solver {
 
 namespace {
 
+/// What a cosine of a right angle leaves.
+constexpr double rounding_of_direction = 1e-12;
+
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 bool any_axisymmetric(const Model& model, std::span<const int> cells) {
@@ -137,7 +140,8 @@ void add_discrete(const ForceInput& input, int cell, const AccelerationField& fi
 }  // namespace
 
 AccelerationField gravity_field(const GravityLoad& load, const Model& model) {
-  const Eigen::Vector3d acceleration(load.acceleration.data());
+  Eigen::Vector3d acceleration(load.acceleration.data());
+  if (std::abs(acceleration[0]) <= rounding_of_direction * acceleration.norm()) acceleration[0] = 0.0;
   if (acceleration[0] != 0.0 && any_axisymmetric(model, load.cells)) {
     throw Error("unsupported", "gravity in an axisymmetric model can only act along its axis Y",
                 "give it the direction (0, -1, 0)");
@@ -150,7 +154,7 @@ AccelerationField centrifugal_field(const RotationLoad& load, const Model& model
   if (!(given.norm() > 0.0)) throw Error("zero-vector", "the axis of a rotation has no length");
   const Eigen::Vector3d axis = given.normalized();
   const Eigen::Vector3d centre(load.centre.data());
-  const bool about_y = axis[0] == 0.0 && axis[2] == 0.0 && centre[0] == 0.0 && centre[2] == 0.0;
+  const bool about_y = std::hypot(axis[0], axis[2]) <= rounding_of_direction && std::hypot(centre[0], centre[2]) <= rounding_of_direction * centre.norm();
   if (!about_y && any_axisymmetric(model, load.cells)) {
     throw Error("unsupported", "an axisymmetric model can only turn about its axis Y",
                 "give the axis (0, 1, 0) and a centre on it");

@@ -269,7 +269,7 @@ class PlateBlock final : public ElementBlock {
     shares.fill(1.0 / Nodes);
     const auto nodes = map_.nodes(element);
     MaterialPoint at;
-    state.sample(cells_[element], nodes, shares, 0, at);
+    state.sample(cells_[element], nodes, shares, VariableState::all_points, at);
     std::array<double, 3> place{};
     for (const int node : nodes) {
       for (int j = 0; j < 3; ++j) place[j] += mesh_.nodes[node][j] / Nodes;

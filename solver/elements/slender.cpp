@@ -323,7 +323,7 @@ class SlenderBlock final : public ElementBlock {
     constexpr std::array<double, 2> middle = {0.5, 0.5};
     const auto nodes = map_.nodes(element);
     MaterialPoint at;
-    state.sample(cells_[element], nodes, middle, 0, at);
+    state.sample(cells_[element], nodes, middle, VariableState::all_points, at);
     std::array<double, 3> place{};
     for (int j = 0; j < 3; ++j) place[j] = 0.5 * (mesh_.nodes[nodes[0]][j] + mesh_.nodes[nodes[1]][j]);
     at.place(place);

@@ -18,7 +18,7 @@ MaterialPoint middle_point(const FieldInput& input, int cell) {
   constexpr std::array<double, 2> half = {0.5, 0.5};
   const auto nodes = input.model.mesh->cell(cell);
   MaterialPoint at;
-  input.state.sample(cell, nodes, half, 0, at);
+  input.state.sample(cell, nodes, half, VariableState::all_points, at);
   const Point& a = input.model.mesh->nodes[nodes[0]];
   const Point& b = input.model.mesh->nodes[nodes[1]];
   at.place({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});

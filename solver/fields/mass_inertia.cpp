@@ -100,7 +100,7 @@ class Moments {
     const Eigen::Vector3d b(mesh.nodes[nodes[1]].data());
     constexpr std::array<double, 2> half = {0.5, 0.5};
     MaterialPoint at;
-    input_.state.sample(cell, nodes, half, 0, at);
+    input_.state.sample(cell, nodes, half, VariableState::all_points, at);
     const double per_volume = density(*material_of(input_, cell).elasticity, at);
     const double length = (b - a).norm();
     // Areas go with the square of the place at most, second moments with its fourth power: three points are exact.
@@ -132,7 +132,7 @@ class Moments {
       const Eigen::Matrix<double, 3, 2> tangents = places * shape_derivatives(type, point.at);
       const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
       MaterialPoint at;
-      input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())}, 0, at);
+      input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())}, VariableState::all_points, at);
       const double mass = point.weight * normal.norm() * found->second.thickness * density(*material_of(input_, cell).elasticity, at);
       const Eigen::Vector3d x = places * shape + found->second.offset * normal.normalized();
       add_mass(mass, x, x * x.transpose());

@@ -29,7 +29,7 @@ MaterialPoint middle_of_plate(const FieldInput& input, int cell) {
   const auto nodes = input.model.mesh->cell(cell);
   const std::vector<double> shares(nodes.size(), 1.0 / static_cast<double>(nodes.size()));
   MaterialPoint at;
-  input.state.sample(cell, nodes, shares, 0, at);
+  input.state.sample(cell, nodes, shares, VariableState::all_points, at);
   std::array<double, 3> place{};
   for (const int node : nodes)
     for (std::size_t c = 0; c < 3; ++c) place[c] += input.model.mesh->nodes[static_cast<std::size_t>(node)][c] / static_cast<double>(nodes.size());

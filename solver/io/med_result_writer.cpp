@@ -224,12 +224,39 @@ std::string field_name(const std::string& result, std::string_view field) {
   return name.append(field);
 }
 
-void write_all(MedResultWriter& writer, std::span<const NamedResult> results) {
-  for (const NamedResult& each : results) {
-    for (const ResultStep& step : each.result.steps) {
-      for (const auto& [name, field] : step.fields) writer.write(field_name(each.name, name), step, field);
+/// The field with these components, those that it has not being absent.
+Field with_names(const Field& field, const std::vector<std::string>& names) {
+  Field result = field;
+  std::visit([&](auto& made) {
+    const auto& given = std::get<std::decay_t<decltype(made)>>(field);
+    const std::size_t width = given.components.size(), rows = width == 0 ? 0 : given.values.size() / width;
+    made.components = names;
+    made.values.assign(rows * names.size(), absent);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      const int column = given.component(names[c]);
+      for (std::size_t row = 0; row < rows && column >= 0; ++row) made.values[row * names.size() + c] = given.values[row * width + static_cast<std::size_t>(column)];
     }
-  }
+  }, result);
+  return result;
+}
+
+/// A field of the file has the components that any of its steps has: laws that change have other internal variables.
+void write_all(MedResultWriter& writer, std::span<const NamedResult> results) {
+  std::map<std::string, std::vector<std::string>> components;
+  const auto each_field = [&](auto&& visit) {
+    for (const NamedResult& each : results)
+      for (const ResultStep& step : each.result.steps)
+        for (const auto& [name, field] : step.fields) visit(field_name(each.name, name), step, field);
+  };
+  each_field([&](const std::string& name, const ResultStep&, const Field& field) {
+    std::vector<std::string>& all = components[name];
+    for (const std::string& component : components_of(field))
+      if (std::ranges::find(all, component) == all.end()) all.push_back(component);
+  });
+  each_field([&](const std::string& name, const ResultStep& step, const Field& field) {
+    const std::vector<std::string>& all = components.at(name);
+    writer.write(name, step, all == components_of(field) ? field : with_names(field, all));
+  });
 }
 
 }  // namespace

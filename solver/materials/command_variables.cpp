@@ -105,6 +105,10 @@ double VariableState::value(const Entry& entry, int cell, std::span<const int> n
         throw_incompatible(entry.variable, "has not one value for each node of an element");
       return interpolate(shape, [&](std::size_t a) { return field.at(cell, static_cast<int>(a), 0); });
     case Support::gauss_point:
+      if (point == all_points) {
+        const std::vector<double> even(static_cast<std::size_t>(points), 1.0 / points);
+        return interpolate(even, [&](std::size_t g) { return field.at(cell, static_cast<int>(g), 0); });
+      }
       if (point >= points) throw_incompatible(entry.variable, "has other Gauss points than the elements of the model");
       return field.at(cell, point, 0);
   }

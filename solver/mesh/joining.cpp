@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 #include "solver/mesh/groups.hpp"
 
 namespace comma::solver {
@@ -115,6 +116,7 @@ JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>&
   mesh.dimension = std::max(first.dimension, second.dimension);
   mesh.nodes = first.nodes;
   mesh.nodes.insert(mesh.nodes.end(), second.nodes.begin(), second.nodes.end());
+  leave_plane(mesh);
   Places here, there;
   here.nodes.resize(first.nodes.size());
   std::iota(here.nodes.begin(), here.nodes.end(), 0);

@@ -129,7 +129,19 @@ void turn_cell(Mesh& mesh, int cell) {
           type);
 }
 
+namespace {
+
+void require_no_solids(const Mesh& mesh, std::span<const int> skin) {
+  for (const int cell : skin)
+    if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3)
+      throw Error("wrong-cell", fmt::format("the group holds the solid cell {} ({}), which is no skin", mesh.cell_name(cell), name_of(mesh.cell_types[static_cast<std::size_t>(cell)])),
+                  "name a group of the faces alone (DEFI_GROUP, CREA_GROUP_MA with TYPE_MAILLE='2D')");
+}
+
+}  // namespace
+
 int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
+  require_no_solids(mesh, skin);
   const FacetMap facets = facets_behind(mesh, skin, support);
   int turned = 0;
   for (const int cell : skin) {
@@ -141,6 +153,7 @@ int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> supp
 }
 
 std::vector<int> loose_skin(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
+  require_no_solids(mesh, skin);
   const FacetMap facets = facets_behind(mesh, skin, support);
   std::vector<int> loose;
   std::ranges::copy_if(skin, std::back_inserter(loose), [&](int cell) { return !facets.contains(facet_key(mesh, cell)); });

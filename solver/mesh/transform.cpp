@@ -21,6 +21,7 @@ void move_nodes(Mesh& mesh, Move move) {
     const Vector moved = move(to_vector(node));
     node = {moved[0], moved[1], moved[2]};
   }
+  leave_plane(mesh);
 }
 
 }  // namespace
@@ -68,6 +69,7 @@ void displace(Mesh& mesh, const NodalField& displacements) {
       if (!std::isnan(shift)) mesh.nodes[static_cast<std::size_t>(node)][axis] += shift;
     }
   }
+  leave_plane(mesh);
 }
 
 }  // namespace comma::solver

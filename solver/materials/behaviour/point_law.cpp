@@ -178,7 +178,8 @@ PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) 
 PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now) const {
   const Eigen::Matrix3d back = deformation_gradient(input.gradient).inverse();
   const Eigen::Matrix3d moved = (input.gradient - input.past.gradient) * back;
-  const PlasticResponse result = integrate(input, now, small_strain(moved) - (input.inelastic - input.past.inelastic));
+  const Vector6d increment = small_strain(moved) - (input.inelastic - input.past.inelastic);
+  const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{second_stress_of(input.gradient, stress), Matrix6d::Zero(), stress, stress, {}};
   for (int k = 0; k < tensor_size; ++k) {
@@ -190,6 +191,7 @@ PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now
     response.tangent.col(k) = second_stress_of(input.gradient, result.tangent * components);
   }
   write(result.state, response);
+  write_plastic_strain(input, increment, result.state, response);
   return response;
 }
 

@@ -314,6 +314,30 @@ TEST_CASE("a file takes further steps, results and meshes, and keeps what it has
   }
 }
 
+TEST_CASE("a field has the components that any of its steps has") {
+  const auto mesh = small_mesh();
+  Result result;
+  for (int order = 0; order < 2; ++order) {
+    ResultStep& step = result.steps.emplace_back();
+    step.order = order;
+    step.instant = order;
+    const std::vector<std::string> names = order == 0 ? std::vector<std::string>{"V1"} : std::vector<std::string>{"V2", "V1"};
+    step.fields = {{"VARI_NOEU", NodalField{"VARI_R", names, std::vector<double>(6 * names.size(), 1.0 + order)}}};
+  }
+  const TemporaryFile file;
+  write_med_result(file.path(), mesh, "MESH", result, "RESU");
+  const MedFile med = MedFile::open_for_reading(file.path());
+  std::vector<double> values(12, -1.0);
+  const auto read = [&](int order) {
+    return MEDfieldValueWithProfileRd(med.id(), "RESU____VARI_NOEU", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE, MED_COMPACT_STMODE, MED_NO_PROFILE, MED_FULL_INTERLACE,
+                                      MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data()));
+  };
+  REQUIRE(read(0) >= 0);
+  CHECK(values == std::vector<double>{1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0});
+  REQUIRE(read(1) >= 0);
+  CHECK(values == std::vector<double>(12, 2.0));
+}
+
 TEST_CASE("a field that MED files cannot place is refused by name") {
   Result result;
   ResultStep step;

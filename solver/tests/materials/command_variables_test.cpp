@@ -44,6 +44,23 @@ TEST_CASE("command variables are linear in time and place", "[materials]") {
   CHECK(temperature(mesh, VariableState(mesh, variables, 10.0), 1, 0.0) == exactly(400.0));
 }
 
+TEST_CASE("elements with one value for all see the mean of the points that a field has", "[materials]") {
+  const Mesh mesh = two_bars();
+  CommandVariable variable;
+  variable.reference = 0.0;
+  variable.snapshots = {{0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::gauss_point, {"TEMP"}, {0, 2, 5}, {10, 30, 20.1, 20.1, 20.1}})}};
+  const std::vector variables = {variable};
+  const VariableState state(mesh, variables, 0.0);
+  const auto mean = [&](int cell) {
+    MaterialPoint at;
+    state.sample(cell, mesh.cell(cell), std::array{0.5, 0.5}, VariableState::all_points, at);
+    return at[Parameter::temperature];
+  };
+  CHECK(mean(0) == exactly(20.0));
+  CHECK(mean(1) == 20.1);
+  CHECK(temperature(mesh, state, 0, 0.5) == 10.0);
+}
+
 TEST_CASE("a uniform command variable is uniform to the last bit", "[materials]") {
   const Mesh mesh = two_bars();
   CommandVariable variable;

@@ -134,6 +134,20 @@ TEST_CASE("moving a mesh keeps its sizes as the motion says", "[mesh]") {
   CHECK_THROWS_AS(change_axes(mesh, {1, 0, 0}, {2, 0, 0}), Error);
 }
 
+TEST_CASE("a plane mesh that is moved out of its plane is one in space", "[mesh]") {
+  const auto dimension_after = [](auto&& move) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    move(mesh);
+    return mesh.dimension;
+  };
+  CHECK(dimension_after([](Mesh& m) { rotate(m, {0, 0, 0}, {0, 0, 1}, 0.7); }) == 2);
+  CHECK(dimension_after([](Mesh& m) { mirror(m, {1, 2, 0}, {1, 1, 0}); }) == 2);
+  CHECK(dimension_after([](Mesh& m) { rotate(m, {0, 0, 0}, {1, 0, 0}, 0.7); }) == 3);
+  CHECK(dimension_after([](Mesh& m) { translate(m, {0, 0, 1}); }) == 3);
+}
+
 TEST_CASE("a field of displacements moves the nodes that carry it", "[mesh]") {
   Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}};
