@@ -36,7 +36,7 @@ void add_pressures(const Call& call, Context& context, ResultConcept& data) {
   FieldsOfSteps computation(call, data);
   const solver::Mesh& mesh = data.result.mesh();
   require_mesh(call, "MAILLAGE", call.data<MeshConcept>("MAILLAGE").mesh.get(), mesh);
-  const auto cells = selected_cells(call, mesh);
+  const auto cells = needed(selected_cells(call, mesh), call, "cell");
   warn_of_missing_instants("CALC_PRESSION", call, context.diagnostics);
   for (const solver::ResultStep* chosen : selected_steps(call, data.result)) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/parts_of_model.hpp"
+#include "commands/result_reading.hpp"
 #include "commands/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
@@ -116,6 +117,7 @@ void add_distribution(Table& table, const Call& call, const Keywords& occurrence
 
 void list_norms(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   for (const Keywords& occurrence : call.factors("NORME")) {
+    warn_of_missing_instants("POST_ELEM", occurrence, diagnostics);
     for (const FieldSource& source : field_sources(occurrence)) {
       if (source.model == nullptr && !call.has("MODELE")) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
       if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), source.mesh);
@@ -127,6 +129,7 @@ void list_norms(Table& table, const Call& call, interpreter::Diagnostics& diagno
 void list_distributions(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto model = model_behind(call);
   for (const Keywords& occurrence : call.factors("VOLUMOGRAMME")) {
+    warn_of_missing_instants("POST_ELEM", occurrence, diagnostics);
     for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_distribution(table, call, occurrence, source, *model, diagnostics);
   }
 }

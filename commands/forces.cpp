@@ -254,7 +254,7 @@ void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load
 void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::PressureLoad> pressures;
   for (const Keywords& occurrence : call.factors("EFFE_FOND")) {
-    const auto rim = selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""});
+    const auto rim = needed(selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""}), occurrence, "cell of the rim");
     const Amount amount = amount_of(occurrence, "PRES");
     for (auto& pressure : solver::end_effect(target.mesh, selected_cells(occurrence, target.mesh), rim, amount.value, amount.function)) {
       pressures[pressure.cell] = std::move(pressure);

@@ -159,7 +159,7 @@ void warn_of_edges(const Keywords& keywords, const solver::Mesh& mesh, const std
 
 void add_face_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load, interpreter::Diagnostics& alarms) {
   const auto origin = origin_of(keywords, "FACE_IMPO");
-  const auto nodes = remaining_nodes(keywords, target.mesh);
+  const auto nodes = needed(remaining_nodes(keywords, target.mesh), keywords, "node");
   impose_components(keywords, nodes, target, origin, load);
   impose_holds(keywords, nodes, target, origin, load);
   const bool along_normal = keywords.given("DNOR") || keywords.given("DRNOR") || keywords.given("DTAN");
@@ -180,7 +180,7 @@ void add_face_displacements(const Keywords& keywords, const LoadedModel& target,
 
 void add_edge_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const auto origin = origin_of(keywords, "ARETE_IMPO");
-  const auto nodes = remaining_nodes(keywords, target.mesh);
+  const auto nodes = needed(remaining_nodes(keywords, target.mesh), keywords, "node");
   impose_components(keywords, nodes, target, origin, load);
   if (!keywords.given("DTAN")) return;
   const auto tangents = solver::mean_tangents(target.mesh, selected_cells(keywords, target.mesh));
@@ -195,7 +195,7 @@ void add_displacements_of_field(const Keywords& keywords, const LoadedModel& tar
 
 void add_beam_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const auto candidates = reference_cells(keywords, target.mesh);
-  const auto nodes = selected_nodes(keywords, target.mesh);
+  const auto nodes = needed(selected_nodes(keywords, target.mesh), keywords, "node");
   const double roll = keywords.has("ANGL_VRIL") ? keywords.real("ANGL_VRIL") * degree : 0.0;
   const auto axes = [&](int node) {
     const int cell = solver::beam_at_node(target.model, node, candidates);
@@ -208,7 +208,7 @@ void add_beam_displacements(const Keywords& keywords, const LoadedModel& target,
 
 void add_oblique_displacements(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const Eigen::Matrix3d axes = axes_of_angles(keywords.reals("ANGL_NAUT"));
-  impose_in_axes(keywords, selected_nodes(keywords, target.mesh), target, origin_of(keywords, "LIAISON_OBLIQUE"), load,
+  impose_in_axes(keywords, needed(selected_nodes(keywords, target.mesh), keywords, "node"), target, origin_of(keywords, "LIAISON_OBLIQUE"), load,
                  [&](int) -> const Eigen::Matrix3d& { return axes; });
 }
 

@@ -221,7 +221,11 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
     if (!summed) warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
     std::vector<int> skin;
     std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
+    const auto lost = std::ranges::count_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0 && !model.is_skin(cell) && model.components_of(cell) != 0; });
     std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
+    if (lost > 0 && !part.cells.empty())
+      diagnostics.alarm("limited-field", fmt::format("POST_ELEM: {} of the cells that are named carry no value of the field, and INTEGRALE leaves them out", lost), occurrence.span,
+                        "compute the field on all of them, or name those that have it by GROUP_MA");
     const bool over_skin = part.cells.empty() && !skin.empty() && std::holds_alternative<solver::NodalField>(source.field);
     const Integrals integrals = over_skin ? integrals_over_skin(source, model, skin) : inside;
     if (over_skin) part.cells = skin;

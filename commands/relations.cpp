@@ -90,7 +90,7 @@ struct Side {
 Side side_of(const Keywords& keywords, const LoadedModel& target, const std::string& number) {
   const PlaceKeywords names = {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number};
   Side side;
-  side.nodes = selected_nodes(keywords, target.mesh, names);
+  side.nodes = needed(selected_nodes(keywords, target.mesh, names), keywords, "node on one of its sides");
   side.cells = selected_cells(keywords, target.mesh, names);
   if (keywords.given("SOMMET")) {
     // Of nodes that are named themselves those are corners that are corners of any cell.
@@ -147,7 +147,7 @@ Relations between_facing_nodes(const Keywords& keywords, const LoadedModel& targ
 }
 
 Relations uniform_displacement(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
-  const auto nodes = remaining_nodes(keywords, target.mesh);
+  const auto nodes = needed(remaining_nodes(keywords, target.mesh), keywords, "node");
   Relations relations;
   for (const std::string& name : keywords.texts("DDL")) append(relations, solver::uniform(nodes, component_named(keywords, "DDL", name), origin));
   return relations;
@@ -158,7 +158,7 @@ Relations moved_body(const Keywords& keywords, const LoadedModel& target, const 
   constexpr double rounding = 1e-14;
   const solver::Placement motion = placement(keywords);
   Relations relations;
-  for (const int node : remaining_nodes(keywords, target.mesh)) {
+  for (const int node : needed(remaining_nodes(keywords, target.mesh), keywords, "node")) {
     const Eigen::Vector3d arm = Eigen::Vector3d(target.mesh.nodes[static_cast<std::size_t>(node)].data()) - motion.centre;
     const Eigen::Vector3d moved = motion.translation + motion.rotation * arm - arm;
     if (target.dofs.dof(node, Component::drz) >= 0) {
@@ -182,7 +182,7 @@ void add_rigid_body(const Keywords& keywords, const LoadedModel& target, solver:
   const solver::Origin origin = origin_of(keywords, "LIAISON_SOLIDE");
   if (keywords.given("TRAN") || keywords.given("ANGL_NAUT")) return append(load.relations, moved_body(keywords, target, origin));
   const double coincidence = keywords.has("DIST_MIN") ? keywords.real("DIST_MIN") : solver::default_coincidence(target.mesh);
-  const solver::RigidLink& link = load.rigid_links.emplace_back(remaining_nodes(keywords, target.mesh), coincidence, origin);
+  const solver::RigidLink& link = load.rigid_links.emplace_back(needed(remaining_nodes(keywords, target.mesh), keywords, "node"), coincidence, origin);
   Relations relations = solver::rigid_link(target.mesh, target.dofs, link.nodes, coincidence, origin);
   for (solver::LinearRelation& relation : relations) relation.rigid_link = static_cast<int>(load.rigid_links.size()) - 1;
   append(load.relations, std::move(relations));
@@ -190,7 +190,7 @@ void add_rigid_body(const Keywords& keywords, const LoadedModel& target, solver:
 
 // LIAISON_ELEM, 3D_POU and 2D_POU.
 Relations beam_on_section(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
-  const auto section = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"});
+  const auto section = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"}), keywords, "cell of the section");
   const int node = single_node(keywords, "NOEUD_2", "GROUP_NO_2", target.mesh);
   solver::SectionLink link = solver::section_link(target.mesh, section, node, origin);
   // U4.44.01, LIAISON_ELEM: the beam must end at the centroid of the section.
@@ -219,7 +219,7 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
   const int follower = single_node(keywords, "NOEUD_MAIT", "GROUP_NO_MAIT", target.mesh);
   solver::ComponentMask following = 0;
   for (const std::string& name : keywords.texts("DDL_MAIT")) following |= solver::mask_of(component_named(keywords, "DDL_MAIT", name));
-  const auto nodes = listed_nodes(keywords, target.mesh, "GROUP_NO_ESCL", "NOEUD_ESCL");
+  const auto nodes = needed(listed_nodes(keywords, target.mesh, "GROUP_NO_ESCL", "NOEUD_ESCL"), keywords, "slave node");
   const auto components = keywords.texts("DDL_ESCL");
   const auto weights = keywords.given("COEF_ESCL") ? keywords.reals("COEF_ESCL") : std::vector<double>{1.0};
   // One value stands for all nodes.
@@ -235,7 +235,7 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
 // LIAISON_COQUE: nodes that face each other move as one rigid body.
 Relations joined_shells(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes_of = [&](const std::string& number) {
-    return remaining_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number}, "_" + number);
+    return needed(remaining_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number}, "_" + number), keywords, "node on one of its sides");
   };
   Relations relations;
   for (const solver::NodePair& pair : solver::facing_nodes(target.mesh, nodes_of("1"), nodes_of("2"))) {
@@ -253,8 +253,8 @@ Relations weighted_by_field(const Keywords& keywords, const LoadedModel& target,
 }
 
 Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued, const solver::Origin& origin) {
-  const auto hosts = selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""});
-  auto nodes = selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""});
+  const auto hosts = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""}), keywords, "master cell");
+  auto nodes = needed(selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""}), keywords, "slave node");
   std::erase_if(nodes, [&](int node) { return glued.contains(node); });
   const double farthest = keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
   const auto embeddings = solver::embed(target.mesh, nodes, hosts, farthest);

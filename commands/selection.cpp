@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "commands/ordered_set.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/name_finder.hpp"
@@ -136,6 +138,11 @@ bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {
     if (takes(keywords, *name)) return true;
   }
   return false;
+}
+
+std::vector<int> needed(std::vector<int> selected, const Keywords& keywords, const char* what) {
+  if (selected.empty()) throw DiagnosticError("empty-group", fmt::format("what is named here holds no {}", what), keywords.span, "look at the groups, and at what is left out");
+  return selected;
 }
 
 }  // namespace comma::commands

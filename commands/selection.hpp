@@ -63,4 +63,7 @@ int single_node(const interpreter::Keywords& keywords, const std::string& node_k
 /// Whether any of the keywords is given.
 bool names_a_place(const interpreter::Keywords& keywords, const PlaceKeywords& names = {});
 
+/// What was selected, of which there must be some. Throws DiagnosticError `empty-group` where what the keywords name holds none.
+std::vector<int> needed(std::vector<int> selected, const interpreter::Keywords& keywords, const char* what);
+
 }  // namespace comma::commands

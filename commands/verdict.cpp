@@ -76,8 +76,9 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
                            const TestedValue& computed) {
   Verdict common = verdict_at(test, command, label, computed);
   common.relative = test.texts("CRITERE").empty() || test.texts("CRITERE").front() == "RELATIF";
-  if (test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI" && std::holds_alternative<double>(computed)) {
-    common.computed = std::abs(std::get<double>(computed));
+  if (test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI") {
+    if (const auto* real = std::get_if<double>(&computed)) common.computed = std::abs(*real);
+    if (const auto* integer = std::get_if<std::int64_t>(&computed)) common.computed = std::abs(*integer);
   }
 
   std::vector<Verdict> verdicts;

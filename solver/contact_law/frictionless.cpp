@@ -14,6 +14,8 @@ constexpr int changes_a_row = 30;
 /// Rounds with springs that follow the body, and the change of their forces, as a share of the largest of contact, at which they are at rest.
 constexpr int most_rounds = 200;
 constexpr double at_rest = 1e-13;
+/// Below this share they are at rest where they shrink no more: products of many rows round them.
+constexpr double nearly_at_rest = 1e-9;
 /// The excess of a row that is never active.
 constexpr double never = -std::numeric_limits<double>::max() / 4.0;
 
@@ -115,6 +117,7 @@ std::optional<CondensedSolution> solve_afloat(SchurComplement& schur, const Cond
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(without.size());
   ActiveSetMemory memory;
   int iterations = 0;
+  double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
     asked.excess = without - schur.times(forces);
     for (const CondensedSpring& spring : problem.springs) asked.excess[spring.row] = never;
@@ -122,8 +125,10 @@ std::optional<CondensedSolution> solve_afloat(SchurComplement& schur, const Cond
     if (solution.verdict != ActiveSetVerdict::solved) return std::nullopt;
     iterations += solution.iterations + 1;
     const Eigen::VectorXd change = spring_forces(problem, schur.times(forces + solution.multipliers) - without) - forces;
-    if (change.lpNorm<Eigen::Infinity>() <= at_rest * solution.multipliers.lpNorm<Eigen::Infinity>())
+    const double left = change.lpNorm<Eigen::Infinity>(), size = solution.multipliers.lpNorm<Eigen::Infinity>();
+    if (left <= at_rest * size || (left <= nearly_at_rest * size && left >= 0.5 * last))
       return conclude(solution, solution.multipliers + forces, iterations, problem, state);
+    last = left;
     forces += solution.active == asked.guess ? change_to_rest(schur, problem, solution.active, change) : change;
     asked.guess = solution.active;
   }

@@ -75,6 +75,7 @@ void NodalStep::add_spring(int place, double stiffness) {
   spring.by_jump = -stiffness * Matrix3d::Identity();
   spring.constant = Vector3d::Zero();
   spring.inverse.setZero();
+  has_springs_ = true;
   points_.push_back(spring);
   changes_.emplace_back();
 }
@@ -135,10 +136,17 @@ std::vector<ForceBlock> NodalStep::blocks() const {
 
 std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, const VectorXd& balance, NearInverse& near, const GmresOptions& options) {
   std::vector<VectorXd> responses;
+  // A spring as stiff as the body that comes off again leaves nothing of single precision.
+  const auto product = [&](const VectorXd& forces) -> VectorXd {
+    if (!has_springs_) return schur.times_roughly(rows_, forces);
+    VectorXd all = VectorXd::Zero(schur.size());
+    all(rows_) = forces;
+    return schur.times(all)(rows_);
+  };
   near.update(schur, blocks());
   const GmresSolution solution = solve_gmres(
       [&](const VectorXd& forces) {
-        responses.push_back(schur.times_roughly(rows_, forces));
+        responses.push_back(product(forces));
         return combined(forces, responses.back());
       },
       [&](const VectorXd& b) { return near(b); }, weighted(rhs(balance)), options);

@@ -36,7 +36,7 @@ class NodalStep {
 
   /// The jumps (one an unknown row) for what exceeds them now; columns of S must have been required.
   Eigen::VectorXd solve(const SchurComplement& schur, const Eigen::VectorXd& balance);
-  /// The same by products with S, in single precision; nothing where the tolerance is not reached.
+  /// The same by products with S, in single precision where there are no springs; nothing where the tolerance is not reached.
   std::optional<Eigen::VectorXd> solve_by_products(SchurComplement& schur, const Eigen::VectorXd& balance, NearInverse& near, const GmresOptions& options);
   /// After a solution.
   const std::vector<Change>& multiplier_changes() const { return changes_; }
@@ -61,6 +61,7 @@ class NodalStep {
 
   const std::vector<int>& rows_;
   std::vector<Point> points_;
+  bool has_springs_ = false;
   std::vector<Change> changes_;  ///< one a point, springs last and without a node
 };
 

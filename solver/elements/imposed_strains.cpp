@@ -90,9 +90,19 @@ ImposedStrains::ImposedStrains(const Model& model, std::span<const AppliedLoad> 
   }
 }
 
+namespace {
+
+bool has_values(const ElementField& field, int cell) {
+  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
+  const auto first = field.values.begin() + field.starts[static_cast<std::size_t>(cell)] * width;
+  return std::any_of(first, first + field.points(cell) * width, [](double value) { return !std::isnan(value); });
+}
+
+}  // namespace
+
 bool ImposedStrains::acts_on(int cell) const {
   return continuum_.contains(cell) || slender_.contains(cell) || plates_.contains(cell) ||
-         std::ranges::any_of(fields_, [&](const PartField& part) { return part.field->points(cell) > 0; });
+         std::ranges::any_of(fields_, [&](const PartField& part) { return has_values(*part.field, cell); });
 }
 
 Vector6 ImposedStrains::continuum(int cell, int point, const Eigen::Vector3d& at) const {
