@@ -46,12 +46,26 @@ std::vector<int> count_by_column(const SymmetricMatrix& pattern, const RowMajor&
   return starts;
 }
 
+double contribution_count(const SymmetricMatrix& pattern, const RowMajor& transformation) {
+  const auto width = [&](int row) { return static_cast<double>(transformation.outerIndexPtr()[row + 1] - transformation.outerIndexPtr()[row]); };
+  double count = 0.0;
+  for (int j = 0; j < pattern.outerSize(); ++j)
+    for (SymmetricMatrix::InnerIterator it(pattern, j); it; ++it) count += width(static_cast<int>(it.row())) * width(j);
+  return count;
+}
+
 }  // namespace
 
-Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix<double>& transformation)
+Congruence::Congruence(const SymmetricMatrix& pattern, const Eigen::SparseMatrix<double>& transformation, double most)
     : outer_(pattern.outerIndexPtr(), pattern.outerIndexPtr() + pattern.outerSize() + 1),
       inner_(pattern.innerIndexPtr(), pattern.innerIndexPtr() + pattern.nonZeros()) {
   const RowMajor by_rows = transformation;
+  constexpr double many_each = 4.0;  // to an entry of K; with fewer the list takes less memory than whole matrices
+  const double count = contribution_count(pattern, by_rows);
+  if (count > most && count > many_each * static_cast<double>(pattern.nonZeros())) {
+    transformation_ = transformation;
+    return;
+  }
   const std::vector<int> starts = count_by_column(pattern, by_rows);
   std::vector<WeightedRow> contributions(starts.back());
   std::vector<int> next(starts.begin(), starts.end() - 1);
@@ -95,6 +109,12 @@ bool Congruence::fits(const SymmetricMatrix& matrix) const {
 }
 
 SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
+  if (transformation_.size() > 0) {
+    const Eigen::SparseMatrix<double> whole = matrix.selfadjointView<Eigen::Lower>();
+    const Eigen::SparseMatrix<double> moved = whole * transformation_;
+    const Eigen::SparseMatrix<double> product = Eigen::SparseMatrix<double>(transformation_.transpose()) * moved;
+    return product.triangularView<Eigen::Lower>();
+  }
   SymmetricMatrix result = product_;
   const double* from = matrix.valuePtr();
   double* to = result.valuePtr();

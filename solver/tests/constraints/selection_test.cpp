@@ -44,6 +44,16 @@ TEST_CASE("what is selected of a matrix is its congruence, entry by entry") {
   CHECK(Eigen::MatrixXd(found) == Eigen::MatrixXd(expected));
 }
 
+TEST_CASE("a congruence with too many contributions to list is the same") {
+  std::vector<Eigen::Triplet<double>> dense;
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 4; ++column) dense.emplace_back(row, column, 0.1 * row - 0.3 * column + 0.05 * row * column);
+  const Sparse ties = transformation(5, 4, dense);
+  const SymmetricMatrix whole = stiffness(5);
+  const Eigen::MatrixXd listed = Eigen::MatrixXd(Congruence(whole, ties).apply(whole)), multiplied = Eigen::MatrixXd(Congruence(whole, ties, 0.0).apply(whole));
+  CHECK((listed - multiplied).norm() < 1e-13 * listed.norm());
+}
+
 TEST_CASE("with nothing left out the matrix stays as it is, with all left out nothing of it stays") {
   const SymmetricMatrix whole = stiffness(3);
   CHECK(Eigen::MatrixXd(select_unknowns(SymmetricMatrix(whole), std::vector<int>{0, 1, 2})) == Eigen::MatrixXd(whole));
