@@ -43,10 +43,15 @@ std::shared_ptr<TableRows> TableRows::where(const std::function<bool(const Dict&
   return kept;
 }
 
-bool TableRows::holds(const Dict& row, const std::vector<std::string>& names) const {
-  return std::ranges::any_of(rows, [&](const auto& own) {
-    return std::ranges::all_of(names, [&](const std::string& name) { return equal(cell_in(*own, Value(name)), cell_in(row, Value(name))); });
-  });
+std::function<bool(const Dict&)> TableRows::membership(const std::vector<std::string>& names) const {
+  const auto cells = [names](const Dict& row) {
+    std::vector<Value> values;
+    for (const std::string& name : names) values.push_back(cell_in(row, Value(name)));
+    return Value::tuple(std::move(values));
+  };
+  auto known = std::make_shared<Dict>();
+  for (const auto& row : rows) known->set(cells(*row), Value(true));
+  return [cells, known](const Dict& row) { return known->find(cells(row)) != nullptr; };
 }
 
 namespace {

@@ -23,8 +23,8 @@ struct TableRows {
   std::vector<interpreter::Value> column(const std::string& name) const;
   /// The same table with the rows that pass.
   std::shared_ptr<TableRows> where(const std::function<bool(const interpreter::Dict&)>& passes) const;
-  /// Whether one of its rows has the same cells in these columns.
-  bool holds(const interpreter::Dict& row, const std::vector<std::string>& names) const;
+  /// Tells of rows whether one of this table's has the same cells in these columns; of the rows as they are now.
+  std::function<bool(const interpreter::Dict&)> membership(const std::vector<std::string>& names) const;
 };
 
 /// The cell of a row, None where it is empty.

@@ -231,7 +231,7 @@ Value from_function(TableRows& table, Evaluator& evaluator, const MethodArgument
 Value without_rows_of(TableRows& table, Evaluator&, const MethodArguments& given) {
   const RowsPtr other = rows_behind(given.value("other"));
   if (!other || other->columns != table.columns) raise(ErrorKind::type, "difference() takes a table with the same columns");
-  return table_value(table.where([&](const Dict& row) { return !other->holds(row, table.columns); }));
+  return table_value(table.where([is_there = other->membership(table.columns)](const Dict& row) { return !is_there(row); }));
 }
 
 Value reorder(TableRows& table, Evaluator&, const MethodArguments& given) {
@@ -302,10 +302,11 @@ struct TableObject : HostObject {
   std::optional<Value> combined(Operator op, const Value& other) const override {
     const RowsPtr right = rows_behind(other);
     if (!right || right->columns != table->columns || (op != Operator::bit_and && op != Operator::bit_or)) return std::nullopt;
-    if (op == Operator::bit_and) return table_value(table->where([&](const Dict& row) { return right->holds(row, table->columns); }));
+    if (op == Operator::bit_and) return table_value(table->where(right->membership(table->columns)));
     auto united = std::make_shared<TableRows>(*table);
+    const auto is_there = table->membership(table->columns);
     for (const auto& row : right->rows)
-      if (!table->holds(*row, table->columns)) united->rows.push_back(row);
+      if (!is_there(*row)) united->rows.push_back(row);
     return table_value(std::move(united));
   }
   /// The column of a name, or the table of those of several.
