@@ -332,17 +332,20 @@ int NewtonSolver::zone_of(int row) const { return conditions_->row_zones[static_
 
 std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
   std::vector<double> result(zones, 0.0);
-  std::map<int, std::vector<int>> rows_of;
-  for (const int row : active_) rows_of[zone_of(row)].push_back(row);
-  const Eigen::VectorXd pushed_by_all = push_of_active();
-  for (const auto& [zone, rows] : rows_of) {
-    double& most = result[static_cast<std::size_t>(zone)];
-    most = largest_component(pushed_by_all(rows));
-    if (rows_of.size() == 1) continue;
+  std::map<int, std::vector<int>> closed;
+  for (const int row : active_) closed[zone_of(row)].push_back(row);
+  const auto take = [&](const Eigen::VectorXd& pushed, auto&& is_meant) {
+    for (int row = 0; row < static_cast<int>(pushed.size()); ++row) {
+      double& most = result[static_cast<std::size_t>(zone_of(row))];
+      if (is_meant(zone_of(row))) most = std::max(most, std::abs(pushed[row]));
+    }
+  };
+  take(push_of_active(), [&](int zone) { return closed.contains(zone); });
+  if (closed.size() < 2) return result;
+  for (const auto& [zone, rows] : closed) {
     Eigen::VectorXd own = Eigen::VectorXd::Zero(row_multipliers_.size());
     own(rows) = row_multipliers_(rows);
-    const Eigen::VectorXd pushed = compliance_times(own) - reduced_.inequalities.softness.cwiseProduct(own);
-    most = std::max(most, largest_component(pushed(rows)));
+    take(compliance_times(own) - reduced_.inequalities.softness.cwiseProduct(own), [&, zone = zone](int each) { return each == zone; });
   }
   return result;
 }

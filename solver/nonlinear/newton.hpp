@@ -63,7 +63,7 @@ class NewtonSolver {
   /// What residuals may do from now on.
   void watch(const ResidualWatch& residuals) { watch_ = residuals; }
 
-  /// How far contact forces, all or those of the zone alone, move the nodes of its conditions that are closed, at most, zone by zone (lengths).
+  /// How far contact forces, all or those of the zone alone, move the nodes of its conditions, at most, zone by zone (lengths); 0 of zones where nothing is closed.
   std::vector<double> pushed_back(std::size_t zones);
   /// Of a step that has converged: how far bounds that give way are passed.
   void note_doubts(ContactDoubts& doubts);
