@@ -45,7 +45,7 @@ const std::map<std::string, Formulation, std::less<>>& formulations() {
   return table;
 }
 
-// Plane elements see X and Y alone, and loads on their edges the length in space.
+// Plane elements, bars too, see X and Y alone, and loads on their edges the length in space.
 void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assignment) {
   constexpr double largest_slope = 1e-3;  // the error in lengths is half of its square
   Eigen::AlignedBox3d box;
@@ -91,7 +91,7 @@ Product affe_modele(const Call& call, Context& context) {
     for (const int cell : selected_cells(assignment, mesh)) {
       // A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay as they are.
       if (!solver::has_element(formulation, mesh.cell_types[cell])) continue;
-      if (solver::continuum_dimension(formulation) == 2) require_flat_cell(mesh, cell, assignment);
+      if (solver::continuum_dimension(formulation) == 2 || formulation == Formulation::bar_2d) require_flat_cell(mesh, cell, assignment);
       model->formulations[cell] = formulation;
       ++assigned;
     }

@@ -310,16 +310,31 @@ Field FieldComputation::section_strains(std::size_t step) {
   const ElementField forces = section_forces(forces_at_nodes(step));
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
-  if (!names_one("NXX")) return generalised_strains(input(), forces, &imposed);
+  if (!names_one("NXX")) return with_flow_of_bars(generalised_strains(input(), forces, &imposed), step);
   if (strains_act_on(step, plate_cells(*problem_.model))) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
   const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
-  return names_one("N") ? side_by_side(generalised_strains(input(), forces, &imposed), of_plates) : of_plates;
+  return names_one("N") ? side_by_side(with_flow_of_bars(generalised_strains(input(), forces, &imposed), step), of_plates) : of_plates;
+}
+
+// The elongation of a bar that flows does not follow from its force.
+ElementField FieldComputation::with_flow_of_bars(ElementField strains, std::size_t step) {
+  const int axial = strains.component("EPXX");
+  if (!problem_.behaviours || axial < 0) return strains;
+  const ElementField* whole = nullptr;
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell) {
+    if (!is_bar(problem_.model->formulations[static_cast<std::size_t>(cell)]) || !solver::has_memory((*problem_.behaviours)[static_cast<std::size_t>(cell)])) continue;
+    if (whole == nullptr) whole = &element_field("EPSI_ELGA", step);
+    const int column = whole->component("EPXX");
+    for (int point = 0; point < strains.points(cell) && whole->points(cell) > 0 && column >= 0; ++point)
+      strains.values[static_cast<std::size_t>(strains.starts[cell] + point) * strains.components.size() + static_cast<std::size_t>(axial)] = whole->at(cell, 0, column);
+  }
+  return strains;
 }
 
 Field FieldComputation::section_strains_at_points(std::size_t step) {
   require_no_initial_stresses("DEGE_ELGA", step);
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
-  return generalised_strains(input(), element_field("EFGE_ELGA", step), &imposed);
+  return with_flow_of_bars(generalised_strains(input(), element_field("EFGE_ELGA", step), &imposed), step);
 }
 
 Field FieldComputation::total_strains(std::size_t step) {

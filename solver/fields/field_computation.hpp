@@ -67,6 +67,7 @@ class FieldComputation {
   Field end_forces(std::size_t step);
   Field fibre_stresses(std::size_t step);
   Field largest_stresses(std::size_t step);
+  ElementField with_flow_of_bars(ElementField strains, std::size_t step);
   Field section_strains(std::size_t step);
   Field section_strains_at_points(std::size_t step);
   Field total_strains(std::size_t step);
