@@ -260,33 +260,31 @@ std::vector<int> TangentSystem::bodies() const {
   return body;
 }
 
-Eigen::VectorXd TangentSystem::magnitudes(const Eigen::VectorXd& u) const {
+double& TangentSystem::Largest::of(Component component) { return component <= Component::dz ? translation : is_rotation(component) ? rotation : other; }
+
+std::vector<TangentSystem::Largest> TangentSystem::largest_of_bodies(const Eigen::VectorXd& u) const {
   if (body_of_node_.empty()) body_of_node_ = bodies();
-  constexpr int kinds = 3;
-  const auto slot = [&](int dof) {
-    const Component component = dofs_.component_of(dof);
-    const int kind = component <= Component::dz ? 0 : is_rotation(component) ? 1 : 2;
-    return static_cast<std::size_t>(kinds * body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))] + kind);
-  };
-  std::vector<double> largest(kinds * body_of_node_.size(), 0.0);
-  for (int dof = 0; dof < dofs_.size(); ++dof) largest[slot(dof)] = std::max(largest[slot(dof)], std::abs(u[dof]));
+  std::vector<Largest> largest(body_of_node_.size());
+  for (int dof = 0; dof < dofs_.size(); ++dof) {
+    double& most = largest[body_of(dof)].of(dofs_.component_of(dof));
+    most = std::max(most, std::abs(u[dof]));
+  }
+  return largest;
+}
+
+Eigen::VectorXd TangentSystem::magnitudes(const Eigen::VectorXd& u) const {
+  std::vector<Largest> largest = largest_of_bodies(u);
   Eigen::VectorXd result(dofs_.size());
-  for (int dof = 0; dof < dofs_.size(); ++dof) result[dof] = largest[slot(dof)];
+  for (int dof = 0; dof < dofs_.size(); ++dof) result[dof] = largest[body_of(dof)].of(dofs_.component_of(dof));
   return result;
 }
 
 Eigen::VectorXd TangentSystem::sizes_times(const Eigen::VectorXd& u) const {
-  if (body_of_node_.empty()) body_of_node_ = bodies();
-  const auto body_of = [&](int dof) { return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]); };
-  std::vector<double> translation(body_of_node_.size(), 0.0), rotation = translation;
-  for (int dof = 0; dof < dofs_.size(); ++dof) {
-    double& largest = (is_rotation(dofs_.component_of(dof)) ? rotation : translation)[body_of(dof)];
-    largest = std::max(largest, std::abs(u[dof]));
-  }
+  const std::vector<Largest> largest = largest_of_bodies(u);
   Eigen::VectorXd result(row_sizes_.size());
   for (Eigen::Index row = 0; row < result.size(); ++row) {
-    const std::size_t body = body_of(elimination_.kept()[static_cast<std::size_t>(row)]);
-    result[row] = translation[body] * (row_sizes_[row] - rotation_sizes_[row]) + rotation[body] * rotation_sizes_[row];
+    const Largest& own = largest[body_of(elimination_.kept()[static_cast<std::size_t>(row)])];
+    result[row] = std::max(own.translation, own.other) * (row_sizes_[row] - rotation_sizes_[row]) + own.rotation * rotation_sizes_[row];
   }
   return result;
 }

@@ -105,6 +105,11 @@ class TangentSystem {
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
+  /// The largest unknowns of a body.
+  struct Largest {
+    double translation = 0.0, rotation = 0.0, other = 0.0;
+    double& of(Component component);
+  };
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
   bool is_known(TangentKind kind) const;
@@ -118,6 +123,8 @@ class TangentSystem {
   FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
   std::vector<int> bodies() const;
+  std::size_t body_of(int dof) const { return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]); }
+  std::vector<Largest> largest_of_bodies(const Eigen::VectorXd& u) const;
 
   const Model& model_;
   const DofMap& dofs_;
