@@ -60,36 +60,32 @@ bool stands_still(std::span<const IterationReport> history) { return comes_again
 /// More iterations bring no other residuals.
 bool goes_to_and_fro(std::span<const IterationReport> history) { return comes_again(history, 2); }
 
-std::string likely_cause(std::span<const IterationReport> history, const IteratedProblem& problem) {
-  const IterationReport& last = history.back();
-  if (!std::isfinite(last.absolute_residual)) return "the residual is not a number: forces or properties are unbounded";
-  if (is_unbalanced(history, problem.is_linear) && !problem.unheld.empty()) return "nothing balances the loads: a body moves along what neither supports nor contact hold";
-  if (is_unbalanced(history, problem.is_linear) && !problem.has_contact) return "the loads are lost in the rounding of larger forces, such as those of displacements that are imposed";
-  if (is_unbalanced(history, problem.is_linear))
-    return last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them";
-  if (problem.is_linear) return "the limit asks for more than rounding allows: the problem is linear and solved as well as it can be";
-  if (is_rounding(history)) return "the limit asks for more than rounding allows: of the loads, hardly a share is left";
-  if (stands_still(history)) return "the residual falls no more";
-  if (goes_to_and_fro(history)) return "the iterations go to and fro between the same states";
-  if (last.contact_changes > 0) return "the contact status still changes from one iteration to the next";
-  if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
-    return "the residual grows: the step is too large for Newton's method";
-  return "the residual shrinks too slowly for the iterations allowed";
+struct Diagnosis {
+  std::string_view cause, remedy;
+};
+
+Diagnosis diagnosis_of_unbalanced(const IterationReport& last, const IteratedProblem& problem) {
+  if (!problem.unheld.empty()) return {"nothing balances the loads: a body moves along what neither supports nor contact hold", hold_it};
+  if (!problem.has_contact)
+    return {"the loads are lost in the rounding of larger forces, such as those of displacements that are imposed", "say how much may be left of them (RESI_GLOB_MAXI, a force)"};
+  return {last.active_conditions == 0 ? "nothing balances the loads: no condition of contact holds the body, and nothing else does" : "the conditions of contact do not balance the loads: the body moves along them",
+          "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO"};
 }
 
-std::string remedy(std::span<const IterationReport> history, const IteratedProblem& problem) {
+Diagnosis likely_cause(std::span<const IterationReport> history, const IteratedProblem& problem) {
+  constexpr std::string_view raise_limit = "raise RESI_GLOB_MAXI or RESI_GLOB_RELA", iterate_more = "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
   const IterationReport& last = history.back();
-  if (!std::isfinite(last.absolute_residual)) return "check the materials, sections and load functions";
-  if (is_unbalanced(history, problem.is_linear) && !problem.unheld.empty())
-    return std::string(hold_it);
-  if (is_unbalanced(history, problem.is_linear) && !problem.has_contact) return "say how much may be left of them (RESI_GLOB_MAXI, a force)";
-  if (is_unbalanced(history, problem.is_linear))
-    return "look at which surfaces face each other (GROUP_MA_MAIT, GROUP_MA_ESCL, their normals, what is excluded) and where the loads push, or hold the body by DDL_IMPO";
-  if (problem.is_linear || is_rounding(history)) return "raise RESI_GLOB_MAXI or RESI_GLOB_RELA";
+  if (!std::isfinite(last.absolute_residual)) return {"the residual is not a number: forces or properties are unbounded", "check the materials, sections and load functions"};
+  if (is_unbalanced(history, problem.is_linear)) return diagnosis_of_unbalanced(last, problem);
+  if (problem.is_linear) return {"the limit asks for more than rounding allows: the problem is linear and solved as well as it can be", raise_limit};
+  if (is_rounding(history)) return {"the limit asks for more than rounding allows: of the loads, hardly a share is left", raise_limit};
   if (stands_still(history))
-    return "more iterations do not help: where a material flows without hardening the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or search along the correction (RECH_LINEAIRE)";
-  if (goes_to_and_fro(history)) return "take smaller steps, or search along the correction (RECH_LINEAIRE): more iterations do not help";
-  return "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
+    return {"the residual falls no more",
+            "more iterations do not help: where a material flows without hardening the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or search along the correction (RECH_LINEAIRE)"};
+  if (goes_to_and_fro(history)) return {"the iterations go to and fro between the same states", "take smaller steps, or search along the correction (RECH_LINEAIRE): more iterations do not help"};
+  if (last.contact_changes > 0) return {"the contact status still changes from one iteration to the next", iterate_more};
+  if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual) return {"the residual grows: the step is too large for Newton's method", iterate_more};
+  return {"the residual shrinks too slowly for the iterations allowed", iterate_more};
 }
 
 std::string but_for_contact(const std::string& unheld) { return unheld.empty() ? "" : "; but for contact " + unheld; }
@@ -138,11 +134,12 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
 
 void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options, const IteratedProblem& problem) {
   const IterationReport& last = history.back();
+  const Diagnosis diagnosis = likely_cause(history, problem);
   throw Error("no-convergence",
               fmt::format("no convergence at t = {:.6g} after {} of {} iterations: {}{}, largest residual {:.3e} ({}){}", time,
-                          last.iteration, std::max(last.iteration, options.max_iterations), likely_cause(history, problem), but_for_contact(problem.unheld), last.absolute_residual,
+                          last.iteration, std::max(last.iteration, options.max_iterations), diagnosis.cause, but_for_contact(problem.unheld), last.absolute_residual,
                           last.worst, table(history)),
-              remedy(history, problem));
+              std::string(diagnosis.remedy));
 }
 
 void throw_lost_body(double time, double sizes, const std::string& unheld) {
