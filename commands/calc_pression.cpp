@@ -8,6 +8,7 @@
 #include "commands/selection.hpp"
 #include "solver/fields/boundary_pressure.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::commands {
 
@@ -15,8 +16,7 @@ namespace {
 
 // GEOMETRIE: as the mesh is, or moved by the displacements of the step.
 std::vector<Eigen::Vector3d> positions_at(const Call& call, const solver::Mesh& mesh, const solver::ResultStep& step) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const solver::Point& node : mesh.nodes) positions.emplace_back(node[0], node[1], node[2]);
+  std::vector<Eigen::Vector3d> positions = solver::places(mesh);
   if (call.text("GEOMETRIE") == "INITIALE") return positions;
   const auto found = step.fields.find("DEPL");
   if (found == step.fields.end()) return positions;

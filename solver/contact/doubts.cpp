@@ -8,6 +8,7 @@
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/cell_type.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 namespace {
@@ -98,11 +99,7 @@ void PassedMaster::look(Positions positions, std::span<const double> pushed_back
 
 void PassedMaster::look_at(int index, Positions positions, double pushed, double time) {
   const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
-  if (!initial_.contains(index)) {
-    std::vector<Eigen::Vector3d> places;
-    for (const Point& node : mesh_.nodes) places.emplace_back(node[0], node[1], node[2]);
-    initial_.emplace(index, depths(zone, places, time));
-  }
+  if (!initial_.contains(index)) initial_.emplace(index, depths(zone, places(mesh_), time));
   const Depths& before = initial_.at(index);
   const Depths now = depths(zone, positions, time);
   double sum = 0.0;

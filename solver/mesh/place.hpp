@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,6 +16,14 @@ namespace comma::solver {
 inline Eigen::Vector3d to_vector(const Point& point) { return Eigen::Vector3d(point.data()); }
 inline Point to_point(const Eigen::Vector3d& at) { return {at[0], at[1], at[2]}; }
 inline Eigen::Vector3d place(const Mesh& mesh, int node) { return to_vector(mesh.nodes[node]); }
+
+/// Of all nodes.
+inline std::vector<Eigen::Vector3d> places(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> result;
+  result.reserve(mesh.nodes.size());
+  for (const Point& node : mesh.nodes) result.push_back(to_vector(node));
+  return result;
+}
 
 /// A plane mesh whose nodes have left the plane is one in space from then on.
 inline void leave_plane(Mesh& mesh) {

@@ -77,28 +77,30 @@ Eigen::VectorXd MixedContact::jumps_without(const Eigen::VectorXd& contact_force
     tangent_.solve_once(push);
     return jumps(u) - reduced_rows_ * push;
   }
+  return jumps(u) - pushed_by(contact_forces);
+}
+
+Eigen::VectorXd MixedContact::pushed_by(const Eigen::VectorXd& contact_forces) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
   forces.head(contact_forces.size()) = contact_forces;
-  return jumps(u) - schur_->times(forces).head(contact_forces.size());
+  return schur_->times(forces).head(contact_forces.size());
 }
 
 /// Zone by zone, by all forces or by its own alone: those of another zone may push the other way, and where a zone has none they are no measure of it.
 std::vector<double> MixedContact::pushed_back() {
   std::vector<double> result(definition_.zones.size(), 0.0);
   if (!schur_ || forces_.size() == 0) return result;
-  std::vector<std::vector<std::size_t>> points_of(result.size());
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    if (problem_.points[p].rows > 0) points_of[static_cast<std::size_t>(points_[p].zone)].push_back(p);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(schur_->size());
-  all.head(forces_.size()) = forces_;
-  const Eigen::VectorXd pushed_by_all = schur_->times(all);
-  for (std::size_t zone = 0; zone < result.size(); ++zone) {
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
-    const auto rows_of = [&](std::size_t p) { return Eigen::seqN(problem_.points[p].first_row, problem_.points[p].rows); };
-    for (const std::size_t p : points_of[zone]) forces(rows_of(p)) = forces_(rows_of(p));
-    if (forces.isZero(0.0)) continue;
-    const Eigen::VectorXd pushed = result.size() > 1 ? schur_->times(forces) : pushed_by_all;
-    for (const std::size_t p : points_of[zone]) result[zone] = std::max({result[zone], largest_component(pushed(rows_of(p))), largest_component(pushed_by_all(rows_of(p)))});
+  const Eigen::VectorXd pushed_by_all = pushed_by(forces_);
+  for (int zone = 0; zone < static_cast<int>(result.size()); ++zone) {
+    const Eigen::VectorXd own = forces_of(zone, forces_);
+    if (own.isZero(0.0)) continue;
+    const Eigen::VectorXd pushed = result.size() > 1 ? pushed_by(own) : pushed_by_all;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (points_[p].zone != zone || problem_.points[p].rows == 0) continue;
+      const auto rows = Eigen::seqN(problem_.points[p].first_row, problem_.points[p].rows);
+      double& most = result[static_cast<std::size_t>(zone)];
+      most = std::max({most, largest_component(pushed(rows)), largest_component(pushed_by_all(rows))});
+    }
   }
   return result;
 }

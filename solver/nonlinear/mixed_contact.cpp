@@ -189,8 +189,7 @@ void MixedContact::choose_directions(Positions positions, double time) {
     zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
     return;
   }
-  std::vector<Vector3d> initial;
-  for (int node = 0; node < mesh_.node_count(); ++node) initial.push_back(place(mesh_, node));
+  const std::vector<Vector3d> initial = places(mesh_);
   const bool has_moved = !std::ranges::equal(positions, initial);
   std::vector<ContactPoint> others;
   try {

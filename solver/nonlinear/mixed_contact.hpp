@@ -92,7 +92,7 @@ class MixedContact {
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
   /// Of the last step: motions of bodies that nothing holds, not even the points that are closed.
   void note_loose_bodies(ContactDoubts& doubts) const;
-  /// How far contact forces move the points, at most (a length).
+  /// How far contact forces, all or those of the zone alone, move its points, at most, zone by zone (lengths); 0 of zones that have none.
   std::vector<double> pushed_back();
 
   /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
@@ -140,9 +140,10 @@ class MixedContact {
   void update_schur();
   Eigen::VectorXd shears() const;
   Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
-  /// The forces without those of other zones.
   double displacement_of_surfaces(const Eigen::VectorXd& u) const;
   double motion_of(int zone, const Eigen::VectorXd& u) const;
+  Eigen::VectorXd pushed_by(const Eigen::VectorXd& contact_forces);
+  /// The forces without those of other zones.
   Eigen::VectorXd forces_of(int zone, Eigen::VectorXd forces) const;
   void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
   void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
