@@ -183,6 +183,11 @@ Eigen::VectorXd rounded(const std::vector<long double>& sums) {
 
 }  // namespace
 
+void throw_no_energies(std::string_view elements, const std::string& cell) {
+  throw Error("unsupported", fmt::format("comma does not compute energies of {}, such as {}", elements, cell),
+              "take ENEL_ELGA of CALC_CHAMP, which other cells have, and integrate it over those (POST_ELEM, INTEGRALE)");
+}
+
 void throw_unsupported_element(const Model& model, int cell) {
   throw Error("unsupported", fmt::format("there is no element of the formulation asked for on cell {} ({})",
                                          model.mesh->cell_name(cell), name_of(model.mesh->cell_types[cell])));

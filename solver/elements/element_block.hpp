@@ -152,5 +152,7 @@ std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells);
 
 /// Error for a cell that has no element: formulation and cell type do not go together.
 [[noreturn]] void throw_unsupported_element(const Model& model, int cell);
+/// Error `unsupported`, of elements whose energies are not known; `elements`: their kind.
+[[noreturn]] void throw_no_energies(std::string_view elements, const std::string& cell);
 
 }  // namespace comma::solver

@@ -175,7 +175,7 @@ class RotatingBeam final : public ElementBlock {
   }
 
   void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
-    throw Error("unsupported", fmt::format("comma does not compute energies of beams in large rotations, such as {}", mesh_.cell_name(cells_.front())), "take ENEL_ELGA of CALC_CHAMP, which other cells have, and integrate it over those (POST_ELEM, INTEGRALE)");
+    throw_no_energies("beams in large rotations", mesh_.cell_name(cells_.front()));
   }
   void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
     std::ranges::fill(out, absent);
