@@ -44,11 +44,10 @@ class VariableState {
   /// Whether any cell has a strain that is known beforehand.
   bool gives_strains() const { return gives_strains_; }
 
+  static constexpr int all_points = -1;
   /// Fills in time and command variables at a point of a cell. `shape`: the shape functions at the point, one a node of
   /// the cell; `point`: its number among the Gauss points, or `all_points` for the mean over
-  /// them. Throws Error `incompatible-field` when a field at Gauss
-  /// points has not this point.
-  static constexpr int all_points = -1;
+  /// them. Throws Error `incompatible-field` when a field at Gauss points has not this point.
   void sample(int cell, std::span<const int> nodes, std::span<const double> shape, int point, MaterialPoint& out) const;
 
  private:

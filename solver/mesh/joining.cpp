@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
-#include "solver/mesh/place.hpp"
 #include "solver/mesh/groups.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
