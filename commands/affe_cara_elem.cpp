@@ -2,11 +2,11 @@
 #include <numbers>
 
 #include "commands/commands.hpp"
-#include "commands/angles.hpp"
-#include "commands/discrete_building.hpp"
-#include "commands/plate_building.hpp"
+#include "commands/model/angles.hpp"
+#include "commands/model/discrete_building.hpp"
+#include "commands/model/plate_building.hpp"
+#include "commands/model/section_building.hpp"
 #include "commands/points.hpp"
-#include "commands/section_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "commands/alarms/load_alarms.hpp"
 #include "commands/commands.hpp"
-#include "commands/load_alarms.hpp"
-#include "commands/load_building.hpp"
+#include "commands/loads/load_building.hpp"
 #include "solver/model/component.hpp"
 
 namespace comma::commands {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "commands/commands.hpp"
-#include "commands/function_building.hpp"
+#include "commands/functions/function_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/field_algebra.hpp"

@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/result_reading.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_types.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/result_reading.hpp"
+#include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"

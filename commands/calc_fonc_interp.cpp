@@ -4,7 +4,7 @@
 #include <array>
 
 #include "commands/commands.hpp"
-#include "commands/function_building.hpp"
+#include "commands/functions/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

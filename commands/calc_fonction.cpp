@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
-#include "commands/function_building.hpp"
+#include "commands/functions/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/functions/operations.hpp"
 

@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
 
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/result_reading.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/result_reading.hpp"
-#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "solver/fields/boundary_pressure.hpp"
 #include "solver/fields/field_computation.hpp"

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "commands/commands.hpp"
-#include "commands/fortran_format.hpp"
-#include "commands/reductions.hpp"
-#include "commands/row_keys.hpp"
-#include "commands/table_filter.hpp"
+#include "commands/tables/fortran_format.hpp"
+#include "commands/tables/reductions.hpp"
+#include "commands/tables/row_keys.hpp"
+#include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

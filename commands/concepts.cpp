@@ -1,6 +1,6 @@
 #include "commands/concepts.hpp"
 
-#include "commands/extracted_table.hpp"
+#include "commands/tables/extracted_table.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "interpreter/value.hpp"
 

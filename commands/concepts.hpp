@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "commands/functions.hpp"
-#include "commands/multiplier_sum.hpp"
-#include "commands/renewed.hpp"
-#include "commands/table.hpp"
+#include "commands/analysis/renewed.hpp"
+#include "commands/functions/functions.hpp"
+#include "commands/loads/multiplier_sum.hpp"
+#include "commands/tables/table.hpp"
 #include "interpreter/concept.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/elements/section.hpp"

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "commands/analysis/result_reading.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_extraction.hpp"
-#include "commands/field_reading.hpp"
-#include "commands/field_types.hpp"
-#include "commands/input_field_reading.hpp"
-#include "commands/result_reading.hpp"
-#include "commands/same_mesh.hpp"
+#include "commands/fields/field_extraction.hpp"
+#include "commands/fields/field_reading.hpp"
+#include "commands/fields/field_types.hpp"
+#include "commands/fields/input_field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/normals.hpp"

@@ -5,12 +5,12 @@
 #include <tuple>
 #include <type_traits>
 
-#include "commands/behaviour_reading.hpp"
+#include "commands/analysis/behaviour_reading.hpp"
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/result_reading.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_types.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/result_reading.hpp"
-#include "commands/same_mesh.hpp"
+#include "commands/fields/field_types.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

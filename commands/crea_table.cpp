@@ -5,7 +5,7 @@
 #include <set>
 
 #include "commands/commands.hpp"
-#include "commands/field_reading.hpp"
+#include "commands/fields/field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "commands/alarms/contact_alarms.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/contact_alarms.hpp"
 #include "commands/points.hpp"
-#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/contact/half_thickness.hpp"

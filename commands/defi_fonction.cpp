@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
-#include "commands/function_building.hpp"
+#include "commands/functions/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "commands/analysis/result_reading.hpp"
 #include "commands/commands.hpp"
-#include "commands/angles.hpp"
-#include "commands/field_types.hpp"
-#include "commands/result_reading.hpp"
+#include "commands/fields/field_types.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/occurrences.hpp"
 #include "commands/points.hpp"
 #include "commands/selection.hpp"

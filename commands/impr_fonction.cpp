@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "commands/commands.hpp"
-#include "commands/curves.hpp"
+#include "commands/functions/curves.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
+#include "commands/analysis/result_reading.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_types.hpp"
-#include "commands/result_reading.hpp"
-#include "commands/same_mesh.hpp"
+#include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "commands/text_listing.hpp"
 #include "interpreter/diagnostic.hpp"

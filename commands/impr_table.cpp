@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
-#include "commands/curves.hpp"
-#include "commands/table_filter.hpp"
+#include "commands/functions/curves.hpp"
+#include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/alarms/scene_alarms.hpp"
+#include "commands/alarms/solve_alarms.hpp"
+#include "commands/analysis/problem_building.hpp"
 #include "commands/commands.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/scene_alarms.hpp"
-#include "commands/solve_alarms.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/nonlinear/linear_static_analysis.hpp"
 

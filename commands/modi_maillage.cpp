@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "commands/angles.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/occurrences.hpp"
 #include "commands/points.hpp"
-#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/orientation.hpp"

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/result_reading.hpp"
 #include "commands/commands.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/result_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/field_algebra.hpp"

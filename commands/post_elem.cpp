@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_distribution.hpp"
-#include "commands/field_reading.hpp"
-#include "commands/field_types.hpp"
-#include "commands/parts_of_model.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/same_mesh.hpp"
+#include "commands/fields/field_distribution.hpp"
+#include "commands/fields/field_reading.hpp"
+#include "commands/fields/field_types.hpp"
+#include "commands/model/parts_of_model.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/energies.hpp"

@@ -6,12 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "commands/angles.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_reading.hpp"
+#include "commands/fields/field_reading.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/points.hpp"
-#include "commands/reductions.hpp"
 #include "commands/selection.hpp"
+#include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/equivalent.hpp"

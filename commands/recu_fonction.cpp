@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands/analysis/result_reading.hpp"
 #include "commands/commands.hpp"
-#include "commands/function_building.hpp"
-#include "commands/result_reading.hpp"
+#include "commands/functions/function_building.hpp"
 #include "commands/selection.hpp"
-#include "commands/table_filter.hpp"
+#include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
-#include "commands/result_tables.hpp"
+#include "commands/tables/result_tables.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

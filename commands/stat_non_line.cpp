@@ -5,19 +5,19 @@
 #include <numeric>
 #include <set>
 
-#include "commands/archiving.hpp"
-#include "commands/behaviour_reading.hpp"
+#include "commands/alarms/scene_alarms.hpp"
+#include "commands/alarms/solve_alarms.hpp"
+#include "commands/analysis/archiving.hpp"
+#include "commands/analysis/behaviour_reading.hpp"
+#include "commands/analysis/initial_state.hpp"
+#include "commands/analysis/observation.hpp"
+#include "commands/analysis/path_reading.hpp"
+#include "commands/analysis/problem_building.hpp"
+#include "commands/analysis/same_mesh.hpp"
+#include "commands/analysis/stability_reading.hpp"
 #include "commands/bounds.hpp"
 #include "commands/commands.hpp"
-#include "commands/initial_state.hpp"
-#include "commands/observation.hpp"
-#include "commands/path_reading.hpp"
-#include "commands/problem_building.hpp"
-#include "commands/same_mesh.hpp"
 #include "commands/selection.hpp"
-#include "commands/scene_alarms.hpp"
-#include "commands/solve_alarms.hpp"
-#include "commands/stability_reading.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <set>
 
+#include "commands/analysis/result_reading.hpp"
 #include "commands/commands.hpp"
-#include "commands/field_types.hpp"
-#include "commands/reductions.hpp"
-#include "commands/result_reading.hpp"
+#include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
+#include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

@@ -2,8 +2,8 @@
 
 
 #include "commands/commands.hpp"
-#include "commands/reductions.hpp"
-#include "commands/table_filter.hpp"
+#include "commands/tables/reductions.hpp"
+#include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {

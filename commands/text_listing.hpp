@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "commands/fortran_format.hpp"
+#include "commands/tables/fortran_format.hpp"
 #include "solver/fields/field.hpp"
 
 namespace comma::commands {

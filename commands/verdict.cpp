@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/table.hpp"
+#include "commands/tables/table.hpp"
 
 namespace comma::commands {
 

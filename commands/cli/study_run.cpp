@@ -7,9 +7,9 @@
 #include <set>
 #include <string_view>
 
+#include "commands/alarms/name_check.hpp"
 #include "commands/catalogue.hpp"
 #include "commands/cli/options.hpp"
-#include "commands/name_check.hpp"
 #include "commands/registry.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/exception.hpp"

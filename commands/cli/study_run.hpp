@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <list>
+#include <memory>
 #include <string>
 
 #include "commands/cli/export_file.hpp"

@@ -1,0 +1,75 @@
+#include "commands/analysis/behaviour_reading.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "commands/selection.hpp"
+
+namespace comma::commands {
+
+using interpreter::Keywords;
+
+namespace {
+
+// RELATION and DEFORMATION in the solver's words.
+constexpr std::pair<std::string_view, solver::Relation> relations[] = {
+    {"ELAS", solver::Relation::elastic},
+    {"ELAS_HYPER", solver::Relation::hyperelastic},
+    {"VMIS_ISOT_LINE", solver::Relation::isotropic_linear},
+    {"VMIS_ISOT_TRAC", solver::Relation::isotropic_traction},
+    {"VMIS_ISOT_PUIS", solver::Relation::isotropic_power},
+    {"VMIS_ISOT_NL", solver::Relation::isotropic_nonlinear},
+    {"VMIS_CINE_LINE", solver::Relation::kinematic_linear},
+    {"VMIS_ECMI_LINE", solver::Relation::mixed_linear},
+    {"VMIS_ECMI_TRAC", solver::Relation::mixed_traction},
+    {"VMIS_ASYM_LINE", solver::Relation::asymmetric_linear},
+    {"DIS_CONTACT", solver::Relation::contact_spring},
+    {"DIS_CHOC", solver::Relation::contact_spring},
+    {"DIS_BILI_ELAS", solver::Relation::bilinear_spring},
+    {"DIS_ECRO_CINE", solver::Relation::hardening_spring},
+};
+constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
+    {"PETIT", solver::Kinematics::small},
+    {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
+    {"GDEF_LOG", solver::Kinematics::logarithmic},
+    {"SIMO_MIEHE", solver::Kinematics::multiplicative},
+    {"PETIT_REAC", solver::Kinematics::updated},
+    {"GROT_GDEP", solver::Kinematics::large_rotations},
+};
+
+solver::CellBehaviour behaviour_of(const Keywords& keywords) {
+  const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
+  const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"), &std::pair<std::string_view, solver::Kinematics>::first);
+  return {deformation->second, relation->second};
+}
+
+// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.
+solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
+  const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
+  if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0) return behaviour;
+  behaviour.kinematics = solver::Kinematics::green_lagrange;
+  return behaviour;
+}
+
+}  // namespace
+
+std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model, bool from_initial_state) {
+  const solver::Mesh& mesh = *model.mesh;
+  solver::CellBehaviour usual;
+  usual.from_initial_state = from_initial_state;
+  auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()), usual);
+  for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
+    solver::CellBehaviour behaviour = behaviour_of(keywords);
+    behaviour.from_initial_state = usual.from_initial_state;
+    std::vector<int> cells = selected_cells(keywords, mesh);
+    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) {
+      cells.resize(result->size());
+      std::iota(cells.begin(), cells.end(), 0);
+    }
+    for (const int cell : cells) (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell);
+  }
+  if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
+  return result;
+}
+
+}  // namespace comma::commands
