@@ -28,8 +28,10 @@ Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Model& model, in
   const Eigen::Vector3d along_z(0.0, -90.0 * degree, 0.0);
   const Eigen::Vector3d angles = frame.has("ANGL_AXE") ? angles_of(frame, "ANGL_AXE") : along_z;
   const Eigen::Vector3d origin(point_of(frame, "ORIG_AXE").data());
-  const Eigen::Matrix3d axes = solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(*model.mesh, cell));
-  return solver::material_axes_round(axes, solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 3);
+  const Eigen::Matrix3d axes =
+      solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(*model.mesh, cell));
+  return solver::material_axes_round(
+      axes, solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 3);
 }
 
 // The axes of an anisotropic material in a cell.
@@ -64,9 +66,11 @@ Product affe_cara_elem(const Call& call, Context&) {
     if (const auto turned = orientations.find(cell); turned != orientations.end()) section.roll = turned->second.roll;
   }
   for (const Keywords& assignment : call.factors("BARRE")) add_bar_sections(assignment, model, *properties);
-  for (const Keywords& assignment : call.factors("COQUE")) add_plate_sections(assignment, model, *properties, product->named_plates);
+  for (const Keywords& assignment : call.factors("COQUE"))
+    add_plate_sections(assignment, model, *properties, product->named_plates);
   for (const char* name : {"DISCRET", "DISCRET_2D"}) {
-    for (const Keywords& assignment : call.factors(name)) add_discrete_matrices(assignment, name, model, orientations, *properties);
+    for (const Keywords& assignment : call.factors(name))
+      add_discrete_matrices(assignment, name, model, orientations, *properties);
   }
   for (const Keywords& frame : call.factors("MASSIF")) add_material_axes(frame, model, *properties);
   product->properties = std::move(properties);

@@ -27,20 +27,23 @@ Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load)
     return product;
   }
   // Of the call its keywords alone: the product would keep itself alive.
-  product->load = {std::move(sources), [load = std::move(load), keywords = static_cast<const Keywords&>(call), model = product->model] {
-    auto whole = std::make_shared<solver::Load>(*load);
-    add_forces_of_fields(keywords, LoadedModel(*model), *whole);
-    return whole;
-  }};
+  product->load = {std::move(sources),
+                   [load = std::move(load), keywords = static_cast<const Keywords&>(call), model = product->model] {
+                     auto whole = std::make_shared<solver::Load>(*load);
+                     add_forces_of_fields(keywords, LoadedModel(*model), *whole);
+                     return whole;
+                   }};
   return product;
 }
 
 bool imposes_the_same(const solver::LinearRelation& one, const solver::LinearRelation& other) {
-  return !one.function && !other.function && one.value * other.terms.front().coefficient == other.value * one.terms.front().coefficient;
+  return !one.function && !other.function &&
+         one.value * other.terms.front().coefficient == other.value * one.terms.front().coefficient;
 }
 
 /// Of those from `first` on. The rule of overloading: see Overriding.
-void keep_last(const Call& call, const char* keyword, std::size_t first, const LoadedModel& target, solver::Load& load, Context& context) {
+void keep_last(const Call& call, const char* keyword, std::size_t first, const LoadedModel& target, solver::Load& load,
+               Context& context) {
   std::map<std::pair<int, solver::Component>, std::size_t> last;
   std::vector<char> overridden(load.relations.size(), 0);
   Overriding found{keyword};
@@ -53,7 +56,9 @@ void keep_last(const Call& call, const char* keyword, std::size_t first, const L
     if (imposes_the_same(load.relations[before], relation)) continue;
     overridden[before] = 1;
     ++found.count;
-    if (found.example.empty()) found.example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component), target.mesh.node_name(relation.terms.front().node));
+    if (found.example.empty())
+      found.example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component),
+                                  target.mesh.node_name(relation.terms.front().node));
   }
   warn_of(found, call.span, "where both are meant to hold, put them into two loads", context);
   std::size_t k = 0;
@@ -66,10 +71,12 @@ Product affe_char_meca(const Call& call, Context& context) {
   const LoadedModel target(*call.data<ModelConcept>("MODELE").model);
   auto load = std::make_shared<solver::Load>();
   if (call.text("DOUBLE_LAGRANGE") == "NON") load->multipliers_per_relation = 1;
-  for (const Keywords& imposed : call.factors("DDL_IMPO")) add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
+  for (const Keywords& imposed : call.factors("DDL_IMPO"))
+    add_imposed_displacements(imposed, "DDL_IMPO", target, *load);
   keep_last(call, "DDL_IMPO", 0, target, *load, context);
   const std::size_t of_faces = load->relations.size();
-  for (const Keywords& imposed : call.factors("FACE_IMPO")) add_face_displacements(imposed, target, *load, context.diagnostics);
+  for (const Keywords& imposed : call.factors("FACE_IMPO"))
+    add_face_displacements(imposed, target, *load, context.diagnostics);
   keep_last(call, "FACE_IMPO", of_faces, target, *load, context);
   for (const Keywords& imposed : call.factors("ARETE_IMPO")) add_edge_displacements(imposed, target, *load);
   for (const Keywords& imposed : call.factors("CHAMNO_IMPO")) add_displacements_of_field(imposed, target, *load);

@@ -27,12 +27,14 @@ struct VariableName {
 };
 
 constexpr VariableName variables[] = {
-    {"TEMP", Parameter::temperature, "TEMP", "TEMP"}, {"SECH", Parameter::drying, "TEMP", "TEMP"},    {"HYDR", Parameter::hydration, "HYDR_ELNO", "HYDR"},
-    {"NEUT1", Parameter::neutral_1, "NEUT", "X1"},    {"NEUT2", Parameter::neutral_2, "NEUT", "X1"},  {"NEUT3", Parameter::neutral_3, "NEUT", "X1"},
+    {"TEMP", Parameter::temperature, "TEMP", "TEMP"},    {"SECH", Parameter::drying, "TEMP", "TEMP"},
+    {"HYDR", Parameter::hydration, "HYDR_ELNO", "HYDR"}, {"NEUT1", Parameter::neutral_1, "NEUT", "X1"},
+    {"NEUT2", Parameter::neutral_2, "NEUT", "X1"},       {"NEUT3", Parameter::neutral_3, "NEUT", "X1"},
     {"EPSA", Parameter::strain_xx, "EPSA_ELNO", nullptr}};
 
 const VariableName& named_variable(const Keywords& assignment) {
-  return *std::ranges::find_if(variables, [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
+  return *std::ranges::find_if(variables,
+                               [&](const VariableName& known) { return assignment.text("NOM_VARC") == known.name; });
 }
 
 std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, const std::string& field) {
@@ -42,7 +44,8 @@ std::vector<solver::VariableSnapshot> snapshots(const Keywords& assignment, cons
     if (held != step.fields.end()) found.push_back({step.instant, std::make_shared<const solver::Field>(held->second)});
   }
   if (!found.empty()) return found;
-  throw DiagnosticError("unknown-field", fmt::format("AFFE_VARC: {} holds no {}", assignment.concept_of("EVOL")->name, field),
+  throw DiagnosticError("unknown-field",
+                        fmt::format("AFFE_VARC: {} holds no {}", assignment.concept_of("EVOL")->name, field),
                         assignment.span_of("EVOL"), "NOM_CHAM names the field of the result that holds the variable");
 }
 
@@ -53,16 +56,23 @@ int component_in(const solver::Field& field, const char* name) {
   return std::visit([&](const auto& any) { return any.component(name); }, field);
 }
 
-void add_strains(const solver::CommandVariable& whole, const Keywords& assignment, std::vector<solver::CommandVariable>& known) {
+void add_strains(const solver::CommandVariable& whole, const Keywords& assignment,
+                 std::vector<solver::CommandVariable>& known) {
   if (assignment.has("VALE_REF")) {
-    throw DiagnosticError("excluded-keyword", "AFFE_VARC: EPSA has no reference value: it is the strain itself", assignment.span_of("VALE_REF"), "leave out VALE_REF");
+    throw DiagnosticError("excluded-keyword", "AFFE_VARC: EPSA has no reference value: it is the strain itself",
+                          assignment.span_of("VALE_REF"), "leave out VALE_REF");
   }
   const std::size_t before = known.size();
   for (std::size_t c = 0; c < strain_components.size(); ++c) {
-    const auto lacks = [&](const solver::VariableSnapshot& snapshot) { return component_in(*snapshot.field, strain_components[c]) < 0; };
+    const auto lacks = [&](const solver::VariableSnapshot& snapshot) {
+      return component_in(*snapshot.field, strain_components[c]) < 0;
+    };
     if (std::ranges::all_of(whole.snapshots, lacks)) continue;
     if (std::ranges::any_of(whole.snapshots, lacks)) {
-      throw DiagnosticError("unknown-component", fmt::format("AFFE_VARC: EPSA has {} at some instants and not at others", strain_components[c]), assignment.span);
+      throw DiagnosticError(
+          "unknown-component",
+          fmt::format("AFFE_VARC: EPSA has {} at some instants and not at others", strain_components[c]),
+          assignment.span);
     }
     solver::CommandVariable& one = known.emplace_back(whole);
     one.variable = solver::strain_parameters[c];
@@ -72,7 +82,9 @@ void add_strains(const solver::CommandVariable& whole, const Keywords& assignmen
     }
   }
   if (known.size() == before) {
-    throw DiagnosticError("unknown-component", "AFFE_VARC: the field for EPSA has none of the components EPXX, EPYY, EPZZ, EPXY, EPXZ, EPYZ", assignment.span);
+    throw DiagnosticError("unknown-component",
+                          "AFFE_VARC: the field for EPSA has none of the components EPXX, EPYY, EPZZ, EPXY, EPXZ, EPYZ",
+                          assignment.span);
   }
 }
 
@@ -87,8 +99,11 @@ void check_even_through_thickness(const solver::CommandVariable& variable, const
       const std::size_t width = solver::components_of(*snapshot.field).size();
       for (std::size_t i = static_cast<std::size_t>(column); i < values.size(); i += width) {
         if (std::isnan(values[i])) continue;
-        throw DiagnosticError("unsupported", fmt::format("AFFE_VARC: comma does not know {}, a temperature within the thickness of a plate", name),
-                              assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"), "give TEMP, the same through the thickness, and curvatures by PRE_EPSI");
+        throw DiagnosticError(
+            "unsupported",
+            fmt::format("AFFE_VARC: comma does not know {}, a temperature within the thickness of a plate", name),
+            assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"),
+            "give TEMP, the same through the thickness, and curvatures by PRE_EPSI");
       }
     }
   }
@@ -100,10 +115,14 @@ void keep_component(const char* name, const Keywords& assignment, solver::Comman
     const int own = component_in(*snapshot.field, assignment.text("NOM_VARC").c_str());
     const int component = own >= 0 ? own : component_in(*snapshot.field, name);
     if (component < 0) {
-      throw DiagnosticError("unknown-component", fmt::format("AFFE_VARC: a field of {} has {}, and this one has not", assignment.text("NOM_VARC"), name),
-                            assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"), fmt::format("it has {}", fmt::join(solver::components_of(*snapshot.field), ", ")));
+      throw DiagnosticError(
+          "unknown-component",
+          fmt::format("AFFE_VARC: a field of {} has {}, and this one has not", assignment.text("NOM_VARC"), name),
+          assignment.span_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"),
+          fmt::format("it has {}", fmt::join(solver::components_of(*snapshot.field), ", ")));
     }
-    if (solver::components_of(*snapshot.field).size() > 1) snapshot.field = std::make_shared<const solver::Field>(solver::with_components(*snapshot.field, {&component, 1}));
+    if (solver::components_of(*snapshot.field).size() > 1)
+      snapshot.field = std::make_shared<const solver::Field>(solver::with_components(*snapshot.field, {&component, 1}));
   }
 }
 
@@ -122,12 +141,14 @@ solver::CommandVariable command_variable(const Assigned<Keywords>& assigned) {
   variable.cells = assigned.cells;
   if (assignment.has("VALE_REF")) variable.reference = assignment.real("VALE_REF");
   if (assignment.has("CHAM_GD")) {
-    variable.snapshots.push_back({0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
+    variable.snapshots.push_back(
+        {0.0, std::make_shared<const solver::Field>(assignment.data<FieldConcept>("CHAM_GD").field)});
     variable.left = variable.right = solver::Extension::constant;
     return variable;
   }
   variable.snapshots = snapshots(assignment, assignment.has("NOM_CHAM") ? assignment.text("NOM_CHAM") : name.field);
-  if (assignment.has("FONC_INST")) variable.instant = time_function(assignment.concept_of("FONC_INST"), assignment.span_of("FONC_INST"));
+  if (assignment.has("FONC_INST"))
+    variable.instant = time_function(assignment.concept_of("FONC_INST"), assignment.span_of("FONC_INST"));
   variable.left = extension_named(assignment.text("PROL_GAUCHE"));
   variable.right = extension_named(assignment.text("PROL_DROITE"));
   return variable;
@@ -144,14 +165,15 @@ MaterialAssignments material_assignments(const Call& call, const solver::Mesh& m
   found.cell_count = static_cast<std::size_t>(mesh.cell_count());
   for (const Keywords& assignment : call.factors("AFFE")) {
     if (assignment.concepts("MATER").size() > 1) {
-      throw DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material", assignment.span_of("MATER"),
-                            "put all laws into one DEFI_MATERIAU");
+      throw DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material",
+                            assignment.span_of("MATER"), "put all laws into one DEFI_MATERIAU");
     }
     found.materials.push_back({assignment.concepts("MATER").front(), selected_cells(assignment, mesh)});
   }
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     if (assignment.text("NOM_VARC") == "GEOM") continue;
-    found.variables.push_back({assignment, names_a_place(assignment) ? selected_cells(assignment, mesh) : std::vector<int>()});
+    found.variables.push_back(
+        {assignment, names_a_place(assignment) ? selected_cells(assignment, mesh) : std::vector<int>()});
   }
   return found;
 }
@@ -159,7 +181,8 @@ MaterialAssignments material_assignments(const Call& call, const solver::Mesh& m
 std::vector<ConceptPtr> sources_of(const MaterialAssignments& assignments) {
   std::vector<ConceptPtr> sources;
   for (const auto& [material, cells] : assignments.materials) sources.push_back(material);
-  for (const auto& [assignment, cells] : assignments.variables) sources.push_back(assignment.concept_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"));
+  for (const auto& [assignment, cells] : assignments.variables)
+    sources.push_back(assignment.concept_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"));
   return sources;
 }
 
@@ -167,7 +190,9 @@ std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssign
   auto field = std::make_shared<solver::MaterialField>();
   field->by_cell.resize(assignments.cell_count);
   for (const auto& [material, cells] : assignments.materials)
-    for (const int cell : cells) field->by_cell[static_cast<std::size_t>(cell)] = interpreter::data_of<MaterialConcept>(material, "MATER").material;
+    for (const int cell : cells)
+      field->by_cell[static_cast<std::size_t>(cell)] =
+          interpreter::data_of<MaterialConcept>(material, "MATER").material;
   for (const Assigned<Keywords>& assigned : assignments.variables) {
     const Keywords& assignment = assigned.what;
     solver::CommandVariable variable = command_variable(assigned);
@@ -200,11 +225,15 @@ solver::Coverage coverage(const solver::CommandVariable& variable, const solver:
   return given == possible ? solver::Coverage::whole : solver::Coverage::partial;
 }
 
-void warn_of_partial_variables(const MaterialAssignments& assignments, const solver::MaterialField& field, const solver::Mesh& mesh, Context& context) {
+void warn_of_partial_variables(const MaterialAssignments& assignments, const solver::MaterialField& field,
+                               const solver::Mesh& mesh, Context& context) {
   std::size_t next = 0;  // of the field's
   for (std::size_t k = 0; k < assignments.variables.size() && next < field.variables.size(); ++k) {
     if (assignments.variables[k].what.text("NOM_VARC") == "EPSA") {  // one assignment makes several variables
-      while (next < field.variables.size() && std::ranges::find(solver::strain_parameters, field.variables[next].variable) != solver::strain_parameters.end()) ++next;
+      while (next < field.variables.size() &&
+             std::ranges::find(solver::strain_parameters, field.variables[next].variable) !=
+                 solver::strain_parameters.end())
+        ++next;
       continue;
     }
     const solver::CommandVariable& variable = field.variables[next++];
@@ -214,10 +243,14 @@ void warn_of_partial_variables(const MaterialAssignments& assignments, const sol
     std::erase_if(cells, [&](int cell) { return coverage(variable, mesh, cell) != solver::Coverage::partial; });
     if (cells.empty()) continue;
     const Keywords& assignment = assignments.variables[k].what;
-    context.diagnostics.alarm("partial-variable",
-                              fmt::format("AFFE_VARC: {} is given at some of the nodes or instants alone of {} cell{}, {} the first: wherever a value is missing they have their reference value",
-                                          assignment.text("NOM_VARC"), cells.size(), cells.size() == 1 ? "" : "s", mesh.cell_name(cells.front())),
-                              assignment.span, "give the field at all nodes of the cells and at all instants, or name the cells that have it");
+    context.diagnostics.alarm(
+        "partial-variable",
+        fmt::format("AFFE_VARC: {} is given at some of the nodes or instants alone of {} cell{}, {} the first: "
+                    "wherever a value is missing they have their reference value",
+                    assignment.text("NOM_VARC"), cells.size(), cells.size() == 1 ? "" : "s",
+                    mesh.cell_name(cells.front())),
+        assignment.span,
+        "give the field at all nodes of the cells and at all instants, or name the cells that have it");
   }
 }
 
@@ -225,7 +258,8 @@ void warn_of_partial_variables(const MaterialAssignments& assignments, const sol
 
 Product affe_materiau(const Call& call, Context& context) {
   auto product = std::make_shared<MaterialFieldConcept>();
-  product->mesh = call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
+  product->mesh =
+      call.has("MAILLAGE") ? call.data<MeshConcept>("MAILLAGE").mesh : call.data<ModelConcept>("MODELE").model->mesh;
   const MaterialAssignments assignments = material_assignments(call, *product->mesh);
   auto sources = sources_of(assignments);
   product->field = {std::move(sources), [assignments] { return material_field(assignments); }};

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
@@ -49,12 +49,16 @@ const std::map<std::string, Formulation, std::less<>>& formulations() {
 void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assignment) {
   constexpr double largest_slope = 1e-3;  // the error in lengths is half of its square
   Eigen::AlignedBox3d box;
-  for (const int node : mesh.cell(cell)) box.extend(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data())));
+  for (const int node : mesh.cell(cell))
+    box.extend(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data())));
   const Eigen::Vector3d size = box.sizes();
   if (!(size[2] > largest_slope * size.head<2>().norm())) return;
-  throw interpreter::DiagnosticError("out-of-plane",
-                                     fmt::format("AFFE_MODELE: cell {} of a plane model does not lie in a plane Z = constant: Z varies by {:.3g} over it", mesh.cell_name(cell), size[2]),
-                                     assignment.span, "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
+  throw interpreter::DiagnosticError(
+      "out-of-plane",
+      fmt::format(
+          "AFFE_MODELE: cell {} of a plane model does not lie in a plane Z = constant: Z varies by {:.3g} over it",
+          mesh.cell_name(cell), size[2]),
+      assignment.span, "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
 }
 
 // A plate is the projection of its cell: rigid rotations of a warped one are not quite free of strain.
@@ -63,7 +67,9 @@ void warn_of_warped_plates(const Call& call, const solver::Model& model, Context
   double largest = 0.0;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
     const Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
-    if (!solver::is_plate(formulation) || model.mesh->cell_types[static_cast<std::size_t>(cell)] != solver::CellType::quad4) continue;
+    if (!solver::is_plate(formulation) ||
+        model.mesh->cell_types[static_cast<std::size_t>(cell)] != solver::CellType::quad4)
+      continue;
     const double warp = solver::warp_of_plate(*model.mesh, cell);
     if (warp <= solver::little_warp) continue;
     ++count;
@@ -72,10 +78,13 @@ void warn_of_warped_plates(const Call& call, const solver::Model& model, Context
     worst = cell;
   }
   if (worst < 0) return;
-  context.diagnostics.alarm("warped-plates",
-                            fmt::format("AFFE_MODELE: {} plate{} not flat, {} by the most: a corner lies off the plane of the others by {:.2g} of the cell's size. Each is taken for its projection on its mean plane, and its membrane resists bending: where a shell is thin it may be several times too stiff",
-                                        count, count == 1 ? " is" : "s are", model.mesh->cell_name(worst), largest),
-                            call.span, "take triangles, or smaller cells; VERI_PLAN='NON' says that they are meant so");
+  context.diagnostics.alarm(
+      "warped-plates",
+      fmt::format("AFFE_MODELE: {} plate{} not flat, {} by the most: a corner lies off the plane of the others by "
+                  "{:.2g} of the cell's size. Each is taken for its projection on its mean plane, and its membrane "
+                  "resists bending: where a shell is thin it may be several times too stiff",
+                  count, count == 1 ? " is" : "s are", model.mesh->cell_name(worst), largest),
+      call.span, "take triangles, or smaller cells; VERI_PLAN='NON' says that they are meant so");
 }
 
 }  // namespace
@@ -89,16 +98,20 @@ Product affe_modele(const Call& call, Context& context) {
     const Formulation formulation = formulations().at(assignment.texts("MODELISATION").front());
     int assigned = 0;
     for (const int cell : selected_cells(assignment, mesh)) {
-      // A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay as they are.
+      // A later AFFE wins; TOUT and groups alike reach cells that a formulation has no element for, which then stay as
+      // they are.
       if (!solver::has_element(formulation, mesh.cell_types[cell])) continue;
-      if (solver::continuum_dimension(formulation) == 2 || formulation == Formulation::bar_2d) require_flat_cell(mesh, cell, assignment);
+      if (solver::continuum_dimension(formulation) == 2 || formulation == Formulation::bar_2d)
+        require_flat_cell(mesh, cell, assignment);
       model->formulations[cell] = formulation;
       ++assigned;
     }
     if (assigned == 0) {
       throw interpreter::DiagnosticError(
           "no-element", "AFFE_MODELE: none of these cells can carry " + assignment.texts("MODELISATION").front(),
-          assignment.span, "name cells of the right dimension: faces for D_PLAN and C_PLAN, TRIA3 and QUAD4 for DKT and DST, segments or points for 2D_DIS_T");
+          assignment.span,
+          "name cells of the right dimension: faces for D_PLAN and C_PLAN, TRIA3 and QUAD4 for DKT and DST, segments "
+          "or points for 2D_DIS_T");
     }
   }
   if (call.text("VERI_PLAN") == "OUI") warn_of_warped_plates(call, *model, context);

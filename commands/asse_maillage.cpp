@@ -20,7 +20,8 @@ solver::JoinedMesh put_together(const Call& call) {
   try {
     return solver::glued(first, second, here, there);
   } catch (const solver::Error& error) {
-    throw interpreter::DiagnosticError(error.code(), std::string("ASSE_MAILLAGE: ") + error.what(), glue.span, error.hint());
+    throw interpreter::DiagnosticError(error.code(), std::string("ASSE_MAILLAGE: ") + error.what(), glue.span,
+                                       error.hint());
   }
 }
 
@@ -29,7 +30,8 @@ solver::JoinedMesh put_together(const Call& call) {
 Product asse_maillage(const Call& call, Context& context) {
   solver::JoinedMesh joined = put_together(call);
   for (const auto& [before, after] : joined.renamed) {
-    context.console.progress(fmt::format("ASSE_MAILLAGE: the group {} of {} is now {}", before, call.concept_of("MAILLAGE_2")->name, after));
+    context.console.progress(
+        fmt::format("ASSE_MAILLAGE: the group {} of {} is now {}", before, call.concept_of("MAILLAGE_2")->name, after));
   }
   auto product = std::make_shared<MeshConcept>();
   product->mesh = std::make_shared<solver::Mesh>(std::move(joined.mesh));

@@ -31,29 +31,35 @@ std::vector<std::string> wanted_fields(const Call& call) {
   return names;
 }
 
-// --- fields of one's own ----------------------------------------------------------------------------------------------------
+// --- fields of one's own
+// ----------------------------------------------------------------------------------------------------
 
 // UT01_ELGA for NUME_CHAM_RESU=1 and a field at Gauss points.
 std::string own_name(const Keywords& occurrence) {
   const std::string& source = occurrence.text("NOM_CHAM");
   const auto place = source.rfind('_');
-  return fmt::format("UT{:02}_{}", occurrence.integer("NUME_CHAM_RESU"), place == std::string::npos ? "NOEU" : source.substr(place + 1));
+  return fmt::format("UT{:02}_{}", occurrence.integer("NUME_CHAM_RESU"),
+                     place == std::string::npos ? "NOEU" : source.substr(place + 1));
 }
 
 std::vector<solver::RowFunction> row_functions(const Keywords& occurrence, const std::vector<std::string>& components) {
-  static const std::map<std::string, solver::TensorCriterion, std::less<>> criteria = {{"VMIS", solver::TensorCriterion::von_mises},
-                                                                                       {"TRESCA", solver::TensorCriterion::tresca},
-                                                                                       {"INVA_2", solver::TensorCriterion::second_invariant},
-                                                                                       {"TRACE", solver::TensorCriterion::trace}};
+  static const std::map<std::string, solver::TensorCriterion, std::less<>> criteria = {
+      {"VMIS", solver::TensorCriterion::von_mises},
+      {"TRESCA", solver::TensorCriterion::tresca},
+      {"INVA_2", solver::TensorCriterion::second_invariant},
+      {"TRACE", solver::TensorCriterion::trace}};
   if (occurrence.has("CRITERE")) return {solver::criterion(components, criteria.at(occurrence.text("CRITERE")))};
   if (occurrence.has("NORME")) {
-    return {solver::euclidean_norm(occurrence.text("NORME") == "FROBENIUS" ? solver::frobenius_weights(components) : std::vector<double>())};
+    return {solver::euclidean_norm(occurrence.text("NORME") == "FROBENIUS" ? solver::frobenius_weights(components)
+                                                                           : std::vector<double>())};
   }
   std::vector<solver::RowFunction> functions;
   for (const auto& handle : occurrence.concepts("FORMULE")) {
     interpreter::data_of<FunctionConcept>(handle, "FORMULE");
     const auto function = std::dynamic_pointer_cast<const FunctionConcept>(handle->data);
-    functions.push_back(solver::formula(components, {function->parameters(), [function](std::span<const double> at) { return function->evaluate(at); }}));
+    functions.push_back(solver::formula(components, {function->parameters(), [function](std::span<const double> at) {
+                                                       return function->evaluate(at);
+                                                     }}));
   }
   return functions;
 }
@@ -64,18 +70,20 @@ solver::Field own_field(const Keywords& occurrence, const solver::Field& source)
     return solver::made_of_rows(source, row_functions(occurrence, components));
   } catch (const solver::Error& error) {
     const char* keyword = occurrence.has("FORMULE") ? "FORMULE" : "NOM_CHAM";
-    throw interpreter::DiagnosticError(error.code(), std::string("CHAM_UTIL: ") + error.what(), occurrence.span_of(keyword), error.hint());
+    throw interpreter::DiagnosticError(error.code(), std::string("CHAM_UTIL: ") + error.what(),
+                                       occurrence.span_of(keyword), error.hint());
   }
 }
 
 solver::Field on_cells(const solver::Field& field, const solver::Mesh& mesh, const std::vector<int>& cells) {
-  if (const auto* nodal = std::get_if<solver::NodalField>(&field)) return solver::on_nodes(*nodal, mesh.nodes_of_cells(cells));
+  if (const auto* nodal = std::get_if<solver::NodalField>(&field))
+    return solver::on_nodes(*nodal, mesh.nodes_of_cells(cells));
   return solver::on_cells(std::get<solver::ElementField>(field), cells);
 }
 
 // A field that the step lacks is computed first.
-void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, const solver::Mesh& mesh, const ChosenCells& cells, solver::ResultStep& step,
-                   std::size_t index) {
+void add_own_field(const Keywords& occurrence, FieldsOfSteps& computation, const solver::Mesh& mesh,
+                   const ChosenCells& cells, solver::ResultStep& step, std::size_t index) {
   const std::string& name = occurrence.text("NOM_CHAM");
   const bool computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
   solver::Field made = own_field(occurrence, computed ? computation.compute(name, index) : field_of(occurrence, step));
@@ -89,7 +97,8 @@ bool holds_of_solve(const solver::ResultStep& step, const std::string& name) {
   return (name == "SIEF_ELGA" || name == "VARI_ELGA") && step.fields.contains(name) && !step.limited.contains(name);
 }
 
-void add_field(const std::string& name, FieldsOfSteps& computation, const ChosenCells& cells, solver::ResultStep& step, std::size_t index) {
+void add_field(const std::string& name, FieldsOfSteps& computation, const ChosenCells& cells, solver::ResultStep& step,
+               std::size_t index) {
   solver::Field field = cells ? computation.compute(name, index, *cells) : computation.compute(name, index);
   step.fields.insert_or_assign(name, std::move(field));
   if (cells)
@@ -104,8 +113,9 @@ bool has_values(const solver::Field& field) {
 
 // Elements of other kinds have other fields.
 void warn_of_empty_field(const std::string& name, const Call& call, Context& context) {
-  context.diagnostics.alarm("empty-field", fmt::format("CALC_CHAMP: no element there has {}: the field has no values", name), call.span,
-                            "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
+  context.diagnostics.alarm(
+      "empty-field", fmt::format("CALC_CHAMP: no element there has {}: the field has no values", name), call.span,
+      "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
 }
 
 void add_fields(const Call& call, Context& context, ResultConcept& data) {
@@ -122,7 +132,8 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
       add_field(name, computation, cells, step, index);
       (has_values(step.fields.at(name)) ? filled : empty).insert(name);
     }
-    for (const Keywords& occurrence : call.factors("CHAM_UTIL")) add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
+    for (const Keywords& occurrence : call.factors("CHAM_UTIL"))
+      add_own_field(occurrence, computation, data.result.mesh(), cells, data.result.steps[index], index);
   }
   for (const std::string& name : empty)
     if (!filled.contains(name)) warn_of_empty_field(name, call, context);

@@ -26,7 +26,8 @@ Product tabulated(const Call& call, const FunctionConcept& source) {
     throw DiagnosticError("unsupported",
                           fmt::format("CALC_FONC_INTERP: {} depends on {}; a table of one parameter cannot hold it",
                                       call.concept_of("FONCTION")->name, fmt::join(source.parameters(), ", ")),
-                          call.span_of("FONCTION"), "give NOM_PARA_FONC with values: a function of two parameters is made");
+                          call.span_of("FONCTION"),
+                          "give NOM_PARA_FONC with values: a function of two parameters is made");
   }
   solver::TabulatedFunction function;
   if (const auto* table = source.table()) function = *table;
@@ -44,13 +45,18 @@ Product tabulated(const Call& call, const FunctionConcept& source) {
 std::size_t place_of_first(const Call& call, const FunctionConcept& source) {
   const auto& names = source.parameters();
   if (names.size() != 2) {
-    throw DiagnosticError("wrong-count", fmt::format("CALC_FONC_INTERP: {} depends on {} parameters, a function of two is to be made", call.concept_of("FONCTION")->name, names.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("CALC_FONC_INTERP: {} depends on {} parameters, a function of two is to be made",
+                                      call.concept_of("FONCTION")->name, names.size()),
                           call.span_of("FONCTION"));
   }
   if (!call.has("NOM_PARA")) return names[0] == call.text("NOM_PARA_FONC") ? 1 : 0;
   for (std::size_t i = 0; i < 2; ++i)
     if (names[i] == call.text("NOM_PARA")) return i;
-  throw DiagnosticError("unknown-parameter", fmt::format("CALC_FONC_INTERP: {} depends on {} and {}", call.concept_of("FONCTION")->name, names[0], names[1]), call.span_of("NOM_PARA"));
+  throw DiagnosticError(
+      "unknown-parameter",
+      fmt::format("CALC_FONC_INTERP: {} depends on {} and {}", call.concept_of("FONCTION")->name, names[0], names[1]),
+      call.span_of("NOM_PARA"));
 }
 
 // One table along the second parameter for each value of the first.

@@ -16,9 +16,11 @@ namespace {
 using solver::TabulatedFunction;
 using Tables = std::vector<const TabulatedFunction*>;
 
-const TabulatedFunction& table_of(const Keywords& operation, const interpreter::ConceptPtr& handle, const char* keyword) {
+const TabulatedFunction& table_of(const Keywords& operation, const interpreter::ConceptPtr& handle,
+                                  const char* keyword) {
   if (const auto* table = interpreter::data_of<FunctionConcept>(handle, keyword).table()) return *table;
-  throw interpreter::DiagnosticError("unsupported", fmt::format("CALC_FONCTION: {} is no table of one parameter", handle->name),
+  throw interpreter::DiagnosticError("unsupported",
+                                     fmt::format("CALC_FONCTION: {} is no table of one parameter", handle->name),
                                      operation.span_of(keyword), "tabulate a formula by CALC_FONC_INTERP");
 }
 
@@ -55,7 +57,9 @@ TabulatedFunction combined(const Call& call) {
 
 TabulatedFunction succession(const Keywords& operation) {
   const Tables tables = tables_of(operation);
-  return solver::in_succession(*tables[0], *tables[1], operation.text("SURCHARGE") == "GAUCHE" ? solver::Overlap::first : solver::Overlap::second);
+  return solver::in_succession(
+      *tables[0], *tables[1],
+      operation.text("SURCHARGE") == "GAUCHE" ? solver::Overlap::first : solver::Overlap::second);
 }
 
 TabulatedFunction envelope(const Keywords& operation) {
@@ -76,7 +80,9 @@ TabulatedFunction computed(const Call& call) {
   if (call.given("MOYENNE")) return solver::mean(tables_of(only("MOYENNE")));
   if (call.given("ASSE")) return succession(only("ASSE"));
   if (call.given("FRACTILE")) return solver::fractile(tables_of(only("FRACTILE")), only("FRACTILE").real("FRACT"));
-  if (call.given("REGR_POLYNOMIALE")) return solver::polynomial_fit(table_of(only("REGR_POLYNOMIALE")), static_cast<int>(only("REGR_POLYNOMIALE").integer("DEGRE")));
+  if (call.given("REGR_POLYNOMIALE"))
+    return solver::polynomial_fit(table_of(only("REGR_POLYNOMIALE")),
+                                  static_cast<int>(only("REGR_POLYNOMIALE").integer("DEGRE")));
   if (call.given("ABS")) return solver::mapped(table_of(only("ABS")), [](double y) { return std::abs(y); });
   if (call.given("PUISSANCE")) return power(only("PUISSANCE"));
   if (call.given("INTEGRE")) {
@@ -94,8 +100,9 @@ TabulatedFunction computed(const Call& call) {
 // Functions out of functions (U4.32.04).
 Product calc_fonction(const Call& call, Context&) {
   if (call.has("LIST_PARA") && !call.given("COMB") && !call.given("MULT"))
-    throw interpreter::DiagnosticError("contradictory-keywords", "CALC_FONCTION: LIST_PARA goes with COMB and MULT alone", call.span_of("LIST_PARA"),
-                                       "leave it out, and tabulate the result anew by CALC_FONC_INTERP");
+    throw interpreter::DiagnosticError(
+        "contradictory-keywords", "CALC_FONCTION: LIST_PARA goes with COMB and MULT alone", call.span_of("LIST_PARA"),
+        "leave it out, and tabulate the result anew by CALC_FONC_INTERP");
   TabulatedFunction function = computed(call);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");

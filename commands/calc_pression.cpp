@@ -42,8 +42,8 @@ void add_pressures(const Call& call, Context& context, ResultConcept& data) {
     const auto index = static_cast<std::size_t>(chosen - data.result.steps.data());
     solver::ResultStep& step = data.result.steps[index];
     const solver::Field stresses = computation.compute("SIEF_NOEU", index);
-    step.fields.insert_or_assign("PRES_NOEU", solver::boundary_pressure(mesh, std::get<solver::NodalField>(stresses), cells,
-                                                                        positions_at(call, mesh, step)));
+    step.fields.insert_or_assign("PRES_NOEU", solver::boundary_pressure(mesh, std::get<solver::NodalField>(stresses),
+                                                                        cells, positions_at(call, mesh, step)));
   }
   computation.warn_of_limited_sources(context.diagnostics);
 }

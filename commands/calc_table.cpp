@@ -31,7 +31,8 @@ void rename(Table& table, const Keywords& action) {
   const auto names = action.texts("NOM_PARA");
   const int column = column_of(table, names.front(), action);
   if (table.column(names.back()) >= 0) {
-    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + names.back(), action.span_of("NOM_PARA"));
+    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + names.back(),
+                          action.span_of("NOM_PARA"));
   }
   table.columns[static_cast<std::size_t>(column)] = names.back();
 }
@@ -47,7 +48,9 @@ Cell cell_of(const Value& value, const Keywords& action, const char* keyword = "
   if (value.is_bool()) return static_cast<std::int64_t>(value.as_bool());
   if (value.is_number()) return value.as_real();
   if (value.is_text()) return value.as_text();
-  throw DiagnosticError("wrong-type", std::string("CALC_TABLE: ") + keyword + " gives " + value.repr() + ", which no cell holds", action.span_of(keyword));
+  throw DiagnosticError("wrong-type",
+                        std::string("CALC_TABLE: ") + keyword + " gives " + value.repr() + ", which no cell holds",
+                        action.span_of(keyword));
 }
 
 std::vector<Cell> cells_of(const Keywords& action, const char* keyword) {
@@ -58,7 +61,9 @@ std::vector<Cell> cells_of(const Keywords& action, const char* keyword) {
 
 void check_count(const Keywords& action, const char* keyword, std::size_t count, std::size_t wanted, const char* what) {
   if (count == wanted) return;
-  throw DiagnosticError("wrong-count", fmt::format("CALC_TABLE: {} has {} values for {} {}", keyword, count, wanted, what), action.span_of(keyword));
+  throw DiagnosticError("wrong-count",
+                        fmt::format("CALC_TABLE: {} has {} values for {} {}", keyword, count, wanted, what),
+                        action.span_of(keyword));
 }
 
 void add_row(Table& table, const Keywords& action) {
@@ -75,7 +80,8 @@ void add_columns(Table& table, const Keywords& action) {
   const auto names = action.texts("NOM_PARA");
   for (const std::string& name : names) {
     if (table.column(name) < 0) continue;
-    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + name, action.span_of("NOM_PARA"));
+    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + name,
+                          action.span_of("NOM_PARA"));
   }
   const bool by_row = action.given("VALE_COLONNE");
   const char* keyword = by_row ? "VALE_COLONNE" : "VALE";
@@ -95,10 +101,13 @@ void compute(Table& table, const Keywords& action) {
   const bool renamed = action.given("NOM_COLONNE");
   const auto names = renamed ? action.texts("NOM_COLONNE") : function.parameters();
   if (names.size() != function.parameters().size()) {
-    throw DiagnosticError("wrong-count", fmt::format("CALC_TABLE: the formula has {} variables, and NOM_COLONNE names {} columns", function.parameters().size(), names.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("CALC_TABLE: the formula has {} variables, and NOM_COLONNE names {} columns",
+                                      function.parameters().size(), names.size()),
                           action.span_of("NOM_COLONNE"));
   }
-  for (const std::string& name : names) sources.push_back(column_of(table, name, action, renamed ? "NOM_COLONNE" : "FORMULE"));
+  for (const std::string& name : names)
+    sources.push_back(column_of(table, name, action, renamed ? "NOM_COLONNE" : "FORMULE"));
   const int target = table.add_column(action.text("NOM_PARA"));
   for (auto& row : table.rows) {
     std::vector<Value> arguments;
@@ -111,8 +120,10 @@ void compute(Table& table, const Keywords& action) {
     if (arguments.size() < sources.size()) continue;
     result = cell_of(function.call(arguments), action);
     if (std::isfinite(number_in(result).value_or(0.0))) continue;
-    throw DiagnosticError("not-finite", fmt::format("CALC_TABLE: the formula gives no finite number in row {}", &row - table.rows.data() + 1), action.span_of("FORMULE"),
-                          "look for values beyond 1.8e308 in that row");
+    throw DiagnosticError(
+        "not-finite",
+        fmt::format("CALC_TABLE: the formula gives no finite number in row {}", &row - table.rows.data() + 1),
+        action.span_of("FORMULE"), "look for values beyond 1.8e308 in that row");
   }
 }
 
@@ -140,7 +151,9 @@ Table reduce(const Table& table, const Keywords& action) {
   return reduced;
 }
 
-SameKey same_key(const Keywords& action) { return action.has("FORMAT_R") ? SameKey(RealFormat(action.text("FORMAT_R"))) : SameKey(); }
+SameKey same_key(const Keywords& action) {
+  return action.has("FORMAT_R") ? SameKey(RealFormat(action.text("FORMAT_R"))) : SameKey();
+}
 
 // UNIQUE: of the rows that agree in the columns the first.
 void keep_different(Table& table, const Keywords& action) {
@@ -167,21 +180,27 @@ void show_statistics(const Table& table, const Context& context) {
     const double mean = reduction("MOY", numbers);
     double square = 0.0;
     for (const double number : numbers) square += (number - mean) * (number - mean);
-    context.console.progress(fmt::format("{}: {} values from {:g} to {:g}, mean {:g}, standard deviation {:g}", table.columns[static_cast<std::size_t>(column)], numbers.size(),
-                                         reduction("MINI", numbers), reduction("MAXI", numbers), mean, std::sqrt(square / static_cast<double>(numbers.size()))));
+    context.console.progress(fmt::format("{}: {} values from {:g} to {:g}, mean {:g}, standard deviation {:g}",
+                                         table.columns[static_cast<std::size_t>(column)], numbers.size(),
+                                         reduction("MINI", numbers), reduction("MAXI", numbers), mean,
+                                         std::sqrt(square / static_cast<double>(numbers.size()))));
   }
 }
 
-/// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second table's
-/// cell stays.
+/// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second
+/// table's cell stays.
 class Join {
  public:
-  Join(const Table& left, const Table& right, const Keywords& action) : right_(right), result_(left), same_(same_key(action)) {
+  Join(const Table& left, const Table& right, const Keywords& action)
+      : right_(right), result_(left), same_(same_key(action)) {
     std::vector<std::string> keys = action.texts("NOM_PARA");
     if (keys.empty()) {
-      std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys), [&](const auto& name) { return right.column(name) >= 0; });
+      std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys),
+                   [&](const auto& name) { return right.column(name) >= 0; });
     }
-    if (keys.empty()) throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common", action.span_of("TABLE"));
+    if (keys.empty())
+      throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common",
+                            action.span_of("TABLE"));
     for (const std::string& name : keys) {
       left_keys_.push_back(column_of(left, name, action));
       right_keys_.push_back(column_of(right, name, action));
@@ -211,7 +230,8 @@ class Join {
 
  private:
   void fill(std::vector<Cell>& row, std::size_t source) const {
-    for (std::size_t i = 0; i < targets_.size(); ++i) row[static_cast<std::size_t>(targets_[i])] = right_.rows[source][i];
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+      row[static_cast<std::size_t>(targets_[i])] = right_.rows[source][i];
   }
 
   const Table& right_;
@@ -226,7 +246,8 @@ Table acted(Table table, const Keywords& action, const Context& context) {
   if (operation == "EXTR") return with_columns(table, columns_of(table, action));
   if (operation == "SUPPRIME") return without_columns(table, columns_of(table, action));
   if (operation == "CALCUL") return reduce(table, action);
-  if (operation == "COMB") return Join(table, action.data<TableConcept>("TABLE").table, action).run(action.text("RESTREINT") == "OUI");
+  if (operation == "COMB")
+    return Join(table, action.data<TableConcept>("TABLE").table, action).run(action.text("RESTREINT") == "OUI");
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
   if (operation == "UNIQUE") keep_different(table, action);
@@ -242,7 +263,8 @@ Table acted(Table table, const Keywords& action, const Context& context) {
 Product calc_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   product->table = call.data<TableConcept>("TABLE").table;
-  for (const Keywords& action : call.factors("ACTION")) product->table = acted(std::move(product->table), action, context);
+  for (const Keywords& action : call.factors("ACTION"))
+    product->table = acted(std::move(product->table), action, context);
   if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
   return product;
 }

@@ -1,5 +1,6 @@
-// The commands, one function each, named as the command in lower case. Each lives in a file of its own; the registry ties
-// the names to them. They get checked keywords and turn them into calls of the solver: no numerics, no syntax checks.
+// The commands, one function each, named as the command in lower case. Each lives in a file of its own; the registry
+// ties the names to them. They get checked keywords and turn them into calls of the solver: no numerics, no syntax
+// checks.
 #pragma once
 
 #include "commands/concepts.hpp"

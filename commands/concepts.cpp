@@ -7,7 +7,8 @@
 namespace comma::commands {
 
 Value TableConcept::subscript(const Value& key) const {
-  const bool shaped = key.is_tuple() && key.items().size() == 2 && key.items()[0].is_text() && key.items()[1].is_integer();
+  const bool shaped =
+      key.is_tuple() && key.items().size() == 2 && key.items()[0].is_text() && key.items()[1].is_integer();
   if (!shaped) {
     throw interpreter::DiagnosticError("type-error", "a table is read by column name and row number", {},
                                        "write TABLE[\"COLUMN\", 1]; rows count from 1");
@@ -21,8 +22,8 @@ Value TableConcept::subscript(const Value& key) const {
                                        near.empty() ? "" : "did you mean " + near + "?");
   }
   if (row < 1 || row > static_cast<std::int64_t>(table.rows.size())) {
-    throw interpreter::DiagnosticError("key-error", "the table has no row " + std::to_string(row) + "; it has " +
-                                                          std::to_string(table.rows.size()));
+    throw interpreter::DiagnosticError(
+        "key-error", "the table has no row " + std::to_string(row) + "; it has " + std::to_string(table.rows.size()));
   }
   return std::visit(
       [](const auto& cell) -> Value {
@@ -36,22 +37,29 @@ Value TableConcept::subscript(const Value& key) const {
       table.rows[row - 1][column]);
 }
 
-Value ListConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value ListConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                          const std::map<std::string, Value>& keywords) const {
   if ((name == "Valeurs" || name == "getValues") && arguments.empty() && keywords.empty()) return list_of(values);
   return ConceptData::method(name, arguments, keywords);
 }
 
-Value IntegerListConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  if ((name == "Valeurs" || name == "getValues") && arguments.empty() && keywords.empty()) return Value::list({values.begin(), values.end()});
+Value IntegerListConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                                 const std::map<std::string, Value>& keywords) const {
+  if ((name == "Valeurs" || name == "getValues") && arguments.empty() && keywords.empty())
+    return Value::list({values.begin(), values.end()});
   return ConceptData::method(name, arguments, keywords);
 }
 
-std::vector<std::string> TableConcept::method_names() const { return {"EXTR_TABLE", "get_nom_para", "getParameters", "getNumberOfLines"}; }
+std::vector<std::string> TableConcept::method_names() const {
+  return {"EXTR_TABLE", "get_nom_para", "getParameters", "getNumberOfLines"};
+}
 
-Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value TableConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                           const std::map<std::string, Value>& keywords) const {
   if (!arguments.empty() || !keywords.empty()) return ConceptData::method(name, arguments, keywords);
   if (name == "EXTR_TABLE") return extracted_table(table);
-  if (name == "get_nom_para" || name == "getParameters") return Value::list({table.columns.begin(), table.columns.end()});
+  if (name == "get_nom_para" || name == "getParameters")
+    return Value::list({table.columns.begin(), table.columns.end()});
   if (name == "getNumberOfLines") return Value(static_cast<std::int64_t>(table.rows.size()));
   return ConceptData::method(name, arguments, keywords);
 }

@@ -32,10 +32,12 @@ using interpreter::Value;
 struct MeshConcept : ConceptData {
   std::shared_ptr<solver::Mesh> mesh;
 
-  /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name, its number of members and, of cells, their largest dimension (U1.03.02); getGroupsOfNodes(), getGroupsOfCells(): names;
-  /// hasGroupOfNodes(), hasGroupOfCells(); getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
+  /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name, its number of members and, of cells, their largest
+  /// dimension (U1.03.02); getGroupsOfNodes(), getGroupsOfCells(): names; hasGroupOfNodes(), hasGroupOfCells();
+  /// getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
   /// getConnectivity(): the nodes of each cell, from 0; getCoordinates(), which has getValues() and toNumpy().
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
 };
 
@@ -67,14 +69,16 @@ struct LoadConcept : ConceptData {
 struct ListConcept : ConceptData {
   std::vector<double> values;
   /// Valeurs() and getValues(): the numbers as a list.
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
 struct IntegerListConcept : ConceptData {
   std::vector<std::int64_t> values;
   /// Valeurs() and getValues(): the numbers as a list.
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override { return {"Valeurs", "getValues"}; }
 };
 
@@ -105,10 +109,13 @@ struct ResultConcept : ConceptData {
   std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
   std::optional<Table> modes;         ///< the eigenvalues that CRIT_STAB asked for
 
-  /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one value a step: LIST_VARI_ACCES()
-  /// and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the parameters); LIST_CHAMPS(): the orders that have each field.
-  /// getIndexes(), getNumberOfIndexes(), getFirstIndex(), getLastIndex(); getTime(index), getLastTime(); getFieldsNames(); getField(name, index), or getField(name, value=..., para="INST").
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one
+  /// value a step: LIST_VARI_ACCES() and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the
+  /// parameters); LIST_CHAMPS(): the orders that have each field. getIndexes(), getNumberOfIndexes(), getFirstIndex(),
+  /// getLastIndex(); getTime(index), getLastTime(); getFieldsNames(); getField(name, index), or getField(name,
+  /// value=..., para="INST").
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
 };
 
@@ -119,15 +126,20 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const solver::Model> model;
   /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
-  std::shared_ptr<const solver::BehaviourOfCells> behaviours = {};  ///< of a result from which the field was taken: they name internal variables
-  /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null where there are none.
+  std::shared_ptr<const solver::BehaviourOfCells> behaviours =
+      {};  ///< of a result from which the field was taken: they name internal variables
+  /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null
+  /// where there are none.
   std::shared_ptr<const MultiplierSum> multipliers = {};
 
-  /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components within), and with topo > 0 comp and noeud, or maille, point and
-  /// sous_point, numbers from 1 (U1.03.02); norm("NORM_1", components), NORM_2, NORM_INFINITY: of the values of components, multipliers not among them; copy(); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers from 0; getComponents().
-  /// A sum, a difference, and a number times the field.
+  /// EXTR_COMP(comp, groups, topo): an object with valeurs (an array, values at nodes or points in turn, components
+  /// within), and with topo > 0 comp and noeud, or maille, point and sous_point, numbers from 1 (U1.03.02);
+  /// norm("NORM_1", components), NORM_2, NORM_INFINITY: of the values of components, multipliers not among them;
+  /// copy(); getValues(): all values; getValuesWithDescription(components, groups): values and where they lie, numbers
+  /// from 0; getComponents(). A sum, a difference, and a number times the field.
   std::shared_ptr<ConceptData> combined(interpreter::Operator op, const Value& other, bool reversed) const override;
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
 };
 
@@ -135,8 +147,10 @@ struct TableConcept : ConceptData {
   Table table;
 
   Value subscript(const Value& key) const override;
-  /// EXTR_TABLE(): what extracted_table() gives; get_nom_para() and getParameters(): the names of its columns; getNumberOfLines().
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override;
+  /// EXTR_TABLE(): what extracted_table() gives; get_nom_para() and getParameters(): the names of its columns;
+  /// getNumberOfLines().
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
 };
 

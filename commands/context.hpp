@@ -59,9 +59,10 @@ struct Context {
   interpreter::Diagnostics& diagnostics;
   std::vector<Verdict> verdicts = {};
   solver::Counters counters = {};
-  bool only_checks = false;            ///< nothing will be solved
-  std::set<std::string> written = {};  ///< outputs that this run has opened: the first writing replaces, later ones append
-  std::set<int> released_units = {};   ///< IMPR_RESU begins anew what these held
+  bool only_checks = false;  ///< nothing will be solved
+  std::set<std::string> written =
+      {};  ///< outputs that this run has opened: the first writing replaces, later ones append
+  std::set<int> released_units = {};                               ///< IMPR_RESU begins anew what these held
   std::map<std::string, std::vector<WrittenMesh>> med_files = {};  ///< outputs of the format MED, likewise
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.

@@ -37,15 +37,18 @@ FieldPtr on_support(const Call& call) {
 
 const solver::Model& needed_model(const Call& call, const FieldConcept& support, const FieldType& type) {
   if (support.model) return *support.model;
-  throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type.place)), call.span,
-                        call.has("MAILLAGE") ? "give MODELE in place of MAILLAGE" : "give MODELE");
+  throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type.place)),
+                        call.span, call.has("MAILLAGE") ? "give MODELE in place of MAILLAGE" : "give MODELE");
 }
 
-solver::Field empty_field(const Call& call, const FieldConcept& support, const FieldType& type, std::vector<std::string> components) {
-  if (type.place == FieldPlace::node) return solver::empty_nodal_field(*support.mesh, type.quantity_name(), std::move(components));
-  if (type.place == FieldPlace::zone) return solver::empty_cell_field(*support.mesh, type.quantity_name(), std::move(components));
-  return solver::empty_element_field(needed_model(call, support, type), type.quantity_name(), support_of(type.place), std::move(components),
-                                     lives_on_skin(type));
+solver::Field empty_field(const Call& call, const FieldConcept& support, const FieldType& type,
+                          std::vector<std::string> components) {
+  if (type.place == FieldPlace::node)
+    return solver::empty_nodal_field(*support.mesh, type.quantity_name(), std::move(components));
+  if (type.place == FieldPlace::zone)
+    return solver::empty_cell_field(*support.mesh, type.quantity_name(), std::move(components));
+  return solver::empty_element_field(needed_model(call, support, type), type.quantity_name(), support_of(type.place),
+                                     std::move(components), lives_on_skin(type));
 }
 
 void add_name(std::vector<std::string>& names, const std::string& name) {
@@ -57,8 +60,10 @@ std::vector<int> places(const Keywords& occurrence, const FieldConcept& field, c
   if (type.place == FieldPlace::node) return selected_nodes(occurrence, *field.mesh);
   for (const char* keyword : {"GROUP_NO", "NOEUD"}) {
     if (!occurrence.given(keyword)) continue;
-    throw DiagnosticError("wrong-place", fmt::format("CREA_CHAMP: {} names nodes, and the field has its values {}", keyword, describe(type.place)),
-                          occurrence.span_of(keyword), "name cells by GROUP_MA, MAILLE or TOUT");
+    throw DiagnosticError(
+        "wrong-place",
+        fmt::format("CREA_CHAMP: {} names nodes, and the field has its values {}", keyword, describe(type.place)),
+        occurrence.span_of(keyword), "name cells by GROUP_MA, MAILLE or TOUT");
   }
   return selected_cells(occurrence, *field.mesh);
 }
@@ -71,7 +76,8 @@ void finish(const Call& call, FieldConcept& product) {
       product.functions.push_back(std::make_shared<ConstantConcept>(0.0));
     }
     auto* element = std::get_if<solver::ElementField>(&product.field);
-    if (element != nullptr && product.model && product.functions.empty() && element->support != solver::Support::cell) solver::add_unnamed_zeros(*element, *product.model);
+    if (element != nullptr && product.model && product.functions.empty() && element->support != solver::Support::cell)
+      solver::add_unnamed_zeros(*element, *product.model);
     solver::fill_absent(product.field, zero);
   }
   if (auto* element = std::get_if<solver::ElementField>(&product.field)) solver::drop_empty_cells(*element);
@@ -81,7 +87,12 @@ void finish(const Call& call, FieldConcept& product) {
 std::vector<double> values_of(const Keywords& occurrence, const FieldType& type, FieldConcept& product) {
   const char* wanted = type.functions ? "VALE_F" : type.integers ? "VALE_I" : "VALE";
   if (!occurrence.given(wanted)) {
-    throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field of {} takes its values from {}", type.functions ? "functions" : type.integers ? "integers" : "numbers", wanted),
+    throw DiagnosticError("missing-keyword",
+                          fmt::format("CREA_CHAMP: a field of {} takes its values from {}",
+                                      type.functions  ? "functions"
+                                      : type.integers ? "integers"
+                                                      : "numbers",
+                                      wanted),
                           occurrence.span, "or ask for a TYPE_CHAM that ends in _R (VALE), _I (VALE_I) or _F (VALE_F)");
   }
   if (type.integers) {
@@ -112,8 +123,9 @@ FieldPtr from_values(const Call& call, const FieldType& type) {
     const auto names = occurrence.texts("NOM_CMP");
     const auto values = values_of(occurrence, type, *product);
     if (names.size() != values.size()) {
-      throw DiagnosticError("wrong-count", fmt::format("CREA_CHAMP: {} components stand against {} values", names.size(), values.size()),
-                            occurrence.span_of("NOM_CMP"), "give one value a component");
+      throw DiagnosticError(
+          "wrong-count", fmt::format("CREA_CHAMP: {} components stand against {} values", names.size(), values.size()),
+          occurrence.span_of("NOM_CMP"), "give one value a component");
     }
     const auto where = places(occurrence, *product, type);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -129,10 +141,13 @@ solver::FieldPiece piece_of(const Keywords& occurrence, interpreter::Diagnostics
   piece.field = &number_field(occurrence.concept_of("CHAM_GD"), occurrence, "CHAM_GD").field;
   const std::vector<std::string>& all = solver::components_of(*piece.field);
   const bool renames = occurrence.given("NOM_CMP_RESU");
-  piece.from = !occurrence.given("NOM_CMP") ? all : renames ? occurrence.texts("NOM_CMP") : known_components(occurrence, all, diagnostics);
+  piece.from = !occurrence.given("NOM_CMP") ? all
+               : renames                    ? occurrence.texts("NOM_CMP")
+                                            : known_components(occurrence, all, diagnostics);
   piece.to = renames ? occurrence.texts("NOM_CMP_RESU") : piece.from;
   if (piece.from.size() != piece.to.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("CREA_CHAMP: {} components become {}", piece.from.size(), piece.to.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("CREA_CHAMP: {} components become {}", piece.from.size(), piece.to.size()),
                           occurrence.span_of("NOM_CMP_RESU"), "give as many names in NOM_CMP_RESU as in NOM_CMP");
   }
   for (const std::string& name : piece.from) component_of(occurrence, all, name);
@@ -147,7 +162,9 @@ FieldPtr from_pieces(const Call& call, const FieldType& type, interpreter::Diagn
   std::vector<std::string> components;
   for (const Keywords& occurrence : call.factors("ASSE")) {
     pieces.push_back(piece_of(occurrence, diagnostics));
-    const char* keyword = occurrence.given("NOM_CMP_RESU") ? "NOM_CMP_RESU" : occurrence.given("NOM_CMP") ? "NOM_CMP" : "CHAM_GD";
+    const char* keyword = occurrence.given("NOM_CMP_RESU") ? "NOM_CMP_RESU"
+                          : occurrence.given("NOM_CMP")    ? "NOM_CMP"
+                                                           : "CHAM_GD";
     for (const std::string& name : pieces.back().to) {
       check_component(occurrence, keyword, type, name);
       add_name(components, name);
@@ -194,11 +211,14 @@ FieldPtr from_terms(const Call& call) {
 FieldPtr from_functions(const Call& call, const FieldType& type) {
   const auto& which = call.data<FieldConcept>("CHAM_F");
   if (which.functions.empty()) {
-    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: {} is a field of numbers, not of functions", call.concept_of("CHAM_F")->name),
-                          call.span_of("CHAM_F"), "make it by OPERATION='AFFE' with a TYPE_CHAM that ends in _F");
+    throw DiagnosticError(
+        "wrong-type",
+        fmt::format("CREA_CHAMP: {} is a field of numbers, not of functions", call.concept_of("CHAM_F")->name),
+        call.span_of("CHAM_F"), "make it by OPERATION='AFFE' with a TYPE_CHAM that ends in _F");
   }
   std::vector<const solver::Field*> arguments;
-  for (const auto& handle : call.concepts("CHAM_PARA")) arguments.push_back(&number_field(handle, call, "CHAM_PARA").field);
+  for (const auto& handle : call.concepts("CHAM_PARA"))
+    arguments.push_back(&number_field(handle, call, "CHAM_PARA").field);
   auto product = std::make_shared<FieldConcept>();
   take_support(*product, which);
   product->field = solver::evaluate(which.field, value_functions(which), arguments, type.quantity_name());
@@ -217,7 +237,8 @@ FieldPtr of_normals(const Call& call) {
   std::vector<Eigen::Vector3d> positions;
   for (const solver::Point& at : product->mesh->nodes) positions.emplace_back(at.data());
   auto normals = solver::empty_nodal_field(*product->mesh, "GEOM_R", {"X", "Y", "Z"});
-  for (const auto& [node, normal] : solver::nodal_normals(*product->mesh, selected_cells(call, *product->mesh), positions)) {
+  for (const auto& [node, normal] :
+       solver::nodal_normals(*product->mesh, selected_cells(call, *product->mesh), positions)) {
     std::copy_n(normal.data(), 3, normals.values.begin() + 3 * node);
   }
   product->field = std::move(normals);
@@ -237,10 +258,12 @@ FieldPtr brought(const Call& call, const FieldType& type) {
     if (type.place == FieldPlace::node) {
       product->field = solver::brought_to_nodes(*product->mesh, product->model.get(), from.field);
     } else {
-      product->field = solver::brought_to(needed_model(call, *product, type), from.field, support_of(type.place), lives_on_skin(type));
+      product->field = solver::brought_to(needed_model(call, *product, type), from.field, support_of(type.place),
+                                          lives_on_skin(type));
     }
   } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("CHAM_GD"), error.hint());
+    throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("CHAM_GD"),
+                          error.hint());
   }
   return product;
 }
@@ -254,7 +277,9 @@ FieldPtr extracted(const Call& call, const FieldType& type) {
 
 FieldPtr computed(const Call& call, const FieldType& type, Context& context) {
   const std::string& operation = call.text("OPERATION");
-  FieldPtr product = operation == "ASSE" ? from_pieces(call, type, context.diagnostics) : operation == "COMB" ? from_terms(call) : from_functions(call, type);
+  FieldPtr product = operation == "ASSE"   ? from_pieces(call, type, context.diagnostics)
+                     : operation == "COMB" ? from_terms(call)
+                                           : from_functions(call, type);
   require_finite(product->field, *product->mesh, "CREA_CHAMP", call.span_of("OPERATION"));
   return product;
 }
@@ -270,16 +295,20 @@ FieldPtr made_by(const Call& call, const FieldType& type, Context& context) {
 // Of another quantity it would be taken for what it is not. Functions have components alone.
 void check_type(const Call& call, const FieldType& type, const solver::Field& field) {
   if (!lies_at(field, type.place)) {
-    throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says", describe(place_of(field)), describe(type.place)),
+    throw DiagnosticError("wrong-type",
+                          fmt::format("CREA_CHAMP: the field has its values {}, not {} as TYPE_CHAM says",
+                                      describe(place_of(field)), describe(type.place)),
                           call.span_of("TYPE_CHAM"));
   }
   const std::string& quantity = std::visit([](const auto& any) -> const std::string& { return any.quantity; }, field);
   const auto& components = solver::components_of(field);
-  const auto unknown = std::ranges::find_if(components, [&](const std::string& name) { return !has_component(type, name); });
+  const auto unknown =
+      std::ranges::find_if(components, [&](const std::string& name) { return !has_component(type, name); });
   if (quantity == type.quantity_name() && (call.text("OPERATION") != "EVAL" || unknown == components.end())) return;
   const std::string what = quantity == type.quantity_name() ? *unknown : quantity.substr(0, quantity.size() - 2);
-  throw DiagnosticError("wrong-type", fmt::format("CREA_CHAMP: the field is one of {}, not of {} as TYPE_CHAM says", what, type.quantity), call.span_of("TYPE_CHAM"),
-                        "OPERATION='ASSE' with NOM_CMP and NOM_CMP_RESU makes components of another quantity");
+  throw DiagnosticError(
+      "wrong-type", fmt::format("CREA_CHAMP: the field is one of {}, not of {} as TYPE_CHAM says", what, type.quantity),
+      call.span_of("TYPE_CHAM"), "OPERATION='ASSE' with NOM_CMP and NOM_CMP_RESU makes components of another quantity");
 }
 
 }  // namespace

@@ -38,8 +38,10 @@ void keep_named(const Keywords& restriction, const std::string& names, const std
 }
 
 solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) {
-  if (restriction.given("GROUP_NO")) named_node_groups(restriction, "GROUP_NO", mesh);  // tells a name that does not exist
-  solver::Mesh result = solver::restricted(mesh, selected_cells(restriction, mesh, {.all = "", .node_groups = "", .nodes = ""}));
+  if (restriction.given("GROUP_NO"))
+    named_node_groups(restriction, "GROUP_NO", mesh);  // tells a name that does not exist
+  solver::Mesh result =
+      solver::restricted(mesh, selected_cells(restriction, mesh, {.all = "", .node_groups = "", .nodes = ""}));
   keep_named(restriction, "GROUP_MA", "TOUT_GROUP_MA", result.cell_groups);
   keep_named(restriction, "GROUP_NO", "TOUT_GROUP_NO", result.node_groups);
   return result;
@@ -47,7 +49,8 @@ solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) 
 
 solver::Mesh cut_slave_faces(const Keywords& cut, const solver::Mesh& mesh) {
   const auto faces = selected_cells(cut, mesh, {"", "", "", "GROUP_MA_ESCL", ""});
-  return solver::with_cut_slave_faces(mesh, faces, cut.text("DECOUPE_HEXA") == "HEXA" ? solver::HexaCut::hexahedra : solver::HexaCut::pyramids);
+  return solver::with_cut_slave_faces(
+      mesh, faces, cut.text("DECOUPE_HEXA") == "HEXA" ? solver::HexaCut::hexahedra : solver::HexaCut::pyramids);
 }
 
 }  // namespace
@@ -55,10 +58,13 @@ solver::Mesh cut_slave_faces(const Keywords& cut, const solver::Mesh& mesh) {
 Product crea_maillage(const Call& call, Context& context) {
   solver::Mesh mesh = *call.data<MeshConcept>("MAILLAGE").mesh;
   for (const auto& [name, conversion] : conversions) {
-    each_occurrence(call, name, [&](const Keywords& one) { mesh = solver::converted(mesh, selected_cells(one, mesh), conversion); });
+    each_occurrence(call, name, [&](const Keywords& one) {
+      mesh = solver::converted(mesh, selected_cells(one, mesh), conversion);
+    });
   }
   each_occurrence(call, "MODI_MAILLE", [&](const Keywords& one) { mesh = with_changed_cells(one, mesh); });
-  each_occurrence(call, "CREA_MAILLE", [&](const Keywords& one) { solver::double_cells(mesh, selected_cells(one, mesh), one.text("NOM")); });
+  each_occurrence(call, "CREA_MAILLE",
+                  [&](const Keywords& one) { solver::double_cells(mesh, selected_cells(one, mesh), one.text("NOM")); });
   each_occurrence(call, "CREA_POI1", [&](const Keywords& one) {
     solver::add_points(mesh, selected_nodes(one, mesh), one.given("NOM_GROUP_MA") ? one.text("NOM_GROUP_MA") : "");
   });

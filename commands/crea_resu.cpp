@@ -25,7 +25,8 @@ solver::Field at_instant(const FieldConcept& data, double instant, const interpr
   const solver::Field time = solver::uniform_like(data.field, "INST", instant);
   std::vector<const solver::Field*> known = {&time};
   std::optional<solver::Field> coordinates;
-  if (std::holds_alternative<solver::NodalField>(data.field)) known.push_back(&coordinates.emplace(solver::node_coordinates(*data.mesh)));
+  if (std::holds_alternative<solver::NodalField>(data.field))
+    known.push_back(&coordinates.emplace(solver::node_coordinates(*data.mesh)));
   const std::string quantity = std::visit([](const auto& field) { return field.quantity; }, data.field);
   solver::Field made = solver::evaluate(data.field, value_functions(data), known, quantity);
   require_finite(made, *data.mesh, "CREA_RESU", span);
@@ -42,7 +43,8 @@ struct StateWords {
   bool operator==(const StateWords&) const = default;
 };
 
-// A result in the making: what each of its steps was computed from; null where that is `product.problem`, which occurrences fill.
+// A result in the making: what each of its steps was computed from; null where that is `product.problem`, which
+// occurrences fill.
 struct Making {
   ResultConcept& product;
   std::vector<Origin> origins;
@@ -58,12 +60,14 @@ struct Making {
         ++phase;
         of_phase.reset();
       }
-      if (phase < product.earlier.size() && !of_phase) of_phase = std::make_shared<const solver::StaticProblem>(product.earlier[phase].problem);
+      if (phase < product.earlier.size() && !of_phase)
+        of_phase = std::make_shared<const solver::StaticProblem>(product.earlier[phase].problem);
       origins.push_back(of_phase);
     }
   }
 
-  // The step at an instant, made in its place among the others if there is none so near. `state`: what it goes on from; null: as it was.
+  // The step at an instant, made in its place among the others if there is none so near. `state`: what it goes on from;
+  // null: as it was.
   solver::ResultStep& step_at(double instant, const InstantTolerance& tolerance, const Origin& state) {
     auto& steps = product.result.steps;
     if (const std::size_t found = nearest_step(product.result, instant, tolerance); found < steps.size()) {
@@ -82,14 +86,17 @@ struct Making {
     auto& steps = product.result.steps;
     solver::StaticProblem& own = product.problem;
     if (!own.properties) own.properties = std::make_shared<const solver::ElementProperties>();
-    if (current && own.loads.empty() && !own.behaviours) own = completed(*current);  // also of steps that came before it
+    if (current && own.loads.empty() && !own.behaviours)
+      own = completed(*current);  // also of steps that came before it
     const solver::StaticProblem whole = own;
     product.earlier.clear();
     for (std::size_t k = 0; k < steps.size(); ++k) {
       steps[k].order = first_order + static_cast<int>(k);
       const solver::StaticProblem problem = origins[k] ? completed(*origins[k]) : whole;
-      if (k + 1 == steps.size()) own = problem;
-      else if (origins[k + 1] != origins[k]) product.earlier.push_back({steps[k].order, problem});
+      if (k + 1 == steps.size())
+        own = problem;
+      else if (origins[k + 1] != origins[k])
+        product.earlier.push_back({steps[k].order, problem});
     }
   }
 
@@ -105,12 +112,16 @@ struct Making {
 // A result has one model, one material field and so on for all of its steps.
 void require_one(bool is_same, const Keywords& occurrence, const char* keyword) {
   if (is_same) return;
-  throw DiagnosticError("one-for-all-steps", fmt::format("CREA_RESU: another {} than that of the steps before: in comma a result has one for all of its steps", keyword),
-                        occurrence.span_of(keyword), "make one result for each");
+  throw DiagnosticError(
+      "one-for-all-steps",
+      fmt::format("CREA_RESU: another {} than that of the steps before: in comma a result has one for all of its steps",
+                  keyword),
+      occurrence.span_of(keyword), "make one result for each");
 }
 
 template <class Part>
-void take_part(const Keywords& occurrence, const char* keyword, const std::shared_ptr<Part>& part, const solver::Mesh* own, const solver::Mesh& mesh,
+void take_part(const Keywords& occurrence, const char* keyword, const std::shared_ptr<Part>& part,
+               const solver::Mesh* own, const solver::Mesh& mesh,
                std::shared_ptr<const std::remove_const_t<Part>>& target) {
   require_mesh(occurrence, keyword, own, mesh);
   require_one(!target || target == part, occurrence, keyword);
@@ -129,16 +140,18 @@ void take_support(ResultConcept& product, const Keywords& occurrence, const Fiel
   if (occurrence.has("CHAM_MATER")) {
     const auto& materials = occurrence.data<MaterialFieldConcept>("CHAM_MATER");
     const auto field = materials.field.get();
-    if (product.problem.materials && materials.field.has_made(product.problem.materials)) product.problem.materials = field;
+    if (product.problem.materials && materials.field.has_made(product.problem.materials))
+      product.problem.materials = field;
     take_part(occurrence, "CHAM_MATER", field, materials.mesh.get(), mesh, product.problem.materials);
   }
   if (occurrence.has("CARA_ELEM")) {
     const auto& properties = occurrence.data<PropertiesConcept>("CARA_ELEM");
-    take_part(occurrence, "CARA_ELEM", properties.properties, properties.model ? properties.model->mesh.get() : nullptr, mesh, product.problem.properties);
+    take_part(occurrence, "CARA_ELEM", properties.properties, properties.model ? properties.model->mesh.get() : nullptr,
+              mesh, product.problem.properties);
   }
   if (!result.steps.empty() && &result.mesh() != data.mesh.get()) {
-    throw DiagnosticError("incompatible-field", "CREA_RESU: the field lies on another mesh than those before it", occurrence.span_of("CHAM_GD"),
-                          "make one result for each mesh");
+    throw DiagnosticError("incompatible-field", "CREA_RESU: the field lies on another mesh than those before it",
+                          occurrence.span_of("CHAM_GD"), "make one result for each mesh");
   }
   result.model = product.problem.model;
   result.bare_mesh = data.mesh;
@@ -151,7 +164,11 @@ std::vector<double> instants_of(const Keywords& occurrence) {
   const auto count = static_cast<std::int64_t>(all.size());
   const auto first = occurrence.given("NUME_INIT") ? std::max<std::int64_t>(1, occurrence.integer("NUME_INIT")) : 1;
   const auto last = occurrence.given("NUME_FIN") ? std::min(count, occurrence.integer("NUME_FIN")) : count;
-  if (first > last) throw DiagnosticError("out-of-bounds", fmt::format("CREA_RESU: no instant stands between number {} and number {} of {}", first, last, count), occurrence.span);
+  if (first > last)
+    throw DiagnosticError(
+        "out-of-bounds",
+        fmt::format("CREA_RESU: no instant stands between number {} and number {} of {}", first, last, count),
+        occurrence.span);
   return {all.begin() + first - 1, all.begin() + last};
 }
 
@@ -159,7 +176,8 @@ StateWords state_words(const Keywords& occurrence, const solver::StaticProblem& 
   StateWords words;
   if (occurrence.has("EXCIT"))
     for (const Keywords& excitation : occurrence.factors("EXCIT"))
-      words.loads.emplace_back(excitation.concept_of("CHARGE").get(), excitation.has("FONC_MULT") ? excitation.concept_of("FONC_MULT").get() : nullptr,
+      words.loads.emplace_back(excitation.concept_of("CHARGE").get(),
+                               excitation.has("FONC_MULT") ? excitation.concept_of("FONC_MULT").get() : nullptr,
                                excitation.has("TYPE_CHARGE") ? excitation.text("TYPE_CHARGE") : std::string());
   if (problem.behaviours) words.behaviours = *problem.behaviours;
   return words;
@@ -173,7 +191,8 @@ Origin state_of(Making& making, const Keywords& occurrence) {
   if (occurrence.has("COMPORTEMENT")) {
     problem->model = making.product.problem.model;
     if (!problem->model) {
-      throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model", occurrence.span_of("COMPORTEMENT"), "give MODELE");
+      throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model",
+                            occurrence.span_of("COMPORTEMENT"), "give MODELE");
     }
     problem->behaviours = behaviours_of(occurrence, *problem->model, false);
   }
@@ -187,7 +206,8 @@ Origin state_of(Making& making, const Keywords& occurrence) {
 const std::string& field_name(const Call& call, const Keywords& occurrence) {
   if (occurrence.has("NOM_CHAM")) return occurrence.text("NOM_CHAM");
   if (call.has("NOM_CHAM")) return call.text("NOM_CHAM");
-  throw DiagnosticError("missing-keyword", "CREA_RESU/AFFE needs NOM_CHAM", occurrence.span, "give the name of the field in the result, such as DEPL or SIEF_ELGA");
+  throw DiagnosticError("missing-keyword", "CREA_RESU/AFFE needs NOM_CHAM", occurrence.span,
+                        "give the name of the field in the result, such as DEPL or SIEF_ELGA");
 }
 
 void add_field(Making& making, const Call& call, const Keywords& occurrence) {
@@ -209,21 +229,28 @@ void append(Making& making, const Keywords& occurrence) {
     product.result = source.result;
     steps.clear();
   } else if (&product.result.mesh() != &source.result.mesh()) {
-    throw DiagnosticError("incompatible-field", "CREA_RESU: the results lie on different meshes", occurrence.span_of("RESULTAT"));
+    throw DiagnosticError("incompatible-field", "CREA_RESU: the results lie on different meshes",
+                          occurrence.span_of("RESULTAT"));
   }
-  if (product.result.model && source.result.model && product.result.model->formulations != source.result.model->formulations)
-    throw DiagnosticError("one-for-all-steps", "CREA_RESU: the results lie on models with other elements: in comma a result has one for all of its steps", occurrence.span_of("RESULTAT"), "make one result for each");
+  if (product.result.model && source.result.model &&
+      product.result.model->formulations != source.result.model->formulations)
+    throw DiagnosticError(
+        "one-for-all-steps",
+        "CREA_RESU: the results lie on models with other elements: in comma a result has one for all of its steps",
+        occurrence.span_of("RESULTAT"), "make one result for each");
   if (source.result.steps.empty()) return;
   const double shift = occurrence.real("TRANSLATION");
   const double first = source.result.steps.front().instant + shift;
   constexpr double same_instant = 1e-9;
-  const auto replaced = std::ranges::find_if(steps, [&](const auto& step) { return step.instant >= first - same_instant * std::abs(first); });
+  const auto replaced = std::ranges::find_if(
+      steps, [&](const auto& step) { return step.instant >= first - same_instant * std::abs(first); });
   making.origins.resize(static_cast<std::size_t>(replaced - steps.begin()));
   steps.erase(replaced, steps.end());
   const solver::StaticProblem* before = nullptr;
   for (const solver::ResultStep& step : source.result.steps) {
     const solver::StaticProblem& problem = source.problem_of(step);
-    making.origins.push_back(before == &problem ? making.origins.back() : std::make_shared<const solver::StaticProblem>(problem));
+    making.origins.push_back(before == &problem ? making.origins.back()
+                                                : std::make_shared<const solver::StaticProblem>(problem));
     before = &problem;
     steps.push_back(step);
     steps.back().instant += shift;

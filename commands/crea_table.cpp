@@ -32,27 +32,33 @@ void put(Table& table, std::size_t row, int column, Cell cell) {
 
 void add_list(Table& table, const Keywords& list) {
   const std::string& name = list.text("PARA");
-  if (table.column(name) >= 0) throw DiagnosticError("repeated-column", "CREA_TABLE: two lists are named " + name, list.span_of("PARA"));
+  if (table.column(name) >= 0)
+    throw DiagnosticError("repeated-column", "CREA_TABLE: two lists are named " + name, list.span_of("PARA"));
   const int column = table.add_column(name);
   const auto cells = cells_of(list);
   const auto rows = list.integers("NUME_LIGN");
   constexpr std::int64_t most_rows = 1'000'000;
   if (!rows.empty() && *std::ranges::max_element(rows) > most_rows) {
-    throw DiagnosticError("out-of-bounds", fmt::format("CREA_TABLE: a table has {} rows at most", most_rows), list.span_of("NUME_LIGN"));
+    throw DiagnosticError("out-of-bounds", fmt::format("CREA_TABLE: a table has {} rows at most", most_rows),
+                          list.span_of("NUME_LIGN"));
   }
   if (!rows.empty() && rows.size() != cells.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("CREA_TABLE: {} rows stand against {} values", rows.size(), cells.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("CREA_TABLE: {} rows stand against {} values", rows.size(), cells.size()),
                           list.span_of("NUME_LIGN"));
   }
   if (std::set<std::int64_t>(rows.begin(), rows.end()).size() < rows.size())
-    throw DiagnosticError("repeated-row", "CREA_TABLE: NUME_LIGN names a row twice", list.span_of("NUME_LIGN"), "give each value a row of its own");
-  for (std::size_t i = 0; i < cells.size(); ++i) put(table, rows.empty() ? i : static_cast<std::size_t>(rows[i] - 1), column, cells[i]);
+    throw DiagnosticError("repeated-row", "CREA_TABLE: NUME_LIGN names a row twice", list.span_of("NUME_LIGN"),
+                          "give each value a row of its own");
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    put(table, rows.empty() ? i : static_cast<std::size_t>(rows[i] - 1), column, cells[i]);
 }
 
 void add_function(Table& table, const Keywords& source) {
   const auto* function = source.data<FunctionConcept>("FONCTION").table();
   if (function == nullptr) {
-    throw DiagnosticError("unsupported", fmt::format("CREA_TABLE: {} is not given by points", source.concept_of("FONCTION")->name),
+    throw DiagnosticError("unsupported",
+                          fmt::format("CREA_TABLE: {} is not given by points", source.concept_of("FONCTION")->name),
                           source.span_of("FONCTION"), "tabulate it by CALC_FONC_INTERP");
   }
   auto names = source.texts("PARA");
@@ -66,17 +72,21 @@ void add_function(Table& table, const Keywords& source) {
 
 // One row for values that are not all absent.
 template <class ValueAt>
-void add_values(Table& table, Row row, const solver::Field& field, const std::vector<int>& components, ValueAt value_at) {
+void add_values(Table& table, Row row, const solver::Field& field, const std::vector<int>& components,
+                ValueAt value_at) {
   bool carried = false;
   for (const int component : components) {
     const double value = value_at(component);
     carried |= !std::isnan(value);
-    row.emplace_back(solver::components_of(field)[static_cast<std::size_t>(component)], std::isnan(value) ? Cell() : Cell(value));
+    row.emplace_back(solver::components_of(field)[static_cast<std::size_t>(component)],
+                     std::isnan(value) ? Cell() : Cell(value));
   }
   if (carried) table.add_row(row);
 }
 
-void add_place(Row& row, double x, double y, double z) { row.insert(row.end(), {{"COOR_X", x}, {"COOR_Y", y}, {"COOR_Z", z}}); }
+void add_place(Row& row, double x, double y, double z) {
+  row.insert(row.end(), {{"COOR_X", x}, {"COOR_Y", y}, {"COOR_Z", z}});
+}
 
 Row head_of(const Keywords& source, const FieldSource& from) {
   Row head = from.columns;
@@ -105,8 +115,9 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
   const auto& field = std::get<solver::ElementField>(from.field);
   for (const char* keyword : {"GROUP_NO", "NOEUD"}) {
     if (!source.given(keyword)) continue;
-    throw DiagnosticError("wrong-place", fmt::format("CREA_TABLE: {} names nodes, and the field lies on cells", keyword), source.span_of(keyword),
-                          "name cells by TOUT, GROUP_MA or MAILLE");
+    throw DiagnosticError("wrong-place",
+                          fmt::format("CREA_TABLE: {} names nodes, and the field lies on cells", keyword),
+                          source.span_of(keyword), "name cells by TOUT, GROUP_MA or MAILLE");
   }
   const solver::ElementField places = places_of(from, field);
   for (const int cell : selected_cells(source, from.mesh)) {
@@ -116,18 +127,23 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
       const int point = value / each;
       Row row = head_of(source, from);
       row.emplace_back("MAILLE", table_cell(from.mesh, cell));
-      if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
-      if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
+      if (field.support == solver::Support::element_node)
+        row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
+      if (field.support == solver::Support::gauss_point)
+        row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
       if (each > 1) row.emplace_back("SOUS_POINT", static_cast<std::int64_t>(value % each + 1));
       if (placed) add_place(row, places.at(cell, point, 0), places.at(cell, point, 1), places.at(cell, point, 2));
-      add_values(table, std::move(row), from.field, components, [&](int component) { return field.at(cell, value, component); });
+      add_values(table, std::move(row), from.field, components,
+                 [&](int component) { return field.at(cell, value, component); });
     }
   }
 }
 
-std::vector<int> known_indices(const Keywords& source, const std::vector<std::string>& all, interpreter::Diagnostics& diagnostics) {
+std::vector<int> known_indices(const Keywords& source, const std::vector<std::string>& all,
+                               interpreter::Diagnostics& diagnostics) {
   std::vector<int> indices;
-  for (const std::string& name : known_components(source, all, diagnostics)) indices.push_back(component_of(source, all, name));
+  for (const std::string& name : known_components(source, all, diagnostics))
+    indices.push_back(component_of(source, all, name));
   return indices;
 }
 
@@ -135,7 +151,8 @@ std::vector<int> known_indices(const Keywords& source, const std::vector<std::st
 void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
   for (const FieldSource& from : field_sources(source, ValuesAPoint::any)) {
     const std::vector<std::string>& all = solver::components_of(from.field);
-    const std::vector<int> components = source.given("NOM_CMP") ? known_indices(source, all, diagnostics) : chosen_components(source, all);
+    const std::vector<int> components =
+        source.given("NOM_CMP") ? known_indices(source, all, diagnostics) : chosen_components(source, all);
     if (std::holds_alternative<solver::NodalField>(from.field)) {
       add_nodes(table, source, from, components);
     } else {

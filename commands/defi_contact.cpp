@@ -21,7 +21,8 @@ namespace {
 using interpreter::DiagnosticError;
 using solver::Component;
 
-Component component(const Keywords& zone, const std::string& name, const std::vector<int>& nodes, const solver::DofMap& dofs) {
+Component component(const Keywords& zone, const std::string& name, const std::vector<int>& nodes,
+                    const solver::DofMap& dofs) {
   const auto known = solver::component_named(name);
   if (known) {
     for (const int node : nodes) {
@@ -36,14 +37,18 @@ solver::UnilateralCondition unilateral(const Keywords& zone, const solver::Model
   const solver::DofMap dofs(model);
   solver::UnilateralCondition condition;
   condition.nodes = remaining_nodes(zone, *model.mesh);
-  if (condition.nodes.empty()) throw DiagnosticError("nothing-left", "DEFI_CONTACT: all nodes of the zone are left out of it", zone.span, "leave out fewer (SANS_GROUP_NO), or the zone");
+  if (condition.nodes.empty())
+    throw DiagnosticError("nothing-left", "DEFI_CONTACT: all nodes of the zone are left out of it", zone.span,
+                          "leave out fewer (SANS_GROUP_NO), or the zone");
   for (const std::string& name : zone.texts("NOM_CMP")) {
     condition.components.push_back(component(zone, name, condition.nodes, dofs));
   }
-  for (const auto& handle : zone.concepts("COEF_MULT")) condition.coefficients.push_back(field_function(handle, zone.span_of("COEF_MULT")));
+  for (const auto& handle : zone.concepts("COEF_MULT"))
+    condition.coefficients.push_back(field_function(handle, zone.span_of("COEF_MULT")));
   if (condition.coefficients.size() != condition.components.size()) {
-    throw DiagnosticError("wrong-count", "DEFI_CONTACT: each of the " + std::to_string(condition.components.size()) +
-                                             " components of NOM_CMP needs its coefficient",
+    throw DiagnosticError("wrong-count",
+                          "DEFI_CONTACT: each of the " + std::to_string(condition.components.size()) +
+                              " components of NOM_CMP needs its coefficient",
                           zone.span_of("COEF_MULT"), "give as many functions to COEF_MULT as names to NOM_CMP");
   }
   condition.bound = field_function(zone.concept_of("COEF_IMPO"), zone.span_of("COEF_IMPO"));
@@ -59,11 +64,13 @@ solver::NormalSide normal_side(const std::string& word) {
 std::array<double, 3> direction_of(const Keywords& zone, const std::string& keyword) {
   const solver::Point vector = point_of(zone, keyword);
   if (std::ranges::any_of(vector, [](double each) { return each != 0.0; })) return vector;
-  throw DiagnosticError("zero-vector", keyword + " is no direction: all its components are 0", zone.span_of(keyword), "give a vector that is not null");
+  throw DiagnosticError("zero-vector", keyword + " is no direction: all its components are 0", zone.span_of(keyword),
+                        "give a vector that is not null");
 }
 
 // VECT_MAIT and VECT_ESCL, with what they need.
-void take_normal(const Keywords& zone, const std::string& side, solver::NormalRule& rule, std::array<double, 3>& vector) {
+void take_normal(const Keywords& zone, const std::string& side, solver::NormalRule& rule,
+                 std::array<double, 3>& vector) {
   const std::string keyword = "VECT_" + side;
   if (!zone.has(keyword) || zone.text(keyword) == "AUTO") return;
   const bool fixed = zone.text(keyword) == "FIXE";
@@ -78,7 +85,8 @@ void take_half_thickness(const Keywords& keywords, const solver::Model& model, s
   if (!beams && !plates) return;
   const char* keyword = beams ? "DIST_POUTRE" : "DIST_COQUE";
   if (!keywords.given("CARA_ELEM")) {
-    throw DiagnosticError("missing-keyword", std::string("DEFI_CONTACT: ") + keyword + " needs to know the sections", keywords.span_of(keyword), "give CARA_ELEM");
+    throw DiagnosticError("missing-keyword", std::string("DEFI_CONTACT: ") + keyword + " needs to know the sections",
+                          keywords.span_of(keyword), "give CARA_ELEM");
   }
   const auto& given = keywords.data<PropertiesConcept>("CARA_ELEM");
   if (given.model) require_mesh(keywords, "CARA_ELEM", given.model->mesh.get(), *model.mesh);
@@ -88,58 +96,80 @@ void take_half_thickness(const Keywords& keywords, const solver::Model& model, s
     if (plates) zone.half_thickness.merge(solver::plate_half_thicknesses(model, properties, *cells));
   }
   if (zone.half_thickness.empty()) {
-    throw DiagnosticError("missing-cells", std::string("DEFI_CONTACT: no cell of this zone is ") + (beams ? "a beam" : "a plate"), keywords.span_of(keyword),
+    throw DiagnosticError("missing-cells",
+                          std::string("DEFI_CONTACT: no cell of this zone is ") + (beams ? "a beam" : "a plate"),
+                          keywords.span_of(keyword),
                           std::string("leave out ") + keyword + ", or give the thickness by DIST_MAIT and DIST_ESCL");
   }
 }
 
 // A gap has a sign only if the normals point out of the bodies (U4.44.11, VERI_NORM).
-void check_normals(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells, const solver::Mesh& mesh) {
+void check_normals(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells,
+                   const solver::Mesh& mesh) {
   const auto inward = solver::inward_skin(mesh, cells);
   if (inward.empty()) return;
-  throw DiagnosticError("inward-normals",
-                        "DEFI_CONTACT: the normals of " + std::to_string(inward.size()) + " of these " + std::to_string(cells.size()) +
-                            " cells point into the body, that of " + mesh.cell_name(inward.front()) + " for one",
-                        zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
+  throw DiagnosticError(
+      "inward-normals",
+      "DEFI_CONTACT: the normals of " + std::to_string(inward.size()) + " of these " + std::to_string(cells.size()) +
+          " cells point into the body, that of " + mesh.cell_name(inward.front()) + " for one",
+      zone.span_of(keyword), "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
 // Of surfaces that bound no body (plates, beams, rigid faces) neighbours must agree on a side.
-void check_sides_of_sheets(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells, const solver::Mesh& mesh) {
+void check_sides_of_sheets(const Keywords& zone, const std::string& keyword, const std::vector<int>& cells,
+                           const solver::Mesh& mesh) {
   const auto unlike = solver::unlike_neighbours(mesh, solver::loose_skin(mesh, cells));
   if (!unlike) return;
   const bool lines = solver::dimension(mesh.cell_types[static_cast<std::size_t>(unlike->first)]) == 1;
-  throw DiagnosticError("unlike-normals",
-                        fmt::format("DEFI_CONTACT: the normals of the neighbours {} and {} of this surface point to different sides", mesh.cell_name(unlike->first), mesh.cell_name(unlike->second)),
-                        zone.span_of(keyword), fmt::format("turn them by MODI_MAILLAGE({}=_F(GROUP_MA=...)) before the model is made", lines ? "ORIE_LIGNE" : "ORIE_NORM_COQUE"));
+  throw DiagnosticError(
+      "unlike-normals",
+      fmt::format("DEFI_CONTACT: the normals of the neighbours {} and {} of this surface point to different sides",
+                  mesh.cell_name(unlike->first), mesh.cell_name(unlike->second)),
+      zone.span_of(keyword),
+      fmt::format("turn them by MODI_MAILLAGE({}=_F(GROUP_MA=...)) before the model is made",
+                  lines ? "ORIE_LIGNE" : "ORIE_NORM_COQUE"));
 }
 
 // Surfaces are edges of plane bodies, faces of solids, plates or beams, and no cell faces itself.
-void check_surface(const Keywords& zone, const char* keyword, const std::vector<int>& cells, const solver::Model& model) {
+void check_surface(const Keywords& zone, const char* keyword, const std::vector<int>& cells,
+                   const solver::Model& model) {
   for (const int cell : cells) {
     const auto type = model.mesh->cell_types[static_cast<std::size_t>(cell)];
     const int body = solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]);
     if (body == 0 || body != solver::dimension(type)) continue;
     const bool solid = solver::dimension(type) == 3;
-    throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: {} holds {}, a cell of the body itself ({}), not of its surface", keyword, model.mesh->cell_name(cell), solver::name_of(type)),
+    throw DiagnosticError("wrong-surface",
+                          fmt::format("DEFI_CONTACT: {} holds {}, a cell of the body itself ({}), not of its surface",
+                                      keyword, model.mesh->cell_name(cell), solver::name_of(type)),
                           zone.span_of(keyword), fmt::format("name a group of its {}", solid ? "faces" : "edges"));
   }
 }
 
 void check_sides(const Keywords& zone, const solver::ContactZone& surfaces, const solver::Mesh& mesh) {
-  for (const auto& [cells, keyword] : {std::pair(&surfaces.master_cells, "GROUP_MA_MAIT"), std::pair(&surfaces.slave_cells, "GROUP_MA_ESCL")})
-    if (cells->empty()) throw DiagnosticError("empty-group", fmt::format("DEFI_CONTACT: {} holds no cell", keyword), zone.span_of(keyword), "name a group that has cells");
+  for (const auto& [cells, keyword] :
+       {std::pair(&surfaces.master_cells, "GROUP_MA_MAIT"), std::pair(&surfaces.slave_cells, "GROUP_MA_ESCL")})
+    if (cells->empty())
+      throw DiagnosticError("empty-group", fmt::format("DEFI_CONTACT: {} holds no cell", keyword),
+                            zone.span_of(keyword), "name a group that has cells");
   const std::set<int> masters(surfaces.master_cells.begin(), surfaces.master_cells.end());
   const auto shared = std::ranges::find_if(surfaces.slave_cells, [&](int cell) { return masters.contains(cell); });
   if (shared != surfaces.slave_cells.end()) {
-    throw DiagnosticError("wrong-surface", fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself", mesh.cell_name(*shared)),
-                        zone.span_of("GROUP_MA_ESCL"), "give each side a group of its own");
+    throw DiagnosticError(
+        "wrong-surface",
+        fmt::format("DEFI_CONTACT: the cell {} is on both sides of the zone: a surface does not face itself",
+                    mesh.cell_name(*shared)),
+        zone.span_of("GROUP_MA_ESCL"), "give each side a group of its own");
   }
-  if (!std::ranges::includes(mesh.nodes_of_cells(surfaces.master_cells), mesh.nodes_of_cells(surfaces.slave_cells))) return;
-  throw DiagnosticError("wrong-surface", "DEFI_CONTACT: all nodes of the slave surface are nodes of the master surface: the bodies hang together, and there is nothing to close or open",
+  if (!std::ranges::includes(mesh.nodes_of_cells(surfaces.master_cells), mesh.nodes_of_cells(surfaces.slave_cells)))
+    return;
+  throw DiagnosticError("wrong-surface",
+                        "DEFI_CONTACT: all nodes of the slave surface are nodes of the master surface: the bodies hang "
+                        "together, and there is nothing to close or open",
                         zone.span_of("GROUP_MA_ESCL"), "mesh the bodies apart, with nodes of their own on either side");
 }
 
-void take_thickness(const Keywords& keywords, const char* keyword, solver::FieldFunction& thickness, solver::ContactZone& zone) {
+void take_thickness(const Keywords& keywords, const char* keyword, solver::FieldFunction& thickness,
+                    solver::ContactZone& zone) {
   if (!keywords.has(keyword)) return;
   const auto handle = keywords.concept_of(keyword);
   thickness = field_function(handle, keywords.span_of(keyword));
@@ -151,7 +181,10 @@ void take_thickness(const Keywords& keywords, const char* keyword, solver::Field
 void check_direction_of_search(const Keywords& zone) {
   const bool by_patches = zone.text("ALGO_CONT") == "LAC";
   if (!by_patches && zone.text("APPARIEMENT") != "NODAL") return;
-  throw DiagnosticError("unsupported", fmt::format("comma does not support TYPE_APPA='FIXE' with {}", by_patches ? "ALGO_CONT='LAC'" : "APPARIEMENT='NODAL'"), zone.span_of("TYPE_APPA"),
+  throw DiagnosticError("unsupported",
+                        fmt::format("comma does not support TYPE_APPA='FIXE' with {}",
+                                    by_patches ? "ALGO_CONT='LAC'" : "APPARIEMENT='NODAL'"),
+                        zone.span_of("TYPE_APPA"),
                         "leave it out, or take APPARIEMENT='MAIT_ESCL' and ALGO_CONT='STANDARD'");
 }
 
@@ -166,7 +199,8 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
     check_direction_of_search(keywords);
     zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
   }
-  zone.excluded_slave_nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
+  zone.excluded_slave_nodes =
+      selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});
   if (keywords.has("TOLE_PROJ_EXT")) zone.projection_tolerance = keywords.real("TOLE_PROJ_EXT");
   if (keywords.has("RESOLUTION")) zone.resolved = keywords.text("RESOLUTION") == "OUI";
   if (keywords.has("TOLE_INTERP")) zone.interpenetration_tolerance = keywords.real("TOLE_INTERP");
@@ -193,25 +227,27 @@ solver::InitialContact initial_contact(const std::string& word) {
   return word == "NON" ? solver::InitialContact::none : solver::InitialContact::interpenetrating;
 }
 
-// The gap is measured along the slave's own normals, over patches that lie wholly on one side: what says otherwise has no meaning.
+// The gap is measured along the slave's own normals, over patches that lie wholly on one side: what says otherwise has
+// no meaning.
 void check_local_average(const Keywords& zone) {
   if (zone.given("APPARIEMENT") && zone.text("APPARIEMENT") != "MORTAR") {
-    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: ALGO_CONT='LAC' pairs segments of intersection", zone.span_of("APPARIEMENT"),
-                          "write APPARIEMENT='MORTAR'");
+    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: ALGO_CONT='LAC' pairs segments of intersection",
+                          zone.span_of("APPARIEMENT"), "write APPARIEMENT='MORTAR'");
   }
-  for (const char* keyword : {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "DIST_POUTRE", "DIST_COQUE", "TOLE_PROJ_EXT", "INTEGRATION", "SANS_GROUP_NO",
-                              "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"}) {
+  for (const char* keyword :
+       {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "DIST_POUTRE", "DIST_COQUE", "TOLE_PROJ_EXT",
+        "INTEGRATION", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"}) {
     if (!zone.given(keyword)) continue;
-    throw DiagnosticError("unsupported", std::string("comma does not support ") + keyword + " with ALGO_CONT='LAC'", zone.span_of(keyword),
-                          "leave it out, or take ALGO_CONT='STANDARD'");
+    throw DiagnosticError("unsupported", std::string("comma does not support ") + keyword + " with ALGO_CONT='LAC'",
+                          zone.span_of(keyword), "leave it out, or take ALGO_CONT='STANDARD'");
   }
 }
 
 // Segments of intersection are those of local average contact alone.
 void check_pairing(const Keywords& zone) {
   if (zone.text("APPARIEMENT") != "MORTAR") return;
-  throw DiagnosticError("unsupported", "comma supports APPARIEMENT='MORTAR' with ALGO_CONT='LAC' only", zone.span_of("APPARIEMENT"),
-                        "write ALGO_CONT='LAC', or APPARIEMENT='MAIT_ESCL'");
+  throw DiagnosticError("unsupported", "comma supports APPARIEMENT='MORTAR' with ALGO_CONT='LAC' only",
+                        zone.span_of("APPARIEMENT"), "write ALGO_CONT='LAC', or APPARIEMENT='MAIT_ESCL'");
 }
 
 bool adapts_penalties(const Keywords& keywords) {
@@ -248,8 +284,10 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   if (!keywords.has("DIRE_EXCL_FROT")) return zone;
   zone.frictionless_direction = direction_of(keywords, "DIRE_EXCL_FROT");
   if (zone.frictionless_nodes.empty())
-    throw DiagnosticError("missing-keyword", "DEFI_CONTACT: DIRE_EXCL_FROT is where the nodes of SANS_GROUP_NO_FR have no friction, and there is none", keywords.span_of("DIRE_EXCL_FROT"),
-                          "name them; or give COULOMB=0.0 where there is none along any direction");
+    throw DiagnosticError(
+        "missing-keyword",
+        "DEFI_CONTACT: DIRE_EXCL_FROT is where the nodes of SANS_GROUP_NO_FR have no friction, and there is none",
+        keywords.span_of("DIRE_EXCL_FROT"), "name them; or give COULOMB=0.0 where there is none along any direction");
   return zone;
 }
 
@@ -257,7 +295,8 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
 solver::MixedZone discrete_zone(const Keywords& keywords) {
   solver::MixedZone zone;
   if (keywords.has("COULOMB") && keywords.text("ALGO_CONT") == "GCP")
-    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: projected conjugate gradients know no friction", keywords.span_of("COULOMB"),
+    throw DiagnosticError("contradictory-keywords", "DEFI_CONTACT: projected conjugate gradients know no friction",
+                          keywords.span_of("COULOMB"),
                           "write ALGO_CONT='CONTRAINTE' or 'PENALISATION', or take FORMULATION='CONTINUE'");
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   if (zone.penalised) zone.augmentation = keywords.real("E_N");
@@ -273,7 +312,8 @@ void take_algorithm(const Call& call, solver::ContactDefinition& definition) {
   if (call.factors("ZONE").front().text("ALGO_CONT") != "GCP") return;
   definition.algorithm = solver::ContactAlgorithm::projected_gradient;
   if (!call.has("RESI_ABSO"))
-    throw DiagnosticError("missing-keyword", "DEFI_CONTACT: ALGO_CONT='GCP' needs RESI_ABSO, the largest interpenetration left", call.span,
+    throw DiagnosticError("missing-keyword",
+                          "DEFI_CONTACT: ALGO_CONT='GCP' needs RESI_ABSO, the largest interpenetration left", call.span,
                           "give RESI_ABSO, 1e-6 of the size of a cell for instance");
   definition.gradient_tolerance = call.real("RESI_ABSO");
   definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
@@ -286,19 +326,21 @@ void check_one_algorithm(const Call& call) {
   const auto& zones = call.factors("ZONE");
   for (const Keywords& zone : zones) {
     if (zone.text("ALGO_CONT") == zones.front().text("ALGO_CONT")) continue;
-    throw DiagnosticError("mixed-algorithms", "DEFI_CONTACT: all zones of the discrete formulation take one ALGO_CONT", zone.span_of("ALGO_CONT"),
-                          "write " + zones.front().text("ALGO_CONT") + " here too");
+    throw DiagnosticError("mixed-algorithms", "DEFI_CONTACT: all zones of the discrete formulation take one ALGO_CONT",
+                          zone.span_of("ALGO_CONT"), "write " + zones.front().text("ALGO_CONT") + " here too");
   }
 }
 
-// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest. Newton's method that stops at a
-// change r leaves r^2; updates one after the other converge linearly and go on until they change as little.
+// One generalised Newton loop updates the geometry with everything else: the same as updates until it is at rest.
+// Newton's method that stops at a change r leaves r^2; updates one after the other converge linearly and go on until
+// they change as little.
 void set_geometry_update(const Call& call, solver::ContactDefinition& definition) {
   constexpr int most_updates_by_newton = 100;
   constexpr double rounding = 1e-11;
   constexpr double tolerable = 0.01;  // what fixed points are content with
   definition.max_geometry_updates = most_updates_by_newton;
-  definition.geometry_update = call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
+  definition.geometry_update =
+      call.has("REAC_GEOM") ? geometry_update(call.text("REAC_GEOM")) : solver::GeometryUpdate::automatic;
   if (!call.has("RESI_GEOM")) return;
   const double change = call.real("RESI_GEOM");
   const bool by_newton = call.text("ALGO_RESO_GEOM") == "NEWTON";
@@ -316,7 +358,8 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   definition.smooth_normals = call.text("LISSAGE") == "OUI";
   set_geometry_update(call, definition);
   definition.has_friction = is_mixed && call.text("FROTTEMENT") == "COULOMB";
-  definition.joint_iterations = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON" && call.text("ALGO_RESO_GEOM") == "NEWTON";
+  definition.joint_iterations =
+      is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON" && call.text("ALGO_RESO_GEOM") == "NEWTON";
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";
@@ -334,8 +377,10 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
     if (call.text("VERI_NORM") != "OUI") continue;
     check_normals(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
     check_normals(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
-    if (zone.master_normal != solver::NormalRule::fixed) check_sides_of_sheets(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
-    if (zone.normal_side != solver::NormalSide::master && zone.slave_normal != solver::NormalRule::fixed) check_sides_of_sheets(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
+    if (zone.master_normal != solver::NormalRule::fixed)
+      check_sides_of_sheets(keywords, "GROUP_MA_MAIT", zone.master_cells, mesh);
+    if (zone.normal_side != solver::NormalSide::master && zone.slave_normal != solver::NormalRule::fixed)
+      check_sides_of_sheets(keywords, "GROUP_MA_ESCL", zone.slave_cells, mesh);
   }
   for (const solver::ContactZone& zone : definition.zones)
     if (zone.mixed.local_average) solver::patches_of(zone, mesh);  // tells slave faces that were not cut
@@ -350,7 +395,8 @@ Product defi_contact(const Call& call, Context& context) {
   const solver::Model& model = *product->model;
   if (call.text("FORMULATION") == "LIAISON_UNIL") {
     if (call.text("FROTTEMENT") == "COULOMB") {
-      throw DiagnosticError("excluded-keyword", "DEFI_CONTACT: unilateral conditions know no friction", call.span_of("FROTTEMENT"), "take FORMULATION='DISCRETE' or 'CONTINUE'");
+      throw DiagnosticError("excluded-keyword", "DEFI_CONTACT: unilateral conditions know no friction",
+                            call.span_of("FROTTEMENT"), "take FORMULATION='DISCRETE' or 'CONTINUE'");
     }
     std::vector<solver::UnilateralCondition> conditions;
     for (const Keywords& zone : call.factors("ZONE")) conditions.push_back(unilateral(zone, model));

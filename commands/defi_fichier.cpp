@@ -14,8 +14,8 @@ int unit_of(const Call& call) {
 
 }  // namespace
 
-// comma opens a file when a command writes to it and closes it again, so LIBERER finds everything written. ASSOCIER empties
-// the file: what is written next starts anew (U4.12.03).
+// comma opens a file when a command writes to it and closes it again, so LIBERER finds everything written. ASSOCIER
+// empties the file: what is written next starts anew (U4.12.03).
 Product defi_fichier(const Call& call, Context& context) {
   const int unit = unit_of(call);
   if (call.text("ACTION") == "LIBERER") {

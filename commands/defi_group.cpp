@@ -33,13 +33,15 @@ struct Target {
 // A group is never replaced in silence, and an empty one is not made: Code_Aster does the same (U4.22.01).
 void add_group(const Target& target, const std::string& name, std::vector<int> members, const Keywords& made_by) {
   if (members.empty()) {
-    target.context.diagnostics.alarm("empty-group", fmt::format("DEFI_GROUP: the group {} would be empty and is not made", name), made_by.span,
-                                     fmt::format("no {} are in the place that this names", target.kind));
+    target.context.diagnostics.alarm("empty-group",
+                                     fmt::format("DEFI_GROUP: the group {} would be empty and is not made", name),
+                                     made_by.span, fmt::format("no {} are in the place that this names", target.kind));
     return;
   }
   if (!target.groups.emplace(name, std::move(members)).second) {
-    throw DiagnosticError("group-exists", fmt::format("DEFI_GROUP: the mesh has a group {} of {} already", name, target.kind), made_by.span,
-                          "choose another NOM, or drop this line");
+    throw DiagnosticError("group-exists",
+                          fmt::format("DEFI_GROUP: the mesh has a group {} of {} already", name, target.kind),
+                          made_by.span, "choose another NOM, or drop this line");
   }
 }
 
@@ -55,8 +57,9 @@ std::vector<int> part_of(std::vector<int> members, const Keywords& creation) {
   if (creation.given("NUME_INIT")) first = creation.integer("NUME_INIT");
   if (creation.given("NUME_FIN")) last = creation.integer("NUME_FIN");
   if (first > last || last > count) {
-    throw DiagnosticError("index-error", fmt::format("DEFI_GROUP: numbers {} to {} are not in a group of {}", first, last, count), creation.span,
-                          "members count from 1; NUME_FIN is at least NUME_INIT");
+    throw DiagnosticError("index-error",
+                          fmt::format("DEFI_GROUP: numbers {} to {} are not in a group of {}", first, last, count),
+                          creation.span, "members count from 1; NUME_FIN is at least NUME_INIT");
   }
   return {members.begin() + (first - 1), members.begin() + last};
 }
@@ -101,7 +104,8 @@ std::vector<int> cells_of_option(const Keywords& creation, const solver::Mesh& m
   }
   const solver::NodeCriterion nodes = criterion(creation.text("CRIT_NOEUD"));
   const solver::Point at = centre(creation, mesh);
-  if (option == "SPHERE") return solver::cells_on_nodes(mesh, solver::nodes_in_ball(mesh, at, creation.real("RAYON")), nodes);
+  if (option == "SPHERE")
+    return solver::cells_on_nodes(mesh, solver::nodes_in_ball(mesh, at, creation.real("RAYON")), nodes);
   const solver::Point along = direction(creation);
   if (option == "CYLINDRE") {
     return solver::cells_on_nodes(mesh, solver::nodes_in_cylinder(mesh, at, along, creation.real("RAYON")), nodes);
@@ -128,7 +132,8 @@ void make_cell_group(const Keywords& creation, solver::Mesh& mesh, const Context
   if (creation.given("TYPE_MAILLE")) {
     const auto words = creation.texts("TYPE_MAILLE");
     std::erase_if(cells, [&](int cell) {
-      return std::ranges::none_of(words, [&](const std::string& word) { return is_of_type(mesh.cell_types[cell], word); });
+      return std::ranges::none_of(words,
+                                  [&](const std::string& word) { return is_of_type(mesh.cell_types[cell], word); });
     });
   }
   add_group({mesh.cell_groups, "cells", context}, creation.text("NOM"), std::move(cells), creation);
@@ -160,7 +165,8 @@ std::vector<int> nodes_in_order(const Keywords& creation, const solver::Mesh& me
 // INTERVALLE_VALE: where a component of a field lies between two values.
 std::vector<int> nodes_in_interval(const Keywords& creation, const solver::Mesh& mesh) {
   const FieldConcept& data = number_field(creation.concept_of("CHAM_GD"), creation, "CHAM_GD");
-  if (data.mesh.get() != &mesh) throw DiagnosticError("different-mesh", "DEFI_GROUP: the field lies on another mesh", creation.span_of("CHAM_GD"));
+  if (data.mesh.get() != &mesh)
+    throw DiagnosticError("different-mesh", "DEFI_GROUP: the field lies on another mesh", creation.span_of("CHAM_GD"));
   const auto& field = std::get<solver::NodalField>(data.field);
   const int component = component_of(creation, field.components, creation.text("NOM_CMP"));
   const auto bounds = creation.reals("VALE");
@@ -187,9 +193,10 @@ std::vector<int> nodes_of_option(const Keywords& creation, const solver::Mesh& m
 std::vector<int> nodes_of_cells(const Keywords& creation, const std::vector<int>& cells, const solver::Mesh& mesh) {
   const std::string& which = creation.text("CRIT_NOEUD");
   if (which == "TOUS") return mesh.nodes_of_cells(cells);
-  return solver::nodes_of_cells(mesh, cells, which == "SOMMET"   ? solver::NodeRole::corner
-                                             : which == "MILIEU" ? solver::NodeRole::mid_edge
-                                                                 : solver::NodeRole::centre);
+  return solver::nodes_of_cells(mesh, cells,
+                                which == "SOMMET"   ? solver::NodeRole::corner
+                                : which == "MILIEU" ? solver::NodeRole::mid_edge
+                                                    : solver::NodeRole::centre);
 }
 
 // GROUP_MA: a node group for each cell group, under the names of NOM or the groups' own.
@@ -197,11 +204,13 @@ void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& me
   const auto groups = creation.texts("GROUP_MA");
   const auto names = creation.given("NOM") ? creation.texts("NOM") : groups;
   if (names.size() != groups.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("DEFI_GROUP: NOM gives {} names to {} groups", names.size(), groups.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("DEFI_GROUP: NOM gives {} names to {} groups", names.size(), groups.size()),
                           creation.span_of("NOM"), "give one name a group, or leave NOM out to keep the groups' names");
   }
   const auto cells = named_cell_groups(creation, "GROUP_MA", mesh);
-  for (std::size_t i = 0; i < groups.size(); ++i) add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
 }
 
 void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context& context) {
@@ -209,22 +218,31 @@ void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context
   if (creation.given("TOUT_GROUP_MA")) {
     const auto kept = solver::add_node_groups_of_all_cell_groups(mesh);
     if (kept.empty()) return;
-    context.diagnostics.alarm("group-exists", fmt::format("DEFI_GROUP: node groups of the names of cell groups stay as they are, with other nodes than those: {}", fmt::join(kept, ", ")), creation.span);
+    context.diagnostics.alarm(
+        "group-exists",
+        fmt::format(
+            "DEFI_GROUP: node groups of the names of cell groups stay as they are, with other nodes than those: {}",
+            fmt::join(kept, ", ")),
+        creation.span);
     return;
   }
-  if (creation.given("GROUP_MA") && !creation.given("OPTION")) return node_groups_of_cell_groups(creation, mesh, target);
+  if (creation.given("GROUP_MA") && !creation.given("OPTION"))
+    return node_groups_of_cell_groups(creation, mesh, target);
   const auto names = creation.texts("NOM");
   if (names.size() != 1) {
-    throw DiagnosticError("wrong-count", fmt::format("DEFI_GROUP: one group is made here, and NOM gives {} names", names.size()), creation.span,
-                          "give NOM one name");
+    throw DiagnosticError("wrong-count",
+                          fmt::format("DEFI_GROUP: one group is made here, and NOM gives {} names", names.size()),
+                          creation.span, "give NOM one name");
   }
-  if (auto combined = combination(creation, mesh, named_node_groups)) return add_group(target, names[0], *std::move(combined), creation);
+  if (auto combined = combination(creation, mesh, named_node_groups))
+    return add_group(target, names[0], *std::move(combined), creation);
   if (creation.given("OPTION")) return add_group(target, names[0], nodes_of_option(creation, mesh), creation);
   const auto nodes = selected_nodes(creation, mesh);
   add_group(target, names[0], creation.given("GROUP_NO") ? part_of(nodes, creation) : nodes, creation);
 }
 
-// A group need not be there, so that a loop can remove and make it in each turn (U4.22.01); one that nothing makes may be misspelt.
+// A group need not be there, so that a loop can remove and make it in each turn (U4.22.01); one that nothing makes may
+// be misspelt.
 void remove_groups(const Call& call, const std::string& kind, Groups& groups, Context& context) {
   for (const Keywords& removal : call.factors("DETR_" + kind)) {
     for (const std::string& name : removal.texts("NOM")) {
@@ -235,8 +253,9 @@ void remove_groups(const Call& call, const std::string& kind, Groups& groups, Co
       if (groups.erase(name) > 0 || std::ranges::any_of(call.factors("CREA_" + kind), makes)) continue;
       std::vector<std::string> known;
       for (const auto& [other, members] : groups) known.push_back(other);
-      context.diagnostics.alarm("no-such-group", fmt::format("DEFI_GROUP/DETR_{}: the mesh has no group {} to remove", kind, name), removal.span_of("NOM"),
-                                interpreter::did_you_mean(name, known));
+      context.diagnostics.alarm("no-such-group",
+                                fmt::format("DEFI_GROUP/DETR_{}: the mesh has no group {} to remove", kind, name),
+                                removal.span_of("NOM"), interpreter::did_you_mean(name, known));
     }
   }
 }

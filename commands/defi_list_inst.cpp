@@ -37,7 +37,8 @@ std::vector<double> instants(const Keywords& list) {
 void require_rising(const std::vector<double>& values, const Keywords& list) {
   for (std::size_t k = 1; k < values.size(); ++k) {
     if (values[k] > values[k - 1]) continue;
-    throw DiagnosticError("wrong-order", fmt::format("DEFI_LIST_INST: {} does not lie beyond {}", values[k], values[k - 1]), list.span,
+    throw DiagnosticError("wrong-order",
+                          fmt::format("DEFI_LIST_INST: {} does not lie beyond {}", values[k], values[k - 1]), list.span,
                           "instants must rise");
   }
 }
@@ -64,9 +65,12 @@ solver::WatchedIncrement watched_increment(const Call& call, const Keywords& giv
   if (named == std::end(places)) return watched;
   const char* place = *named;
   if ((place == places[0] || place == places[1]) && watched.field != "DEPL") {
-    throw DiagnosticError("excluded-keyword", fmt::format("DEFI_LIST_INST: {} has its values on cells", watched.field), given.span_of(place), "name cells by GROUP_MA or MAILLE");
+    throw DiagnosticError("excluded-keyword", fmt::format("DEFI_LIST_INST: {} has its values on cells", watched.field),
+                          given.span_of(place), "name cells by GROUP_MA or MAILLE");
   }
-  if (!call.given("MODELE")) throw DiagnosticError("missing-keyword", std::string("DEFI_LIST_INST: ") + place + " needs to know of which mesh", given.span_of(place), "give MODELE");
+  if (!call.given("MODELE"))
+    throw DiagnosticError("missing-keyword", std::string("DEFI_LIST_INST: ") + place + " needs to know of which mesh",
+                          given.span_of(place), "give MODELE");
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
   watched.nodes = selected_nodes(given, mesh);
   watched.cells = selected_cells(given, mesh);
@@ -110,8 +114,9 @@ solver::StepAdaptation adaptation(const Call& call, const Keywords& list) {
 }
 
 constexpr std::pair<std::string_view, solver::StepEventKind> event_kinds[] = {
-    {"DIVE_RESI", solver::StepEventKind::divergence}, {"RESI_MAXI", solver::StepEventKind::residual},     {"DELTA_GRANDEUR", solver::StepEventKind::increment},
-    {"COLLISION", solver::StepEventKind::collision},  {"INTERPENETRATION", solver::StepEventKind::depth},
+    {"DIVE_RESI", solver::StepEventKind::divergence},     {"RESI_MAXI", solver::StepEventKind::residual},
+    {"DELTA_GRANDEUR", solver::StepEventKind::increment}, {"COLLISION", solver::StepEventKind::collision},
+    {"INTERPENETRATION", solver::StepEventKind::depth},
 };
 
 // Steps around a collision have a length of their own where the user gives one.
@@ -152,12 +157,16 @@ void warn_of_repeated_events(const Call& call, Context& context) {
   for (const Keywords& given : call.factors("ECHEC")) {
     int& left = occurrences[given.text("EVENEMENT")];
     if (--left == 0) continue;
-    context.diagnostics.alarm("repeated-event", fmt::format("DEFI_LIST_INST: what this occurrence says of EVENEMENT='{}' counts for nothing: a later one takes its place", given.text("EVENEMENT")), given.span,
-                              "write one occurrence for each event");
+    context.diagnostics.alarm("repeated-event",
+                              fmt::format("DEFI_LIST_INST: what this occurrence says of EVENEMENT='{}' counts for "
+                                          "nothing: a later one takes its place",
+                                          given.text("EVENEMENT")),
+                              given.span, "write one occurrence for each event");
   }
 }
 
-// Of several occurrences for an event the last one counts; without one for ERREUR steps that fail are cut all the same (U4.34.03).
+// Of several occurrences for an event the last one counts; without one for ERREUR steps that fail are cut all the same
+// (U4.34.03).
 void read_failures(const Call& call, solver::StepPlan& plan) {
   plan.cutting = solver::StepCutting{};
   for (const Keywords& given : call.factors("ECHEC")) {
@@ -165,7 +174,8 @@ void read_failures(const Call& call, solver::StepPlan& plan) {
       plan.stops_when_unstable = given.text("ACTION") == "ARRET";
       continue;
     }
-    const auto kind = std::ranges::find(event_kinds, given.text("EVENEMENT"), &std::pair<std::string_view, solver::StepEventKind>::first);
+    const auto kind = std::ranges::find(event_kinds, given.text("EVENEMENT"),
+                                        &std::pair<std::string_view, solver::StepEventKind>::first);
     if (kind != std::end(event_kinds)) {
       std::erase_if(plan.events, [&](const solver::StepEvent& known) { return known.kind == kind->second; });
       plan.events.push_back(event_of(call, given, kind->second));
@@ -173,7 +183,8 @@ void read_failures(const Call& call, solver::StepPlan& plan) {
     }
     plan.cutting = cutting(given);
     plan.tries_other_solution = given.text("ACTION") == "AUTRE_PILOTAGE";
-    plan.further_iterations = given.text("ACTION") == "ITER_SUPPL" ? static_cast<double>(given.integer("PCENT_ITER_PLUS")) / 100.0 : 0.0;
+    plan.further_iterations =
+        given.text("ACTION") == "ITER_SUPPL" ? static_cast<double>(given.integer("PCENT_ITER_PLUS")) / 100.0 : 0.0;
   }
 }
 

@@ -20,13 +20,16 @@ int steps_of(const Keywords& interval, double length) {
   const bool counted = interval.has("NOMBRE");
   const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
   if (!(exact <= most_reals)) {
-    throw DiagnosticError("out-of-bounds", fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_reals),
+    throw DiagnosticError("out-of-bounds",
+                          fmt::format("DEFI_LIST_REEL: {:.4g} steps are more than {:.0e}", exact, most_reals),
                           interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
   }
   const double steps = std::round(exact);
   if (steps < 1.0 || std::abs(exact - steps) > step_rounding) {
-    throw DiagnosticError("wrong-step", fmt::format("DEFI_LIST_REEL: {} steps of PAS fill the interval; it must be a whole number", exact),
-                          interval.span, "change PAS or JUSQU_A, or give NOMBRE");
+    throw DiagnosticError(
+        "wrong-step",
+        fmt::format("DEFI_LIST_REEL: {} steps of PAS fill the interval; it must be a whole number", exact),
+        interval.span, "change PAS or JUSQU_A, or give NOMBRE");
   }
   return static_cast<int>(steps);
 }
@@ -37,7 +40,8 @@ std::vector<double> by_intervals(const Call& call) {
     const double begin = values.back();
     const double end = interval.real("JUSQU_A");
     if (!(end > begin)) {
-      throw DiagnosticError("wrong-order", fmt::format("DEFI_LIST_REEL: JUSQU_A = {} does not lie beyond {}", end, begin),
+      throw DiagnosticError("wrong-order",
+                            fmt::format("DEFI_LIST_REEL: JUSQU_A = {} does not lie beyond {}", end, begin),
                             interval.span_of("JUSQU_A"), "values must rise");
     }
     const int steps = steps_of(interval, end - begin);
@@ -55,9 +59,10 @@ Product defi_list_reel(const Call& call, Context&) {
   product->values = call.has("VALE") ? call.reals("VALE") : by_intervals(call);
   for (std::size_t i = 1; i < product->values.size(); ++i) {
     if (product->values[i] > product->values[i - 1]) continue;
-    throw DiagnosticError("wrong-order",
-                          fmt::format("DEFI_LIST_REEL: {} does not lie beyond {}", product->values[i], product->values[i - 1]),
-                          call.span_of("VALE"), "values must rise");
+    throw DiagnosticError(
+        "wrong-order",
+        fmt::format("DEFI_LIST_REEL: {} does not lie beyond {}", product->values[i], product->values[i - 1]),
+        call.span_of("VALE"), "values must rise");
   }
   return product;
 }

@@ -18,16 +18,22 @@ using solver::Parameter;
 using solver::Property;
 
 // What a property may depend on (U4.43.01), in the solver's words.
-constexpr std::pair<const char*, Parameter> parameter_names[] = {
-    {"TEMP", Parameter::temperature}, {"SECH", Parameter::drying},    {"HYDR", Parameter::hydration},
-    {"NEUT1", Parameter::neutral_1},  {"NEUT2", Parameter::neutral_2}, {"NEUT3", Parameter::neutral_3},
-    {"INST", Parameter::time},        {"X", Parameter::x},             {"Y", Parameter::y},
-    {"Z", Parameter::z}};
+constexpr std::pair<const char*, Parameter> parameter_names[] = {{"TEMP", Parameter::temperature},
+                                                                 {"SECH", Parameter::drying},
+                                                                 {"HYDR", Parameter::hydration},
+                                                                 {"NEUT1", Parameter::neutral_1},
+                                                                 {"NEUT2", Parameter::neutral_2},
+                                                                 {"NEUT3", Parameter::neutral_3},
+                                                                 {"INST", Parameter::time},
+                                                                 {"X", Parameter::x},
+                                                                 {"Y", Parameter::y},
+                                                                 {"Z", Parameter::z}};
 
 Parameter parameter_named(const std::string& name, const Keywords& law, const std::string& keyword) {
   const auto found = std::ranges::find_if(parameter_names, [&](const auto& known) { return name == known.first; });
   if (found != std::end(parameter_names)) return found->second;
-  throw DiagnosticError("unknown-parameter", keyword + " depends on " + name + ", which a material does not know", law.span_of(keyword),
+  throw DiagnosticError("unknown-parameter", keyword + " depends on " + name + ", which a material does not know",
+                        law.span_of(keyword),
                         "here a function may depend on TEMP, SECH, HYDR, NEUT1, NEUT2, NEUT3, INST, X, Y, Z");
 }
 
@@ -42,8 +48,10 @@ Property varying(const Keywords& law, const std::string& keyword) {
     std::vector<double> arguments;
     for (const Parameter parameter : order) {
       if (std::isnan(at[parameter])) {
-        throw solver::Error("missing-variable", keyword + " depends on the " + std::string(solver::name_of(parameter)) + ", which is not given",
-                            "give it by AFFE_MATERIAU/AFFE_VARC");
+        throw solver::Error(
+            "missing-variable",
+            keyword + " depends on the " + std::string(solver::name_of(parameter)) + ", which is not given",
+            "give it by AFFE_MATERIAU/AFFE_VARC");
       }
       arguments.push_back(at[parameter]);
     }
@@ -63,16 +71,19 @@ void take_bulk_and_shear(const Keywords& law, solver::IsotropicElasticity& elast
   const double shear = law.has("K") ? law.real("MU") : density * std::pow(law.real("CELE_S"), 2);
   const double bulk = law.has("K") ? law.real("K") : density * std::pow(law.real("CELE_P"), 2) - 4.0 / 3.0 * shear;
   if (!(shear > 0.0 && bulk > 0.0))
-    throw DiagnosticError("out-of-bounds", "DEFI_MATERIAU/ELAS: such waves have no elastic material", law.span_of("CELE_P"),
+    throw DiagnosticError("out-of-bounds", "DEFI_MATERIAU/ELAS: such waves have no elastic material",
+                          law.span_of("CELE_P"),
                           "RHO is positive, and CELE_P larger than CELE_S times the square root of 4/3");
   elasticity.young = 9.0 * bulk * shear / (3.0 * bulk + shear);
   elasticity.poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
 }
 
-/// The expansion of ELAS_FO and its like is measured from a temperature, which must be known. Tables over the temperature are converted at their points.
+/// The expansion of ELAS_FO and its like is measured from a temperature, which must be known. Tables over the
+/// temperature are converted at their points.
 solver::Expansion varying_expansion(const Keywords& law, const std::string& keyword) {
   if (!law.has("TEMP_DEF_ALPHA")) {
-    throw DiagnosticError("missing-keyword", "DEFI_MATERIAU: " + keyword + ", which varies, needs TEMP_DEF_ALPHA beside it", law.span,
+    throw DiagnosticError("missing-keyword",
+                          "DEFI_MATERIAU: " + keyword + ", which varies, needs TEMP_DEF_ALPHA beside it", law.span,
                           "TEMP_DEF_ALPHA is the temperature from which " + keyword + " was measured");
   }
   const double measured_from = law.real("TEMP_DEF_ALPHA");
@@ -123,7 +134,9 @@ solver::OrthotropicElasticity transverse(const Keywords& law) {
   return solver::as_orthotropic(elasticity);
 }
 
-solver::LinearHardening linear_hardening(const Keywords& law) { return {property(law, "D_SIGM_EPSI"), property(law, "SY")}; }
+solver::LinearHardening linear_hardening(const Keywords& law) {
+  return {property(law, "D_SIGM_EPSI"), property(law, "SY")};
+}
 
 // A curve, or one for each temperature of a surface.
 solver::TractionHardening traction_hardening(const Keywords& law) {
@@ -133,7 +146,8 @@ solver::TractionHardening traction_hardening(const Keywords& law) {
     hardening.curves = {*table};
   } else if (const auto* surface = dynamic_cast<const SurfaceConcept*>(&function)) {
     if (surface->parameters().front() != "TEMP") {
-      throw DiagnosticError("wrong-parameter", "DEFI_MATERIAU/TRACTION: SIGM depends on " + surface->parameters().front() + " before EPSI",
+      throw DiagnosticError("wrong-parameter",
+                            "DEFI_MATERIAU/TRACTION: SIGM depends on " + surface->parameters().front() + " before EPSI",
                             law.span_of("SIGM"), "the first parameter of the surface is TEMP");
     }
     hardening.temperatures = surface->edges().x;
@@ -146,21 +160,28 @@ solver::TractionHardening traction_hardening(const Keywords& law) {
   }
   for (const auto& curve : hardening.curves) {
     if (curve.parameter == "EPSI" && curve.x.front() > 0.0) continue;
-    throw DiagnosticError("wrong-function", "DEFI_MATERIAU/TRACTION: SIGM must be the stress over the strain EPSI, from the yield point on",
-                          law.span_of("SIGM"), "its first point has a strain above zero");
+    throw DiagnosticError(
+        "wrong-function",
+        "DEFI_MATERIAU/TRACTION: SIGM must be the stress over the strain EPSI, from the yield point on",
+        law.span_of("SIGM"), "its first point has a strain above zero");
   }
   return hardening;
 }
 
-solver::PowerHardening power_hardening(const Keywords& law) { return {law.real("SY"), law.real("A_PUIS"), law.real("N_PUIS")}; }
-
-solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
-  const auto value = [&](const char* keyword, double otherwise = 0.0) { return law.has(keyword) ? law.real(keyword) : otherwise; };
-  return {value("R0"), value("RH"), value("R1"), value("GAMMA_1"), value("R2"), value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0), value("EPSP_LUDERS")};
+solver::PowerHardening power_hardening(const Keywords& law) {
+  return {law.real("SY"), law.real("A_PUIS"), law.real("N_PUIS")};
 }
 
-// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01), exactly: U4.43.01 has 2 for 4/3 (1 + NU), which is that near 0.5
-// (ssnv187a tells).
+solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
+  const auto value = [&](const char* keyword, double otherwise = 0.0) {
+    return law.has(keyword) ? law.real(keyword) : otherwise;
+  };
+  return {value("R0"),      value("RH"), value("R1"), value("GAMMA_1"),      value("R2"),
+          value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0), value("EPSP_LUDERS")};
+}
+
+// Without K, that of the Poisson ratio and the shear modulus 2 (C10 + C01), exactly: U4.43.01 has 2 for 4/3 (1 + NU),
+// which is that near 0.5 (ssnv187a tells).
 solver::Hyperelasticity hyperelasticity(const Keywords& law) {
   solver::Hyperelasticity rubber{law.real("C10"), law.real("C01"), law.real("C20"), 0.0};
   if (law.has("K")) {
@@ -185,7 +206,8 @@ void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
     if (call.has(keyword)) plasticity.linear = linear_hardening(call.factor(keyword));
   if (call.has("ECRO_ASYM_LINE")) {
     const Keywords& law = call.factor("ECRO_ASYM_LINE");
-    plasticity.asymmetric = solver::AsymmetricHardening{{property(law, "DT_SIGM_EPSI"), property(law, "SY_T")}, {property(law, "DC_SIGM_EPSI"), property(law, "SY_C")}};
+    plasticity.asymmetric = solver::AsymmetricHardening{{property(law, "DT_SIGM_EPSI"), property(law, "SY_T")},
+                                                        {property(law, "DC_SIGM_EPSI"), property(law, "SY_C")}};
   }
   if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
   if (call.has("ECRO_PUIS")) plasticity.power = power_hardening(call.factor("ECRO_PUIS"));
@@ -196,7 +218,8 @@ void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
 }
 
 solver::ContactSpring contact_spring(const Keywords& law) {
-  return {law.real("RIGI_NOR"), law.real("RIGI_TAN"), law.real("COULOMB"), law.real("DIST_1"), law.real("DIST_2"), law.real("JEU")};
+  return {law.real("RIGI_NOR"), law.real("RIGI_TAN"), law.real("COULOMB"),
+          law.real("DIST_1"),   law.real("DIST_2"),   law.real("JEU")};
 }
 
 void add_bilinear_springs(const Keywords& law, solver::Material& material) {
@@ -205,7 +228,9 @@ void add_bilinear_springs(const Keywords& law, solver::Material& material) {
   material.springs.bilinear = {};
   for (std::size_t c = 0; c < axes.size(); ++c) {
     const std::string axis = axes[c];
-    if (law.has("FPRE_" + axis)) material.springs.bilinear[c] = solver::BilinearSpring{property(law, "KDEB_" + axis), property(law, "KFIN_" + axis), law.real("FPRE_" + axis)};
+    if (law.has("FPRE_" + axis))
+      material.springs.bilinear[c] = solver::BilinearSpring{property(law, "KDEB_" + axis),
+                                                            property(law, "KFIN_" + axis), law.real("FPRE_" + axis)};
   }
 }
 
@@ -228,17 +253,21 @@ void add_hardening_springs(const Keywords& law, solver::Material& material) {
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
-  if (std::ranges::none_of(call.items, [](const interpreter::Keyword& item) { return item.given && !item.factors.empty(); })) {
-    throw DiagnosticError("missing-one-of", "DEFI_MATERIAU gives the material nothing", call.span, "give it a law, such as ELAS=_F(E=..., NU=...)");
+  if (std::ranges::none_of(call.items,
+                           [](const interpreter::Keyword& item) { return item.given && !item.factors.empty(); })) {
+    throw DiagnosticError("missing-one-of", "DEFI_MATERIAU gives the material nothing", call.span,
+                          "give it a law, such as ELAS=_F(E=..., NU=...)");
   }
-  auto material = call.has("MATER") ? std::make_shared<solver::Material>(*call.data<MaterialConcept>("MATER").material) : std::make_shared<solver::Material>();
+  auto material = call.has("MATER") ? std::make_shared<solver::Material>(*call.data<MaterialConcept>("MATER").material)
+                                    : std::make_shared<solver::Material>();
   for (const char* keyword : {"ELAS", "ELAS_FO"})
     if (call.has(keyword)) material->elasticity = isotropic(call.factor(keyword));
   for (const char* keyword : {"ELAS_ORTH", "ELAS_ORTH_FO"})
     if (call.has(keyword)) material->elasticity = orthotropic(call.factor(keyword));
   for (const char* keyword : {"ELAS_ISTR", "ELAS_ISTR_FO"})
     if (call.has(keyword)) material->elasticity = transverse(call.factor(keyword));
-  if (call.has("ELAS_HYPER") && !material->elasticity) material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
+  if (call.has("ELAS_HYPER") && !material->elasticity)
+    material->elasticity = small_strain_elasticity(call.factor("ELAS_HYPER"));
   add_plasticity(call, material->plasticity);
   if (call.has("DIS_CONTACT")) material->contact_spring = contact_spring(call.factor("DIS_CONTACT"));
   if (call.has("DIS_BILI_ELAS")) add_bilinear_springs(call.factor("DIS_BILI_ELAS"), *material);

@@ -13,8 +13,8 @@ using interpreter::DiagnosticError;
 std::shared_ptr<const solver::TabulatedFunction> row_of(const Call& call, const interpreter::ConceptPtr& handle) {
   const auto* table = interpreter::data_of<FunctionConcept>(handle, "FONCTION").table();
   if (table != nullptr) return std::make_shared<const solver::TabulatedFunction>(*table);
-  throw DiagnosticError("unsupported", fmt::format("DEFI_NAPPE: {} is not given by points", handle->name), call.span_of("FONCTION"),
-                        "tabulate it by CALC_FONC_INTERP");
+  throw DiagnosticError("unsupported", fmt::format("DEFI_NAPPE: {} is not given by points", handle->name),
+                        call.span_of("FONCTION"), "tabulate it by CALC_FONC_INTERP");
 }
 
 // A function that is defined in place.
@@ -38,15 +38,20 @@ Product defi_nappe(const Call& call, Context&) {
   read_shape(call, edges);
   std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows;
   for (const auto& handle : call.concepts("FONCTION")) rows.push_back(row_of(call, handle));
-  for (const Keywords& occurrence : call.factors("DEFI_FONCTION")) rows.push_back(row_of(occurrence, call.text("NOM_PARA_FONC")));
+  for (const Keywords& occurrence : call.factors("DEFI_FONCTION"))
+    rows.push_back(row_of(occurrence, call.text("NOM_PARA_FONC")));
   if (rows.size() != edges.x.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("DEFI_NAPPE: {} functions stand against {} values", rows.size(), edges.x.size()),
-                          call.span_of(call.given("FONCTION") ? "FONCTION" : "DEFI_FONCTION"), "give one function for each value of PARA");
+    throw DiagnosticError("wrong-count",
+                          fmt::format("DEFI_NAPPE: {} functions stand against {} values", rows.size(), edges.x.size()),
+                          call.span_of(call.given("FONCTION") ? "FONCTION" : "DEFI_FONCTION"),
+                          "give one function for each value of PARA");
   }
   for (const auto& row : rows) {
     if (row->parameter == rows.front()->parameter) continue;
-    throw DiagnosticError("wrong-parameter", fmt::format("DEFI_NAPPE: the functions depend on {} and on {}", rows.front()->parameter, row->parameter),
-                          call.span_of("FONCTION"), "all of them have one and the same parameter");
+    throw DiagnosticError(
+        "wrong-parameter",
+        fmt::format("DEFI_NAPPE: the functions depend on {} and on {}", rows.front()->parameter, row->parameter),
+        call.span_of("FONCTION"), "all of them have one and the same parameter");
   }
   return std::make_shared<SurfaceConcept>(std::move(edges), std::move(rows));
 }

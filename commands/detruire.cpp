@@ -8,7 +8,9 @@ namespace {
 // What others share of it (a model, a mesh) they keep.
 void release(const interpreter::ConceptPtr& handle, const interpreter::Span& span) {
   const interpreter::ConceptData* data = handle->data.get();
-  if (dynamic_cast<const ResultConcept*>(data) == nullptr && dynamic_cast<const FieldConcept*>(data) == nullptr && dynamic_cast<const TableConcept*>(data) == nullptr) return;
+  if (dynamic_cast<const ResultConcept*>(data) == nullptr && dynamic_cast<const FieldConcept*>(data) == nullptr &&
+      dynamic_cast<const TableConcept*>(data) == nullptr)
+    return;
   handle->data.reset();
   handle->destroyed_at = span;
 }

@@ -13,7 +13,9 @@ namespace comma::commands {
 namespace fs = std::filesystem;
 
 Files::Files(fs::path command_file, std::vector<ExportFile> exported, fs::path output_folder)
-    : command_file_(std::move(command_file)), exported_(std::move(exported)), output_folder_(std::move(output_folder)) {}
+    : command_file_(std::move(command_file)),
+      exported_(std::move(exported)),
+      output_folder_(std::move(output_folder)) {}
 
 namespace {
 
@@ -32,7 +34,9 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::
 void require_no_link(const fs::path& path, const interpreter::Span& where) {
   std::error_code absent;
   if (fs::is_symlink(path, absent))
-    throw interpreter::DiagnosticError("forbidden-file", fmt::format("{} is a link, which could lead out of the folder", path.filename().string()), where, "put the file itself there, or name it in an .export");
+    throw interpreter::DiagnosticError(
+        "forbidden-file", fmt::format("{} is a link, which could lead out of the folder", path.filename().string()),
+        where, "put the file itself there, or name it in an .export");
 }
 
 }  // namespace
@@ -53,8 +57,10 @@ std::optional<fs::path> Files::named_input(int unit) const {
     if (file.input && file.path.filename() == own->second) return file.path;
   for (const fs::path& folder : {output_folder_, command_file_.parent_path()})
     if (fs::is_regular_file(folder / own->second)) return folder / own->second;
-  throw interpreter::DiagnosticError("missing-file", fmt::format("DEFI_FICHIER gives unit {} the file {}, and there is none", unit, own->second.string()), {},
-                                     "put it beside the command file, or give the unit back (DEFI_FICHIER, ACTION='LIBERER')");
+  throw interpreter::DiagnosticError(
+      "missing-file",
+      fmt::format("DEFI_FICHIER gives unit {} the file {}, and there is none", unit, own->second.string()), {},
+      "put it beside the command file, or give the unit back (DEFI_FICHIER, ACTION='LIBERER')");
 }
 
 fs::path Files::input(int unit, const std::vector<std::string>& extensions) const {
@@ -66,26 +72,34 @@ fs::path Files::input(int unit, const std::vector<std::string>& extensions) cons
   for (const ExportFile& file : exported_) {
     if (file.unit == unit && file.input) return file.path;
   }
-  if (const auto own = written_.find(unit); own != written_.end() && fs::is_regular_file(own->second)) return own->second;
+  if (const auto own = written_.find(unit); own != written_.end() && fs::is_regular_file(own->second))
+    return own->second;
   const fs::path file = found(unit, extensions);
   const int known = units_.emplace(file, unit).first->second;
   if (known == unit) return file;
-  throw interpreter::DiagnosticError("missing-file", fmt::format("no file stands for unit {}: {} is that of unit {}", unit, file.filename().string(), known), {},
-                                     fmt::format("put {}.{} beside the command file, or name both in an .export", command_file_.stem().string(), unit));
+  throw interpreter::DiagnosticError(
+      "missing-file",
+      fmt::format("no file stands for unit {}: {} is that of unit {}", unit, file.filename().string(), known), {},
+      fmt::format("put {}.{} beside the command file, or name both in an .export", command_file_.stem().string(),
+                  unit));
 }
 
 // Of the command file, and less the letter of the modelisation.
 std::vector<std::string> Files::stems() const {
   std::vector<std::string> result = {command_file_.stem().string()};
-  if (const std::string& stem = result.front(); stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back()))) result.push_back(stem.substr(0, stem.size() - 1));
+  if (const std::string& stem = result.front();
+      stem.size() > 1 && std::isalpha(static_cast<unsigned char>(stem.back())))
+    result.push_back(stem.substr(0, stem.size() - 1));
   return result;
 }
 
 std::optional<fs::path> Files::candidate(const std::vector<std::string>& extensions) const {
   for (const std::string& stem : stems())
     for (const std::string& extension : extensions)
-      if (const fs::path path = command_file_.parent_path() / (stem + "." + extension); fs::is_regular_file(path)) return path;
-  if (const auto others = files_with(command_file_.parent_path(), extensions); others.size() == 1) return others.front();
+      if (const fs::path path = command_file_.parent_path() / (stem + "." + extension); fs::is_regular_file(path))
+        return path;
+  if (const auto others = files_with(command_file_.parent_path(), extensions); others.size() == 1)
+    return others.front();
   return std::nullopt;
 }
 
@@ -144,22 +158,28 @@ bool Files::is_read(const fs::path& path) const {
   std::error_code absent;
   const auto same = [&](const fs::path& other) { return fs::equivalent(path, other, absent); };
   return std::ranges::any_of(units_, [&](const auto& entry) { return same(entry.first); }) ||
-         std::ranges::any_of(exported_, [&](const ExportFile& file) { return file.input && same(file.path); }) || std::ranges::any_of(read_, same) || same(command_file_);
+         std::ranges::any_of(exported_, [&](const ExportFile& file) { return file.input && same(file.path); }) ||
+         std::ranges::any_of(read_, same) || same(command_file_);
 }
 
 fs::path Files::safe_output(fs::path path) const {
   require_no_link(path, {});
   const bool is_own = std::ranges::any_of(written_, [&](const auto& entry) { return entry.second == path; });
   if (is_own || !is_read(path)) return path;
-  throw interpreter::DiagnosticError("overwritten-input", fmt::format("{} is read by this study, and would be written over", path.filename().string()), {},
-                                     "give what is written another unit, or another name (DEFI_FICHIER)");
+  throw interpreter::DiagnosticError(
+      "overwritten-input", fmt::format("{} is read by this study, and would be written over", path.filename().string()),
+      {}, "give what is written another unit, or another name (DEFI_FICHIER)");
 }
 
 fs::path Files::output(int unit, const std::string& extension, int default_unit) const {
-  const auto exported = std::ranges::find_if(exported_, [&](const ExportFile& file) { return file.unit == unit && file.output; });
+  const auto exported =
+      std::ranges::find_if(exported_, [&](const ExportFile& file) { return file.unit == unit && file.output; });
   if (exported != exported_.end()) return written_[unit] = exported->path;
-  if (const auto own = named_.find(unit); own != named_.end()) return written_[unit] = safe_output(output_folder_ / own->second);
-  const auto named = [&](const std::string& middle) { return output_folder_ / (command_file_.stem().string() + middle + extension); };
+  if (const auto own = named_.find(unit); own != named_.end())
+    return written_[unit] = safe_output(output_folder_ / own->second);
+  const auto named = [&](const std::string& middle) {
+    return output_folder_ / (command_file_.stem().string() + middle + extension);
+  };
   const std::string numbered = "." + std::to_string(unit) + ".";
   const bool plain = unit == default_unit && !is_read(named("."));
   return written_[unit] = safe_output(named(plain ? "." : numbered));
@@ -172,7 +192,8 @@ void Files::name_output(int unit, const std::string& name) {
   }
   const fs::path wanted = fs::path(name).lexically_normal();
   if (wanted.filename() != wanted || wanted == "." || wanted == "..")
-    throw interpreter::DiagnosticError("unsupported", "comma writes into the current folder alone, and not to " + name, {}, "write the bare name of a file");
+    throw interpreter::DiagnosticError("unsupported", "comma writes into the current folder alone, and not to " + name,
+                                       {}, "write the bare name of a file");
   named_[unit] = wanted;
 }
 

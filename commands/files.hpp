@@ -28,27 +28,31 @@ class Files {
  public:
   Files(std::filesystem::path command_file, std::vector<ExportFile> exported, std::filesystem::path output_folder);
 
-  /// The input file of a unit: the one that DEFI_FICHIER names (beside the command file, or written before), else the .export's, else what has been written under that unit, else a file beside the command file with its stem and the unit or one of the extensions,
-  /// or with its stem less the letter of the modelisation (zzzz237b.comm finds zzzz237.mmed), else the only file there with
-  /// one of the extensions. Throws DiagnosticError `missing-file` listing what was looked for, or where the file stands for another unit already.
+  /// The input file of a unit: the one that DEFI_FICHIER names (beside the command file, or written before), else the
+  /// .export's, else what has been written under that unit, else a file beside the command file with its stem and the
+  /// unit or one of the extensions, or with its stem less the letter of the modelisation (zzzz237b.comm finds
+  /// zzzz237.mmed), else the only file there with one of the extensions. Throws DiagnosticError `missing-file` listing
+  /// what was looked for, or where the file stands for another unit already.
   std::filesystem::path input(int unit, const std::vector<std::string>& extensions) const;
 
   /// A file that `input` would find by one of these extensions for some unit; nothing where there is none.
   std::optional<std::filesystem::path> candidate(const std::vector<std::string>& extensions) const;
 
-  /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of the
-  /// command file, or one that the .export names). Throws DiagnosticError `missing-file`; `forbidden-file` for a name
-  /// that leads elsewhere, and for a link.
+  /// The command file that INCLUDE reads by unit (the .export's, else `<stem>.<unit>`) or by name (one of the folder of
+  /// the command file, or one that the .export names). Throws DiagnosticError `missing-file`; `forbidden-file` for a
+  /// name that leads elsewhere, and for a link.
   std::filesystem::path included(int unit, const interpreter::Span& where) const;
   std::filesystem::path included(const std::string& name, const interpreter::Span& where) const;
 
-  /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its format,
+  /// The output file of a unit: the .export's, else `<stem>.<extension>` for the unit that is the default of its
+  /// format,
   /// `<stem>.<unit>.<extension>` for another, or where the file has been read.
-  /// Throws DiagnosticError `overwritten-input` where that file is read by the study and was not written by it, `forbidden-file` where it is a link.
+  /// Throws DiagnosticError `overwritten-input` where that file is read by the study and was not written by it,
+  /// `forbidden-file` where it is a link.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
 
-  /// From now on the file of the unit has this name (of an output: unless the .export has one for it); an empty name gives the unit back.
-  /// Throws DiagnosticError `unsupported` for a name that leads out of the current folder.
+  /// From now on the file of the unit has this name (of an output: unless the .export has one for it); an empty name
+  /// gives the unit back. Throws DiagnosticError `unsupported` for a name that leads out of the current folder.
   void name_output(int unit, const std::string& name);
 
  private:

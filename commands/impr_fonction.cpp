@@ -17,15 +17,18 @@ using interpreter::DiagnosticError;
 const solver::TabulatedFunction& points_of(const Keywords& curve, const char* keyword) {
   const auto* table = curve.data<FunctionConcept>(keyword).table();
   if (table != nullptr) return *table;
-  throw DiagnosticError("unsupported", fmt::format("IMPR_FONCTION: {} is not given by points", curve.concept_of(keyword)->name),
-                        curve.span_of(keyword), "say by LIST_PARA where it is evaluated, or tabulate it by CALC_FONC_INTERP");
+  throw DiagnosticError(
+      "unsupported", fmt::format("IMPR_FONCTION: {} is not given by points", curve.concept_of(keyword)->name),
+      curve.span_of(keyword), "say by LIST_PARA where it is evaluated, or tabulate it by CALC_FONC_INTERP");
 }
 
 std::vector<double> values_at(const Keywords& curve, const char* keyword, const std::vector<double>& places) {
   const auto& function = curve.data<FunctionConcept>(keyword);
   if (function.parameters().size() > 1) {
-    throw DiagnosticError("unsupported", fmt::format("IMPR_FONCTION: {} depends on {} parameters, a curve on one",
-                                                     curve.concept_of(keyword)->name, function.parameters().size()), curve.span_of(keyword));
+    throw DiagnosticError("unsupported",
+                          fmt::format("IMPR_FONCTION: {} depends on {} parameters, a curve on one",
+                                      curve.concept_of(keyword)->name, function.parameters().size()),
+                          curve.span_of(keyword));
   }
   std::vector<double> values;
   for (const double place : places) values.push_back(function.evaluate({&place, 1}));
@@ -80,7 +83,10 @@ Curve curve_of(const Keywords& given) {
   Curve curve;
   fill_points(given, curve);
   if (curve.x.size() != curve.y.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("IMPR_FONCTION: a curve has {} abscissae and {} ordinates", curve.x.size(), curve.y.size()), given.span);
+    throw DiagnosticError(
+        "wrong-count",
+        fmt::format("IMPR_FONCTION: a curve has {} abscissae and {} ordinates", curve.x.size(), curve.y.size()),
+        given.span);
   }
   sort_points(curve, given.text("TRI"));
   if (given.has("LEGENDE")) curve.label = given.text("LEGENDE");
@@ -102,7 +108,8 @@ Axis axis_of(const Call& call, char name) {
   Axis axis;
   const auto keyword = [&](const char* stem) { return fmt::format("{}_{}", stem, name); };
   if (const auto label = keyword("LEGENDE"); call.has(label)) axis.label = call.text(label);
-  if (const auto bounds = keyword("BORNE"); call.has(bounds)) axis.bounds = {call.reals(bounds)[0], call.reals(bounds)[1]};
+  if (const auto bounds = keyword("BORNE"); call.has(bounds))
+    axis.bounds = {call.reals(bounds)[0], call.reals(bounds)[1]};
   if (const auto grid = keyword("GRILLE"); call.has(grid)) axis.grid = call.real(grid);
   if (const auto scale = keyword("ECHELLE"); call.has(scale)) axis.logarithmic = call.text(scale) == "LOG";
   return axis;
@@ -119,18 +126,21 @@ Table columns_of(const Call& call, const Drawing& drawing) {
   const auto given = call.factors("COURBE");
   const Curve& first = drawing.curves.front();
   Table table;
-  table.columns = {given.front().has("FONCTION") ? given.front().data<FunctionConcept>("FONCTION").parameters().empty()
-                                                       ? "ABSCISSE"
-                                                       : given.front().data<FunctionConcept>("FONCTION").parameters().front()
-                                                 : "ABSCISSE"};
+  table.columns = {given.front().has("FONCTION")
+                       ? given.front().data<FunctionConcept>("FONCTION").parameters().empty()
+                             ? "ABSCISSE"
+                             : given.front().data<FunctionConcept>("FONCTION").parameters().front()
+                       : "ABSCISSE"};
   for (const double x : first.x) table.rows.push_back({x});
   for (std::size_t k = 0; k < given.size(); ++k) {
     const Curve& curve = drawing.curves[k];
     table.columns.push_back(curve.label);
     const bool same = curve.x == first.x;
     if (!same && !given[k].has("FONCTION")) {
-      throw DiagnosticError("different-abscissae", "IMPR_FONCTION: in columns all curves have the abscissae of the first, and this one has others",
-                            given[k].span, "write it by an IMPR_FONCTION of its own");
+      throw DiagnosticError(
+          "different-abscissae",
+          "IMPR_FONCTION: in columns all curves have the abscissae of the first, and this one has others",
+          given[k].span, "write it by an IMPR_FONCTION of its own");
     }
     const auto values = same ? curve.y : values_at(given[k], "FONCTION", first.x);
     for (std::size_t i = 0; i < first.x.size(); ++i) table.rows[i].emplace_back(values[i]);
@@ -140,12 +150,13 @@ Table columns_of(const Call& call, const Drawing& drawing) {
 
 std::string as_columns(const Call& call, const Drawing& drawing) {
   Table table = columns_of(call, drawing);
-  const TableLayout layout{call.text("SEPARATEUR"), call.text("FORMAT_R"), call.text("COMMENTAIRE"), call.text("COMM_PARA"),
-                           call.text("DEBUT_LIGNE"), call.text("FIN_LIGNE")};
+  const TableLayout layout{call.text("SEPARATEUR"), call.text("FORMAT_R"),    call.text("COMMENTAIRE"),
+                           call.text("COMM_PARA"),  call.text("DEBUT_LIGNE"), call.text("FIN_LIGNE")};
   const std::string next_line = "\n" + layout.comment + " ";
   for (const char* keyword : {"TITRE", "SOUS_TITRE"}) {
     if (!call.has(keyword)) continue;
-    table.title += (table.title.empty() ? "" : next_line) + fmt::format("{}", fmt::join(call.texts(keyword), next_line));
+    table.title +=
+        (table.title.empty() ? "" : next_line) + fmt::format("{}", fmt::join(call.texts(keyword), next_line));
   }
   return format_table(table, layout) + "\n";
 }
@@ -162,7 +173,8 @@ Product impr_fonction(const Call& call, Context& context) {
     context.write(context.files.output(unit, "agr", 29), grace_file(drawing));
   } else {
     context.write(context.files.output(unit, "dogr", 25), curve_columns(drawing));
-    context.write(context.files.output(static_cast<int>(call.integer("UNITE_DIGR")), "digr", 26), drawing_description(drawing));
+    context.write(context.files.output(static_cast<int>(call.integer("UNITE_DIGR")), "digr", 26),
+                  drawing_description(drawing));
   }
   return nullptr;
 }

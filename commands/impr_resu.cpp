@@ -27,8 +27,8 @@ using interpreter::DiagnosticError;
 constexpr int med_unit = 80;
 constexpr int mesh_unit = 30;
 
-// What one occurrence of RESU writes: the chosen part of a result, or of a field as a result of one step whose field has no name
-// of its own. Without a result, the mesh alone.
+// What one occurrence of RESU writes: the chosen part of a result, or of a field as a result of one step whose field
+// has no name of its own. Without a result, the mesh alone.
 struct PrintedPart {
   std::shared_ptr<const solver::Mesh> shared_mesh;
   std::string name;
@@ -38,7 +38,8 @@ struct PrintedPart {
   const solver::Mesh& mesh() const { return *shared_mesh; }
 };
 
-// --- the part that the keywords choose --------------------------------------------------------------------------------------
+// --- the part that the keywords choose
+// --------------------------------------------------------------------------------------
 
 // Only the components of NOM_CMP that the field has; false if it has none of them.
 bool choose_components(const Keywords& print, solver::Field& field) {
@@ -61,7 +62,9 @@ void keep_nodes_of_cells(solver::ElementField& field, const solver::Mesh& mesh, 
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for (int point = 0; point < field.points(cell); ++point) {
       if (is_kept[static_cast<std::size_t>(mesh.cell(cell)[static_cast<std::size_t>(point)])]) continue;
-      std::fill_n(field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell] + point) * width), width, solver::absent);
+      std::fill_n(field.values.begin() +
+                      static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell] + point) * width),
+                  width, solver::absent);
     }
   }
 }
@@ -69,7 +72,8 @@ void keep_nodes_of_cells(solver::ElementField& field, const solver::Mesh& mesh, 
 // Nodes choose values of cells at their nodes alone, in text.
 bool is_out_of_reach(const Keywords& print, bool med, const solver::Field& field) {
   const auto* element = std::get_if<solver::ElementField>(&field);
-  return element != nullptr && names_a_place(print, node_places) && (med || element->support != solver::Support::element_node);
+  return element != nullptr && names_a_place(print, node_places) &&
+         (med || element->support != solver::Support::element_node);
 }
 
 void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, solver::Field& field) {
@@ -81,7 +85,8 @@ void choose_places(const Keywords& print, const solver::Mesh& mesh, bool med, so
   if (names_a_place(print, cell_places)) element = solver::on_cells(element, selected_cells(print, mesh, cell_places));
   if (!names_a_place(print, node_places)) return;
   if (is_out_of_reach(print, med, field)) {
-    throw DiagnosticError("unsupported", "IMPR_RESU: nodes choose nothing of a field on cells", print.span, "name cells by GROUP_MA");
+    throw DiagnosticError("unsupported", "IMPR_RESU: nodes choose nothing of a field on cells", print.span,
+                          "name cells by GROUP_MA");
   }
   keep_nodes_of_cells(element, mesh, selected_nodes(print, mesh, node_places));
 }
@@ -155,7 +160,8 @@ void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diag
   if (!whole_result) {
     add("", number_field(source, print, "CHAM_GD").field);
   } else {
-    for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+    for (const solver::ResultStep* step :
+         selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
       for (const auto& [name, field] : step->fields)
         if (is_chosen(print, name)) add(name, field);
   }
@@ -167,22 +173,29 @@ void warn_of_missing_names(const Keywords& print, interpreter::Diagnostics& diag
     return names;
   };
   if (const auto names = missing("NOM_CHAM", fields); whole_result && !names.empty())
-    diagnostics.alarm("unknown-field", fmt::format("IMPR_RESU: {} holds no {} in these steps: left out", source->name, fmt::join(names, ", ")), print.span_of("NOM_CHAM"),
-                      "CALC_CHAMP computes fields");
+    diagnostics.alarm(
+        "unknown-field",
+        fmt::format("IMPR_RESU: {} holds no {} in these steps: left out", source->name, fmt::join(names, ", ")),
+        print.span_of("NOM_CHAM"), "CALC_CHAMP computes fields");
   if (const auto names = missing("NOM_CMP", components); !fields.empty() && !names.empty())
-    diagnostics.alarm("unknown-component", fmt::format("IMPR_RESU: no field that is written has {}: left out", fmt::join(names, ", ")), print.span_of("NOM_CMP"),
-                      fmt::format("there is {}", fmt::join(components, ", ")));
+    diagnostics.alarm("unknown-component",
+                      fmt::format("IMPR_RESU: no field that is written has {}: left out", fmt::join(names, ", ")),
+                      print.span_of("NOM_CMP"), fmt::format("there is {}", fmt::join(components, ", ")));
 }
 
 void warn_of_layers(const Keywords& print, interpreter::Diagnostics& diagnostics) {
   if (!print.has("RESULTAT")) return;
   const auto& source = print.concept_of("RESULTAT");
   std::set<std::string> layered;
-  for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+  for (const solver::ResultStep* step :
+       selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
     for (const auto& [name, field] : step->fields)
       if (is_chosen(print, name) && is_layered(field)) layered.insert(name);
   if (layered.empty()) return;
-  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not written there: {} of {} left out", fmt::join(layered, ", "), source->name),
+  diagnostics.alarm("field-left-out",
+                    fmt::format("IMPR_RESU: fields with several values a point, in the thickness of plates, are not "
+                                "written there: {} of {} left out",
+                                fmt::join(layered, ", "), source->name),
                     print.span, "POST_CHAMP with EXTR_COQUE takes one of them");
 }
 
@@ -191,12 +204,15 @@ void warn_of_fields_out_of_reach(const Keywords& print, bool med, interpreter::D
   if (!print.has("RESULTAT") || print.given("NOM_CHAM")) return;
   const auto& source = print.concept_of("RESULTAT");
   std::set<std::string> names;
-  for (const solver::ResultStep* step : selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
+  for (const solver::ResultStep* step :
+       selected_steps(print, interpreter::data_of<ResultConcept>(source, "RESULTAT").result))
     for (const auto& [name, field] : step->fields)
       if (is_chosen(print, name) && is_out_of_reach(print, med, field)) names.insert(name);
   if (names.empty()) return;
-  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: nodes choose nothing of {}, on cells: left out of {}", fmt::join(names, ", "), source->name), print.span,
-                    "name the fields that are meant by NOM_CHAM, or cells by GROUP_MA");
+  diagnostics.alarm("field-left-out",
+                    fmt::format("IMPR_RESU: nodes choose nothing of {}, on cells: left out of {}",
+                                fmt::join(names, ", "), source->name),
+                    print.span, "name the fields that are meant by NOM_CHAM, or cells by GROUP_MA");
 }
 
 PrintedPart part_of(const Keywords& print, bool med) {
@@ -206,10 +222,14 @@ PrintedPart part_of(const Keywords& print, bool med) {
   }
   const bool whole_result = print.has("RESULTAT");
   const auto& handle = print.concept_of(whole_result ? "RESULTAT" : "CHAM_GD");
-  PrintedPart part{nullptr, handle->name, whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result) : result_of_field(print)};
+  PrintedPart part{nullptr, handle->name,
+                   whole_result ? chosen_steps(print, interpreter::data_of<ResultConcept>(handle, "RESULTAT").result)
+                                : result_of_field(print)};
   part.shared_mesh = part.result.model ? part.result.model->mesh : part.result.bare_mesh;
   const solver::Mesh& mesh = part.mesh();
-  if (print.has("MAILLAGE")) require_mesh(print, "MAILLAGE", interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh.get(), mesh);
+  if (print.has("MAILLAGE"))
+    require_mesh(print, "MAILLAGE",
+                 interpreter::data_of<MeshConcept>(print.concept_of("MAILLAGE"), "MAILLAGE").mesh.get(), mesh);
   for (solver::ResultStep& step : part.result.steps) {
     for (auto item = step.fields.begin(); item != step.fields.end();) {
       const bool is_asked_for = print.given("NOM_CHAM") || !whole_result || !is_out_of_reach(print, med, item->second);
@@ -223,11 +243,13 @@ PrintedPart part_of(const Keywords& print, bool med) {
 
 void check_same_mesh(const std::vector<PrintedPart>& parts, std::size_t i, const Call& call) {
   if (parts[i].shared_mesh == parts.front().shared_mesh) return;
-  throw DiagnosticError("unsupported", "IMPR_RESU: these results lie on several meshes, and comma writes one into a file", call.factors("RESU")[i].span,
-                        "write them by several IMPR_RESU, each to a UNITE of its own");
+  throw DiagnosticError("unsupported",
+                        "IMPR_RESU: these results lie on several meshes, and comma writes one into a file",
+                        call.factors("RESU")[i].span, "write them by several IMPR_RESU, each to a UNITE of its own");
 }
 
-// --- MED --------------------------------------------------------------------------------------------------------------------
+// --- MED
+// --------------------------------------------------------------------------------------------------------------------
 
 // The names that the file gives to the fields: those of NOM_CHAM_MED, or the one of the result with that of the field.
 void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solver::NamedResult>& results) {
@@ -236,15 +258,19 @@ void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solve
     return;
   }
   if (print.has("RESULTAT") && !print.given("NOM_CHAM"))
-    throw DiagnosticError("missing-keyword", "IMPR_RESU: NOM_CHAM_MED names the fields of NOM_CHAM, and there are none", print.at("NOM_CHAM_MED").name_span, "give NOM_CHAM, or NOM_RESU_MED for a beginning of all names");
+    throw DiagnosticError("missing-keyword", "IMPR_RESU: NOM_CHAM_MED names the fields of NOM_CHAM, and there are none",
+                          print.at("NOM_CHAM_MED").name_span,
+                          "give NOM_CHAM, or NOM_RESU_MED for a beginning of all names");
   const auto names = print.texts("NOM_CHAM_MED");
   const auto fields = print.given("NOM_CHAM") ? print.texts("NOM_CHAM") : std::vector<std::string>{""};
   if (names.size() != fields.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("IMPR_RESU: {} names stand against {} fields", names.size(), fields.size()), print.span_of("NOM_CHAM_MED"),
-                          "give one name a field of NOM_CHAM");
+    throw DiagnosticError("wrong-count",
+                          fmt::format("IMPR_RESU: {} names stand against {} fields", names.size(), fields.size()),
+                          print.span_of("NOM_CHAM_MED"), "give one name a field of NOM_CHAM");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    solver::NamedResult& named = results.emplace_back(solver::NamedResult{{part.result.model, {}, part.result.bare_mesh}, names[i]});
+    solver::NamedResult& named =
+        results.emplace_back(solver::NamedResult{{part.result.model, {}, part.result.bare_mesh}, names[i]});
     for (const solver::ResultStep& step : part.result.steps) {
       const auto field = step.fields.find(fields[i]);
       if (field == step.fields.end()) continue;
@@ -258,7 +284,9 @@ void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solve
 
 // A name for a mesh that stands among others.
 std::string free_name(const std::vector<WrittenMesh>& others, const std::string& name) {
-  const auto taken = [&](const std::string& word) { return std::ranges::any_of(others, [&](const WrittenMesh& other) { return other.name == word; }); };
+  const auto taken = [&](const std::string& word) {
+    return std::ranges::any_of(others, [&](const WrittenMesh& other) { return other.name == word; });
+  };
   std::string free = name;
   for (int number = 2; taken(free); ++number) free = fmt::format("{}_{}", name, number);
   return free;
@@ -281,12 +309,15 @@ void write_med(const Call& call, const std::string& path, std::vector<WrittenMes
   const auto& mesh = parts.front().shared_mesh;
   const auto found = std::ranges::find(known, mesh, &WrittenMesh::mesh);
   mesh_name = found == known.end() ? free_name(known, mesh_name) : found->name;
-  if (known.empty()) solver::write_med_results(path, *mesh, mesh_name, results);
-  else solver::add_med_results(path, *mesh, mesh_name, found != known.end(), results);
+  if (known.empty())
+    solver::write_med_results(path, *mesh, mesh_name, results);
+  else
+    solver::add_med_results(path, *mesh, mesh_name, found != known.end(), results);
   if (found == known.end()) known.push_back({mesh, mesh_name});
 }
 
-// --- text -------------------------------------------------------------------------------------------------------------------
+// --- text
+// -------------------------------------------------------------------------------------------------------------------
 
 ListingStyle style_of(const Keywords& print) {
   ListingStyle style{RealFormat(print.text("FORMAT_R"))};
@@ -312,9 +343,11 @@ std::string text_of(const Keywords& print) {
   for (const std::string& line : print.texts("SOUS_TITRE")) text += "\n " + line + "\n";
   for (const solver::ResultStep& step : part.result.steps) {
     for (const auto& [name, field] : step.fields) {
-      text += name.empty() ? fmt::format("\n {}\n", part.name)
-                           : fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", part.name, name, step.order, step.instant);
-      text += extremes.empty() ? listing(field, part.mesh(), style) : extreme_listing(field, part.mesh(), style, extremes);
+      text += name.empty()
+                  ? fmt::format("\n {}\n", part.name)
+                  : fmt::format("\n {} {}, NUME_ORDRE={}, INST={:.10g}\n", part.name, name, step.order, step.instant);
+      text +=
+          extremes.empty() ? listing(field, part.mesh(), style) : extreme_listing(field, part.mesh(), style, extremes);
     }
   }
   return text;
@@ -325,7 +358,8 @@ std::vector<int> written_cells(const Call& call, const solver::Mesh& mesh) {
   std::vector<int> cells;
   const solver::Model* model = call.has("MODELE") ? call.data<ModelConcept>("MODELE").model.get() : nullptr;
   if (model != nullptr && model->mesh.get() != &mesh) {
-    throw DiagnosticError("different-mesh", "IMPR_RESU: MODELE lies on another mesh than what is written", call.span_of("MODELE"));
+    throw DiagnosticError("different-mesh", "IMPR_RESU: MODELE lies on another mesh than what is written",
+                          call.span_of("MODELE"));
   }
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     if (model == nullptr || model->components_of(cell) != 0) cells.push_back(cell);
@@ -341,7 +375,8 @@ std::string mesh_text(const Call& call, const Keywords& print) {
   return solver::format_aster_mesh(solver::restricted(part.mesh(), cells));
 }
 
-// --- Gmsh -------------------------------------------------------------------------------------------------------------------
+// --- Gmsh
+// -------------------------------------------------------------------------------------------------------------------
 
 // For each of Gmsh's values, which of the components of NOM_CMP it is; -1: none, it is 0.
 std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {
@@ -352,9 +387,11 @@ std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {
   const std::vector<int>& layout = layouts.at(print.text("TYPE_CHAM"));
   const auto needed = static_cast<std::size_t>(*std::ranges::max_element(layout)) + 1;
   if (components == needed) return layout;
-  throw DiagnosticError("wrong-count", fmt::format("IMPR_RESU: TYPE_CHAM=\"{}\" needs {} components, and the field has {} of those of NOM_CMP",
-                                                   print.text("TYPE_CHAM"), needed, components), print.span_of("TYPE_CHAM"),
-                        "name them in NOM_CMP: X, Y, Z, or XX, YY, ZZ, XY, XZ, YZ");
+  throw DiagnosticError(
+      "wrong-count",
+      fmt::format("IMPR_RESU: TYPE_CHAM=\"{}\" needs {} components, and the field has {} of those of NOM_CMP",
+                  print.text("TYPE_CHAM"), needed, components),
+      print.span_of("TYPE_CHAM"), "name them in NOM_CMP: X, Y, Z, or XX, YY, ZZ, XY, XZ, YZ");
 }
 
 void add_views(const Keywords& print, const PrintedPart& part, std::vector<solver::GmshView>& views) {
@@ -366,12 +403,14 @@ void add_views(const Keywords& print, const PrintedPart& part, std::vector<solve
         views.push_back({label, step.instant, step.order, &field, gmsh_layout(print, components.size())});
         continue;
       }
-      for (std::size_t c = 0; c < components.size(); ++c) views.push_back({label + " " + components[c], step.instant, step.order, &field, {static_cast<int>(c)}});
+      for (std::size_t c = 0; c < components.size(); ++c)
+        views.push_back({label + " " + components[c], step.instant, step.order, &field, {static_cast<int>(c)}});
     }
   }
 }
 
-// Of a whole result what the format cannot hold, fields at Gauss points, is left out; one that NOM_CHAM asks for is not.
+// Of a whole result what the format cannot hold, fields at Gauss points, is left out; one that NOM_CHAM asks for is
+// not.
 void leave_out_points(const Keywords& print, PrintedPart& part, interpreter::Diagnostics& diagnostics) {
   if (!print.has("RESULTAT") || print.given("NOM_CHAM")) return;
   std::set<std::string> left_out;
@@ -384,7 +423,10 @@ void leave_out_points(const Keywords& print, PrintedPart& part, interpreter::Dia
     });
   }
   if (left_out.empty()) return;
-  diagnostics.alarm("field-left-out", fmt::format("IMPR_RESU: Gmsh has no place for fields at Gauss points: {} of {} left out", fmt::join(left_out, ", "), part.name), print.span,
+  diagnostics.alarm("field-left-out",
+                    fmt::format("IMPR_RESU: Gmsh has no place for fields at Gauss points: {} of {} left out",
+                                fmt::join(left_out, ", "), part.name),
+                    print.span,
                     "CALC_CHAMP brings them to the nodes of cells; NOM_CHAM names those that are to be written");
 }
 
@@ -408,8 +450,10 @@ void check_model(const Call& call, const std::string& format) {
   if (!call.has("MODELE") || format == "GMSH" || format == "ASTER") return;
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;
   if (static_cast<int>(written_cells(call, mesh).size()) == mesh.cell_count()) return;
-  throw DiagnosticError("unsupported", fmt::format("IMPR_RESU: FORMAT=\"{}\" writes all cells of a mesh, and MODELE has not all of them", format),
-                        call.span_of("MODELE"), "leave out MODELE, or name cells by GROUP_MA");
+  throw DiagnosticError(
+      "unsupported",
+      fmt::format("IMPR_RESU: FORMAT=\"{}\" writes all cells of a mesh, and MODELE has not all of them", format),
+      call.span_of("MODELE"), "leave out MODELE, or name cells by GROUP_MA");
 }
 
 struct Format {
@@ -450,7 +494,8 @@ Product impr_resu(const Call& call, Context& context) {
     context.write(path, gmsh_text(call, context.diagnostics));
     return nullptr;
   }
-  for (const Keywords& print : call.factors("RESU")) context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));
+  for (const Keywords& print : call.factors("RESU"))
+    context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));
   return nullptr;
 }
 

@@ -18,7 +18,8 @@ using interpreter::DiagnosticError;
 std::vector<Table> pages_of(const Table& table, const Call& call) {
   if (!call.has("PAGINATION")) return {table};
   std::vector<int> columns;
-  for (const std::string& name : call.texts("PAGINATION")) columns.push_back(column_of(table, name, call, "PAGINATION"));
+  for (const std::string& name : call.texts("PAGINATION"))
+    columns.push_back(column_of(table, name, call, "PAGINATION"));
   std::vector<Table> pages;
   for (const auto& row : table.rows) {
     const auto belongs = [&](const Table& page) {
@@ -36,8 +37,9 @@ std::vector<Table> pages_of(const Table& table, const Call& call) {
 // FORMAT="XMGRACE": the first column against the second.
 std::string as_curve(const Table& table, const Call& call) {
   if (table.columns.size() != 2) {
-    throw DiagnosticError("wrong-count", fmt::format("IMPR_TABLE: a curve needs two columns, and the table has {}", table.columns.size()), call.span,
-                          "name the columns of the abscissae and of the ordinates in NOM_PARA");
+    throw DiagnosticError(
+        "wrong-count", fmt::format("IMPR_TABLE: a curve needs two columns, and the table has {}", table.columns.size()),
+        call.span, "name the columns of the abscissae and of the ordinates in NOM_PARA");
   }
   Curve curve;
   curve.label = table.columns[1];
@@ -55,14 +57,17 @@ std::string as_curve(const Table& table, const Call& call) {
 }
 
 TableLayout layout_of(const Call& call) {
-  TableLayout layout{call.text("SEPARATEUR"), call.text("FORMAT_R"), call.text("COMMENTAIRE"), call.text("COMM_PARA"),
-                     call.text("DEBUT_LIGNE"), call.text("FIN_LIGNE")};
+  TableLayout layout{call.text("SEPARATEUR"), call.text("FORMAT_R"),    call.text("COMMENTAIRE"),
+                     call.text("COMM_PARA"),  call.text("DEBUT_LIGNE"), call.text("FIN_LIGNE")};
   if (call.text("FORMAT") == "AGRAF" && layout.names_comment.empty()) layout.names_comment = layout.comment;
   return layout;
 }
 
-// Scripts that read Code_Aster's tables look for the last line of the title that a table has by itself: the names of the columns follow.
-std::string own_title(const Call& call, const TableLayout& layout) { return fmt::format("{} (comma)\n{}TABLE_SDASTER", call.concept_of("TABLE")->name, layout.comment); }
+// Scripts that read Code_Aster's tables look for the last line of the title that a table has by itself: the names of
+// the columns follow.
+std::string own_title(const Call& call, const TableLayout& layout) {
+  return fmt::format("{} (comma)\n{}TABLE_SDASTER", call.concept_of("TABLE")->name, layout.comment);
+}
 
 std::string page_text(const Table& page, const Call& call, const TableLayout& layout) {
   const std::string& format = call.text("FORMAT");
@@ -70,8 +75,10 @@ std::string page_text(const Table& page, const Call& call, const TableLayout& la
   if (format == "ASTER") return aster_table(page, layout) + "\n";
   if (format != "TABLEAU_CROISE") return format_table(page, layout) + "\n";
   if (page.columns.size() == 3) return format_table(crossed(page), layout) + "\n";
-  throw DiagnosticError("wrong-count", fmt::format("IMPR_TABLE: a crossed table is made of three columns, and the table has {}", page.columns.size()), call.span,
-                        "name the columns of the rows, of the columns and of the values in NOM_PARA");
+  throw DiagnosticError(
+      "wrong-count",
+      fmt::format("IMPR_TABLE: a crossed table is made of three columns, and the table has {}", page.columns.size()),
+      call.span, "name the columns of the rows, of the columns and of the values in NOM_PARA");
 }
 
 }  // namespace

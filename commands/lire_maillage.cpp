@@ -20,8 +20,11 @@ namespace {
 
 // How the files of a format are called where no .export names them.
 const std::map<std::string, std::vector<std::string>, std::less<>>& extensions() {
-  static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
-      {"MED", {"mmed", "med"}}, {"ASTER", {"mail", "aster"}}, {"GMSH", {"msh"}}, {"GIBI", {"mgib"}}, {"IDEAS", {"unv", "msup"}}};
+  static const std::map<std::string, std::vector<std::string>, std::less<>> table = {{"MED", {"mmed", "med"}},
+                                                                                     {"ASTER", {"mail", "aster"}},
+                                                                                     {"GMSH", {"msh"}},
+                                                                                     {"GIBI", {"mgib"}},
+                                                                                     {"IDEAS", {"unv", "msup"}}};
   return table;
 }
 
@@ -31,7 +34,8 @@ solver::Mesh read_names_aside(const Call& call, const std::string& path, Context
   solver::Mesh mesh = solver::read_aster_mesh(path, &misleading);
   if (!misleading) return mesh;
   context.diagnostics.alarm("other-names",
-                            fmt::format("LIRE_MAILLAGE: nodes and cells are numbered in the order of the file and keep no names: what the file calls {} is {} from here on",
+                            fmt::format("LIRE_MAILLAGE: nodes and cells are numbered in the order of the file and keep "
+                                        "no names: what the file calls {} is {} from here on",
                                         misleading->in_file, misleading->afterwards),
                             call.span, "name nodes and cells by groups");
   return mesh;
@@ -39,20 +43,29 @@ solver::Mesh read_names_aside(const Call& call, const std::string& path, Context
 
 // Which text format a file begins as; none for another one.
 std::string text_format_of(const std::string& path) {
-  static constexpr std::pair<const char*, const char*> marks[] = {{"COOR_2D", "ASTER"}, {"COOR_3D", "ASTER"}, {"$MeshFormat", "GMSH"}, {"$NOD", "GMSH"}, {"ENREGISTREMENT DE TYPE", "GIBI"}, {"    -1\n", "IDEAS"}};
+  static constexpr std::pair<const char*, const char*> marks[] = {{"COOR_2D", "ASTER"},
+                                                                  {"COOR_3D", "ASTER"},
+                                                                  {"$MeshFormat", "GMSH"},
+                                                                  {"$NOD", "GMSH"},
+                                                                  {"ENREGISTREMENT DE TYPE", "GIBI"},
+                                                                  {"    -1\n", "IDEAS"}};
   std::ifstream file(path, std::ios::binary);
   std::string beginning(4096, '\0');
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  const auto found = std::ranges::find_if(marks, [&](const auto& mark) { return beginning.find(mark.first) != std::string::npos; });
+  const auto found =
+      std::ranges::find_if(marks, [&](const auto& mark) { return beginning.find(mark.first) != std::string::npos; });
   return found == std::end(marks) ? "" : found->second;
 }
 
-// A file that is there, but is called as those of another format are; where one of its own is there, something else is missing.
+// A file that is there, but is called as those of another format are; where one of its own is there, something else is
+// missing.
 [[noreturn]] void tell_missing(const interpreter::DiagnosticError& missing, const Call& call, Context& context) {
   if (context.files.candidate(extensions().at(call.text("FORMAT")))) throw missing;
   for (const auto& [format, names] : extensions()) {
     const auto path = context.files.candidate(names);
-    if (path) throw interpreter::DiagnosticError("missing-file", missing.what(), call.span, fmt::format("FORMAT='{}' would read {}", format, path->filename().string()));
+    if (path)
+      throw interpreter::DiagnosticError("missing-file", missing.what(), call.span,
+                                         fmt::format("FORMAT='{}' would read {}", format, path->filename().string()));
   }
   throw missing;
 }
@@ -78,7 +91,8 @@ solver::Mesh read(const Call& call, Context& context) {
   } catch (const solver::Error& error) {
     const std::string likely = text_format_of(path);
     if (likely.empty()) throw;
-    throw interpreter::DiagnosticError(error.code(), std::string("LIRE_MAILLAGE: ") + error.what(), call.span_of("FORMAT"), fmt::format("it looks like FORMAT='{}'", likely));
+    throw interpreter::DiagnosticError(error.code(), std::string("LIRE_MAILLAGE: ") + error.what(),
+                                       call.span_of("FORMAT"), fmt::format("it looks like FORMAT='{}'", likely));
   }
 }
 
@@ -86,11 +100,13 @@ void warn_of_double_cells(const Call& call, const solver::Mesh& mesh, Context& c
   const std::vector<solver::RepeatedCell> doubles = solver::repeated_cells(mesh);
   if (doubles.empty()) return;
   const auto [first, again] = doubles.front();
-  const std::string others = doubles.size() > 1 ? fmt::format(", the first of {} cells that repeat others", doubles.size()) : "";
-  context.diagnostics.alarm("double-cells",
-                            fmt::format("LIRE_MAILLAGE: {} {} has the nodes of {}{}: where both are in a model or under a load, both count", solver::name_of(mesh.cell_types[again]),
-                                        mesh.cell_name(again), mesh.cell_name(first), others),
-                            call.span, "leave doubles out of the mesh file; VERI_MAIL=_F(VERIF='NON') where they are meant");
+  const std::string others =
+      doubles.size() > 1 ? fmt::format(", the first of {} cells that repeat others", doubles.size()) : "";
+  context.diagnostics.alarm(
+      "double-cells",
+      fmt::format("LIRE_MAILLAGE: {} {} has the nodes of {}{}: where both are in a model or under a load, both count",
+                  solver::name_of(mesh.cell_types[again]), mesh.cell_name(again), mesh.cell_name(first), others),
+      call.span, "leave doubles out of the mesh file; VERI_MAIL=_F(VERIF='NON') where they are meant");
 }
 
 // A quadrangle with two corners at one node is a triangle, and a segment nothing.
@@ -98,10 +114,11 @@ void warn_of_collapsed_cells(const Call& call, const solver::Mesh& mesh, Context
   const std::vector<int> collapsed = solver::collapsed_cells(mesh);
   if (collapsed.empty()) return;
   const std::string others = collapsed.size() > 1 ? fmt::format(", the first of {} such cells", collapsed.size()) : "";
-  context.diagnostics.alarm("collapsed-cells",
-                            fmt::format("LIRE_MAILLAGE: {} {} has a node more than once{}: its element is a collapsed one", solver::name_of(mesh.cell_types[collapsed.front()]),
-                                        mesh.cell_name(collapsed.front()), others),
-                            call.span, "look for a misprint among its nodes; VERI_MAIL=_F(VERIF='NON') where it is meant");
+  context.diagnostics.alarm(
+      "collapsed-cells",
+      fmt::format("LIRE_MAILLAGE: {} {} has a node more than once{}: its element is a collapsed one",
+                  solver::name_of(mesh.cell_types[collapsed.front()]), mesh.cell_name(collapsed.front()), others),
+      call.span, "look for a misprint among its nodes; VERI_MAIL=_F(VERIF='NON') where it is meant");
 }
 
 void verify(const Call& call, const solver::Mesh& mesh, Context& context) {

@@ -19,7 +19,8 @@ std::vector<double> instants(const Call& call) {
   std::vector<double> chosen;
   constexpr double same_instant = 1e-6;
   for (const double instant : call.data<ListConcept>("LIST_INST").values) {
-    if (!call.has("INST_FIN") || instant <= call.real("INST_FIN") + same_instant * std::abs(call.real("INST_FIN"))) chosen.push_back(instant);
+    if (!call.has("INST_FIN") || instant <= call.real("INST_FIN") + same_instant * std::abs(call.real("INST_FIN")))
+      chosen.push_back(instant);
   }
   if (!chosen.empty()) return chosen;
   throw interpreter::DiagnosticError("wrong-order", "MECA_STATIQUE: every instant of LIST_INST lies beyond INST_FIN",
@@ -61,9 +62,11 @@ Product meca_statique(const Call& call, Context& context) {
   const std::vector<double> asked = instants(call), wanted = new_instants(asked, product->result);
   if (wanted.size() < asked.size())
     context.diagnostics.alarm("known-instants",
-                              fmt::format("MECA_STATIQUE: {} has {} of the {} instants already, and they are not computed anew: what is given here counts at the others alone", call.result->name,
-                                          asked.size() - wanted.size(), asked.size()),
-                              call.has("LIST_INST") ? call.span_of("LIST_INST") : call.span, "make another result, or name other instants (INST, LIST_INST)");
+                              fmt::format("MECA_STATIQUE: {} has {} of the {} instants already, and they are not "
+                                          "computed anew: what is given here counts at the others alone",
+                                          call.result->name, asked.size() - wanted.size(), asked.size()),
+                              call.has("LIST_INST") ? call.span_of("LIST_INST") : call.span,
+                              "make another result, or name other instants (INST, LIST_INST)");
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
   warn_of_scene(call, product->problem, context);

@@ -16,7 +16,8 @@ void each_occurrence(const interpreter::Call& call, const std::string& factor, V
     try {
       visit(occurrence);
     } catch (const solver::Error& error) {
-      throw interpreter::DiagnosticError(error.code(), call.command + "/" + factor + ": " + error.what(), occurrence.span, error.hint());
+      throw interpreter::DiagnosticError(error.code(), call.command + "/" + factor + ": " + error.what(),
+                                         occurrence.span, error.hint());
     }
   }
 }

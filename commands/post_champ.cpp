@@ -26,16 +26,24 @@ std::vector<int> chosen_cells(const Call& call, const solver::Mesh& mesh) {
   return all;
 }
 
-solver::ElementField layer_of(const Keywords& occurrence, const std::string& name, const solver::ResultStep& step, const std::vector<int>& cells) {
-  static const std::map<std::string, solver::LayerSide, std::less<>> sides = {{"INF", solver::LayerSide::lower}, {"MOY", solver::LayerSide::middle}, {"SUP", solver::LayerSide::upper}};
+solver::ElementField layer_of(const Keywords& occurrence, const std::string& name, const solver::ResultStep& step,
+                              const std::vector<int>& cells) {
+  static const std::map<std::string, solver::LayerSide, std::less<>> sides = {
+      {"INF", solver::LayerSide::lower}, {"MOY", solver::LayerSide::middle}, {"SUP", solver::LayerSide::upper}};
   const solver::Field& field = layered_field_of(occurrence, step, name);
   if (!is_layered(field))
-    throw DiagnosticError("wrong-field", fmt::format("EXTR_COQUE: {} has one value a point", name), occurrence.span_of("NOM_CHAM"), "take SIGM_ELGA, SIGM_ELNO, SIEQ_ELGA or SIEQ_ELNO of plates");
+    throw DiagnosticError("wrong-field", fmt::format("EXTR_COQUE: {} has one value a point", name),
+                          occurrence.span_of("NOM_CHAM"),
+                          "take SIGM_ELGA, SIGM_ELNO, SIEQ_ELGA or SIEQ_ELNO of plates");
   const auto& layered = std::get<solver::ElementField>(field);
-  solver::ElementField taken = solver::values_in_layer(solver::on_cells(layered, cells), static_cast<int>(occurrence.integer("NUME_COUCHE")), sides.at(occurrence.text("NIVE_COUCHE")));
+  solver::ElementField taken =
+      solver::values_in_layer(solver::on_cells(layered, cells), static_cast<int>(occurrence.integer("NUME_COUCHE")),
+                              sides.at(occurrence.text("NIVE_COUCHE")));
   if (!taken.values.empty()) return taken;
-  throw DiagnosticError("out-of-bounds", fmt::format("EXTR_COQUE: none of these cells has a layer {}", occurrence.integer("NUME_COUCHE")), occurrence.span_of("NUME_COUCHE"),
-                        fmt::format("layers count from 1 to {} (COQUE_NCOU of AFFE_CARA_ELEM)", solver::most_layers(layered)));
+  throw DiagnosticError(
+      "out-of-bounds", fmt::format("EXTR_COQUE: none of these cells has a layer {}", occurrence.integer("NUME_COUCHE")),
+      occurrence.span_of("NUME_COUCHE"),
+      fmt::format("layers count from 1 to {} (COQUE_NCOU of AFFE_CARA_ELEM)", solver::most_layers(layered)));
 }
 
 }  // namespace
@@ -52,11 +60,13 @@ Product post_champ(const Call& call, Context& context) {
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     solver::ResultStep step{chosen->order, chosen->instant, {}, {}, chosen->parameters};
     for (const Keywords& occurrence : call.factors("EXTR_COQUE"))
-      for (const std::string& name : occurrence.texts("NOM_CHAM")) step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));
+      for (const std::string& name : occurrence.texts("NOM_CHAM"))
+        step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));
     for (const Keywords& occurrence : call.factors("COQU_EXCENT")) {
       const solver::StaticProblem problem = problem_of_result(call, source, chosen);
       const auto* forces = std::get_if<solver::ElementField>(&field_of(occurrence, *chosen));
-      if (forces == nullptr) throw DiagnosticError("wrong-field", "COQU_EXCENT wants a field on cells", occurrence.span_of("NOM_CHAM"));
+      if (forces == nullptr)
+        throw DiagnosticError("wrong-field", "COQU_EXCENT wants a field on cells", occurrence.span_of("NOM_CHAM"));
       step.fields.insert_or_assign(occurrence.text("NOM_CHAM"),
                                    solver::forces_about_middle(*problem.model, *problem.properties, *forces, cells));
     }

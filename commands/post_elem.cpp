@@ -28,14 +28,16 @@ namespace {
 
 using interpreter::DiagnosticError;
 
-// --- energies ---------------------------------------------------------------------------------------------------------------
+// --- energies
+// ---------------------------------------------------------------------------------------------------------------
 
 // The result whose energies are asked for: RESULTAT, or one step that holds the displacement CHAM_GD.
 ResultConcept energy_source(const Call& call) {
   if (call.has("RESULTAT")) return call.data<ResultConcept>("RESULTAT");
   const FieldConcept& data = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
   if (!std::holds_alternative<solver::NodalField>(data.field)) {
-    throw DiagnosticError("wrong-type", "POST_ELEM: energies are those of displacements, a field at nodes", call.span_of("CHAM_GD"), "give a field DEPL, or RESULTAT");
+    throw DiagnosticError("wrong-type", "POST_ELEM: energies are those of displacements, a field at nodes",
+                          call.span_of("CHAM_GD"), "give a field DEPL, or RESULTAT");
   }
   if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), *data.mesh);
   ResultConcept source;
@@ -48,7 +50,8 @@ ResultConcept energy_source(const Call& call) {
 }
 
 // Totals over parts, and what percentage of the whole model's energy each has.
-void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword, const char* field) {
+void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword,
+                   const char* field) {
   const ResultConcept source = energy_source(call);
   FieldsOfSteps computation(call, source);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
@@ -69,9 +72,11 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
   computation.warn_of_limited_sources(diagnostics);
 }
 
-// --- indicators of the loading ---------------------------------------------------------------------------------------------
+// --- indicators of the loading
+// ---------------------------------------------------------------------------------------------
 
-// Code_Aster calls a whole model by its number among the concepts of the file, in eight hexadecimal digits (U4.81.22, LIEU).
+// Code_Aster calls a whole model by its number among the concepts of the file, in eight hexadecimal digits (U4.81.22,
+// LIEU).
 std::string internal_name(const interpreter::Concept& handle) { return fmt::format("{:08x}", handle.id); }
 
 std::string name_of_whole(const Call& call) {
@@ -95,7 +100,9 @@ void list_indicators(Table& table, const Call& call, const std::string& keyword)
       for (const Part& part : parts_of(call, occurrence, source.result.mesh())) {
         const std::span<const int> cells(part.cells);
         const double volume = solver::sum_over_cells(volumes, 0, cells);
-        if (volume == 0.0) throw DiagnosticError("no-element", fmt::format("POST_ELEM: no solid or plane element lies in {}", part.name), occurrence.span);
+        if (volume == 0.0)
+          throw DiagnosticError("no-element", fmt::format("POST_ELEM: no solid or plane element lies in {}", part.name),
+                                occurrence.span);
         table.add_row({{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)},
                        {"INST", chosen->instant},
                        {"LIEU", part.kind == "TOUT" ? name_of_whole(call) : part.name},
@@ -106,7 +113,8 @@ void list_indicators(Table& table, const Call& call, const std::string& keyword)
   }
 }
 
-// --- masses -----------------------------------------------------------------------------------------------------------------
+// --- masses
+// -----------------------------------------------------------------------------------------------------------------
 
 solver::StaticProblem named_problem(const Call& call) {
   if (call.has("RESULTAT")) return problem_of_result(call, call.data<ResultConcept>("RESULTAT"));
@@ -116,7 +124,8 @@ solver::StaticProblem named_problem(const Call& call) {
 void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
   constexpr std::pair<const char*, std::pair<int, int>> entries[] = {{"IX", {0, 0}},  {"IY", {1, 1}},  {"IZ", {2, 2}},
                                                                      {"IXY", {0, 1}}, {"IXZ", {0, 2}}, {"IYZ", {1, 2}}};
-  for (const auto& [name, place] : entries) row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
+  for (const auto& [name, place] : entries)
+    row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
 }
 
 Eigen::Vector3d inertia_origin(const std::vector<double>& coordinates) {
@@ -127,19 +136,26 @@ Eigen::Vector3d inertia_origin(const std::vector<double>& coordinates) {
 
 const solver::Field& displacement_of(const Call& call) {
   if (!call.has("RESULTAT"))
-    throw DiagnosticError("missing-keyword", "POST_ELEM: GEOMETRIE='DEFORMEE' needs the displacements that deform the mesh", call.span_of("GEOMETRIE"), "give RESULTAT with INST, or CHAM_GD");
+    throw DiagnosticError("missing-keyword",
+                          "POST_ELEM: GEOMETRIE='DEFORMEE' needs the displacements that deform the mesh",
+                          call.span_of("GEOMETRIE"), "give RESULTAT with INST, or CHAM_GD");
   const auto& result = call.data<ResultConcept>("RESULTAT").result;
   const solver::ResultStep& step = only_step(call, result, "masses are taken at one");
   const auto found = step.fields.find("DEPL");
   if (found != step.fields.end()) return found->second;
-  throw DiagnosticError("unknown-field", fmt::format("POST_ELEM: step INST={} of the result holds no DEPL", step.instant), call.span_of("RESULTAT"));
+  throw DiagnosticError("unknown-field",
+                        fmt::format("POST_ELEM: step INST={} of the result holds no DEPL", step.instant),
+                        call.span_of("RESULTAT"));
 }
 
 // The model with its mesh where a displacement has brought it: that of a step of RESULTAT, or CHAM_GD.
 solver::Model deformed(const Call& call, const solver::Model& model) {
-  const solver::Field& field = call.has("CHAM_GD") ? number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD").field : displacement_of(call);
+  const solver::Field& field =
+      call.has("CHAM_GD") ? number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD").field : displacement_of(call);
   const auto* displacement = std::get_if<solver::NodalField>(&field);
-  if (displacement == nullptr) throw DiagnosticError("wrong-type", "POST_ELEM: GEOMETRIE='DEFORMEE' takes a displacement", call.span_of("GEOMETRIE"));
+  if (displacement == nullptr)
+    throw DiagnosticError("wrong-type", "POST_ELEM: GEOMETRIE='DEFORMEE' takes a displacement",
+                          call.span_of("GEOMETRIE"));
   auto mesh = std::make_shared<solver::Mesh>(*model.mesh);
   solver::displace(*mesh, *displacement);
   solver::Model moved = model;
@@ -162,13 +178,15 @@ void list_masses(Table& table, const Call& call) {
       add_inertia(row, found.inertia, "_G");
       const Eigen::Vector3d moments = solver::principal_moments(found.inertia);
       for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("I{}_PRIN_G", "XYZ"[i]), moments[i]);
-      if (occurrence.has("ORIG_INER")) add_inertia(row, solver::inertia_about(found, inertia_origin(occurrence.reals("ORIG_INER"))), "_P");
+      if (occurrence.has("ORIG_INER"))
+        add_inertia(row, solver::inertia_about(found, inertia_origin(occurrence.reals("ORIG_INER"))), "_P");
       table.add_row(row);
     }
   }
 }
 
-// --- integrals --------------------------------------------------------------------------------------------------------------
+// --- integrals
+// --------------------------------------------------------------------------------------------------------------
 
 /// Of each cell.
 struct Integrals {
@@ -181,8 +199,9 @@ Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, co
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const auto* on_cells = std::get_if<solver::ElementField>(&source.field);
   if (summed && (on_cells == nullptr || on_cells->support != solver::Support::cell)) {
-    throw DiagnosticError("wrong-type", "POST_ELEM: what is integrated already has one value a cell, and this field has others", occurrence.span_of("DEJA_INTEGRE"),
-                          "leave out DEJA_INTEGRE");
+    throw DiagnosticError("wrong-type",
+                          "POST_ELEM: what is integrated already has one value a cell, and this field has others",
+                          occurrence.span_of("DEJA_INTEGRE"), "leave out DEJA_INTEGRE");
   }
   return {summed ? field : solver::integrate_cells(model, field), solver::cell_volumes(model)};
 }
@@ -190,30 +209,36 @@ Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, co
 // What lies at nodes is known on the skin of the model too.
 Integrals integrals_over_skin(const FieldSource& source, const solver::Model& model, std::span<const int> cells) {
   solver::NodalField one{"NEUT_R", {"VOL"}, std::vector<double>(source.mesh.nodes.size(), 1.0)};
-  return {solver::integrate_skin(model, std::get<solver::NodalField>(source.field), cells), solver::integrate_skin(model, one, cells)};
+  return {solver::integrate_skin(model, std::get<solver::NodalField>(source.field), cells),
+          solver::integrate_skin(model, one, cells)};
 }
 
 // Whether the field has the component at all nodes or points of a cell.
 bool carries(const FieldSource& source, int cell, int component) {
   if (const auto* nodal = std::get_if<solver::NodalField>(&source.field))
-    return std::ranges::none_of(source.mesh.cell(cell), [&](int node) { return std::isnan(nodal->at(node, component)); });
+    return std::ranges::none_of(source.mesh.cell(cell),
+                                [&](int node) { return std::isnan(nodal->at(node, component)); });
   const auto& field = std::get<solver::ElementField>(source.field);
   for (int point = 0; point < field.points(cell); ++point)
     if (std::isnan(field.at(cell, point, component))) return false;
   return field.points(cell) > 0;
 }
 
-void require_component(const Keywords& occurrence, const FieldSource& source, const Part& part, const std::string& name) {
+void require_component(const Keywords& occurrence, const FieldSource& source, const Part& part,
+                       const std::string& name) {
   const int component = component_of(occurrence, solver::components_of(source.field), name);
   const auto lacks = [&](int cell) { return !carries(source, cell, component); };
   const auto found = std::ranges::find_if(part.cells, lacks);
   if (found == part.cells.end()) return;
-  throw DiagnosticError("unknown-component", fmt::format("POST_ELEM: {} of the {} cells of {} that are integrated over lack {}, {} for one", std::ranges::count_if(part.cells, lacks),
-                                                         part.cells.size(), part.name, name, source.mesh.cell_name(*found)),
+  throw DiagnosticError("unknown-component",
+                        fmt::format("POST_ELEM: {} of the {} cells of {} that are integrated over lack {}, {} for one",
+                                    std::ranges::count_if(part.cells, lacks), part.cells.size(), part.name, name,
+                                    source.mesh.cell_name(*found)),
                         occurrence.span_of("NOM_CMP"), "name the cells that have it by GROUP_MA");
 }
 
-void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source,
+                   const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const Integrals inside = integrals_of(occurrence, source, model);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
@@ -221,16 +246,25 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
     if (!summed) warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
     std::vector<int> skin;
     std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
-    const auto lost = std::ranges::count_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0 && !model.is_skin(cell) && model.components_of(cell) != 0; });
+    const auto lost = std::ranges::count_if(part.cells, [&](int cell) {
+      return inside.of_field.points(cell) == 0 && !model.is_skin(cell) && model.components_of(cell) != 0;
+    });
     std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
     if (lost > 0 && !part.cells.empty())
-      diagnostics.alarm("limited-field", fmt::format("POST_ELEM: {} of the cells that are named carry no value of the field, and INTEGRALE leaves them out", lost), occurrence.span,
-                        "compute the field on all of them, or name those that have it by GROUP_MA");
-    const bool over_skin = part.cells.empty() && !skin.empty() && std::holds_alternative<solver::NodalField>(source.field);
+      diagnostics.alarm(
+          "limited-field",
+          fmt::format(
+              "POST_ELEM: {} of the cells that are named carry no value of the field, and INTEGRALE leaves them out",
+              lost),
+          occurrence.span, "compute the field on all of them, or name those that have it by GROUP_MA");
+    const bool over_skin =
+        part.cells.empty() && !skin.empty() && std::holds_alternative<solver::NodalField>(source.field);
     const Integrals integrals = over_skin ? integrals_over_skin(source, model, skin) : inside;
     if (over_skin) part.cells = skin;
     if (part.cells.empty()) {
-      throw DiagnosticError("no-element", fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field", occurrence.text("TYPE_MAILLE"), part.name),
+      throw DiagnosticError("no-element",
+                            fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field",
+                                        occurrence.text("TYPE_MAILLE"), part.name),
                             occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
     }
     Row row = source.columns;
@@ -240,7 +274,9 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
     if (!summed) row.emplace_back("VOL", volume);
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
       require_component(occurrence, source, part, name);
-      const double total = solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name), std::span<const int>(part.cells));
+      const double total =
+          solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name),
+                                 std::span<const int>(part.cells));
       row.emplace_back("INTE_" + name, total);
       if (!summed) row.emplace_back("MOYE_" + name, total / volume);
     }
@@ -251,11 +287,13 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
 void list_integrals(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto model = model_behind(call);
   for (const Keywords& occurrence : call.factors("INTEGRALE")) {
-    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_integrals(table, call, occurrence, source, *model, diagnostics);
+    for (const FieldSource& source : field_sources(with_field(call, occurrence)))
+      add_integrals(table, call, occurrence, source, *model, diagnostics);
   }
 }
 
-// --- extremes ---------------------------------------------------------------------------------------------------------------
+// --- extremes
+// ---------------------------------------------------------------------------------------------------------------
 
 void add_extremes(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source) {
   const auto& components = solver::components_of(source.field);
@@ -266,9 +304,11 @@ void add_extremes(Table& table, const Call& call, const Keywords& occurrence, co
     const Row place = place_columns(part);
     row.insert(row.end(), place.begin(), place.end());
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
-      const auto found = solver::extremes(source.field, component_of(occurrence, components, name), std::span<const int>(places));
+      const auto found =
+          solver::extremes(source.field, component_of(occurrence, components, name), std::span<const int>(places));
       if (!found) {
-        throw DiagnosticError("unknown-component", fmt::format("POST_ELEM: nothing in {} carries {}", part.name, name), occurrence.span_of("NOM_CMP"));
+        throw DiagnosticError("unknown-component", fmt::format("POST_ELEM: nothing in {} carries {}", part.name, name),
+                              occurrence.span_of("NOM_CMP"));
       }
       for (const auto& [kind, extreme] : {std::pair("MAX", found->greatest), std::pair("MIN", found->least)}) {
         row.emplace_back(fmt::format("{}_{}", kind, name), extreme.value);
@@ -285,11 +325,17 @@ void add_extremes(Table& table, const Call& call, const Keywords& occurrence, co
 // MINMAX reads results of its own.
 void warn_of_idle_steps(const Call& call, interpreter::Diagnostics& diagnostics) {
   static constexpr std::array steps = {"INST", "NUME_ORDRE", "LIST_INST", "LIST_ORDRE"};
-  const auto reads_all = [](const Keywords& occurrence) { return occurrence.has("RESULTAT") && std::ranges::none_of(steps, [&](const char* keyword) { return occurrence.has(keyword); }); };
+  const auto reads_all = [](const Keywords& occurrence) {
+    return occurrence.has("RESULTAT") &&
+           std::ranges::none_of(steps, [&](const char* keyword) { return occurrence.has(keyword); });
+  };
   if (std::ranges::none_of(call.factors("MINMAX"), reads_all)) return;
   for (const char* keyword : steps)
     if (call.given(keyword))
-      diagnostics.alarm("idle-keyword", fmt::format("POST_ELEM/{} does not count for MINMAX, which takes all steps of its own RESULTAT", keyword), call.at(keyword).name_span, fmt::format("write {} inside MINMAX=_F(...)", keyword));
+      diagnostics.alarm(
+          "idle-keyword",
+          fmt::format("POST_ELEM/{} does not count for MINMAX, which takes all steps of its own RESULTAT", keyword),
+          call.at(keyword).name_span, fmt::format("write {} inside MINMAX=_F(...)", keyword));
 }
 
 void list_extremes(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
@@ -300,19 +346,26 @@ void list_extremes(Table& table, const Call& call, interpreter::Diagnostics& dia
   }
 }
 
-// --- work -------------------------------------------------------------------------------------------------------------------
+// --- work
+// -------------------------------------------------------------------------------------------------------------------
 
 void list_work(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto& result = call.data<ResultConcept>("RESULTAT").result;
   const auto works = solver::external_work(result);
-  if (std::ranges::any_of(result.steps, [](const solver::ResultStep& step) { return step.limited.contains("FORC_NODA"); })) warn_of_limited_fields(call, {"FORC_NODA"}, diagnostics);
+  if (std::ranges::any_of(result.steps,
+                          [](const solver::ResultStep& step) { return step.limited.contains("FORC_NODA"); }))
+    warn_of_limited_fields(call, {"FORC_NODA"}, diagnostics);
   for (const solver::ResultStep* step : selected_steps(call, result)) {
     const solver::ExternalWork& work = works[static_cast<std::size_t>(step - result.steps.data())];
-    table.add_row({{"NUME_ORDRE", std::int64_t{step->order}}, {"INST", step->instant}, {"TRAV_ELAS", work.elastic}, {"TRAV_REEL", work.real}});
+    table.add_row({{"NUME_ORDRE", std::int64_t{step->order}},
+                   {"INST", step->instant},
+                   {"TRAV_ELAS", work.elastic},
+                   {"TRAV_REEL", work.real}});
   }
 }
 
-// --- holes ------------------------------------------------------------------------------------------------------------------
+// --- holes
+// ------------------------------------------------------------------------------------------------------------------
 
 void list_areas(Table& table, const Call& call) {
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;

@@ -36,7 +36,8 @@ struct Reading {
 std::vector<double> abscissas(const Reading& reading) {
   std::vector<double> values;
   for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    const double step = i > 0 ? solver::distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
+    const double step =
+        i > 0 ? solver::distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
     values.push_back(i > 0 ? values.back() + step : 0.0);
   }
   return values;
@@ -59,8 +60,9 @@ void check_frame(const Keywords& action, const std::vector<int>& nodes, const so
     const int column = field.component(name);
     if (column < 0 || !solver::has_own_axes(field, name)) continue;
     if (std::ranges::all_of(nodes, [&](int node) { return std::isnan(field.at(node, column)); })) continue;
-    throw DiagnosticError("unsupported", fmt::format("POST_RELEVE_T: {} has axes of its own, which REPERE does not turn", name), action.span_of("REPERE"),
-                          "leave out REPERE, or name other components (NOM_CMP)");
+    throw DiagnosticError("unsupported",
+                          fmt::format("POST_RELEVE_T: {} has axes of its own, which REPERE does not turn", name),
+                          action.span_of("REPERE"), "leave out REPERE, or name other components (NOM_CMP)");
   }
 }
 
@@ -68,11 +70,13 @@ void check_frame(const Keywords& action, const std::vector<int>& nodes, const so
 std::optional<solver::NodeAxes> round_axes(const Keywords& action, const solver::Mesh& mesh) {
   const std::string& frame = action.text("REPERE");
   if (frame == "POLAIRE") return solver::polar_axes(mesh);
-  if (frame == "CYLINDRIQUE") return solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z"));
+  if (frame == "CYLINDRIQUE")
+    return solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z"));
   return std::nullopt;
 }
 
-solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
+solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes,
+                            const solver::NodalField& field) {
   const std::string& frame = action.text("REPERE");
   if (frame == "GLOBAL") return field;
   if (frame == "UTILISATEUR") {
@@ -93,11 +97,13 @@ solver::NodalField wanted_quantities(const Keywords& action, solver::NodalField 
   return field;
 }
 
-solver::NodalField values_in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes, const solver::NodalField& field) {
+solver::NodalField values_in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes,
+                                   const solver::NodalField& field) {
   try {
     return wanted_quantities(action, in_frame(action, mesh, nodes, field));
   } catch (const solver::Error& error) {
-    const char* keyword = error.code() == "incompatible-field" ? (action.has("RESULTAT") ? "NOM_CHAM" : "CHAM_GD") : "REPERE";
+    const char* keyword =
+        error.code() == "incompatible-field" ? (action.has("RESULTAT") ? "NOM_CHAM" : "CHAM_GD") : "REPERE";
     throw DiagnosticError(error.code(), std::string("POST_RELEVE_T: ") + error.what(), action.span_of(keyword),
                           error.code() == "missing-direction" ? "give VECT_Y" : error.hint());
   }
@@ -109,10 +115,12 @@ struct Place {
 
 void require_place(const Keywords& action) {
   if (names_a_place(action)) return;
-  throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span, "give GROUP_NO, NOEUD, GROUP_MA, MAILLE or TOUT");
+  throw DiagnosticError("missing-one-of", "POST_RELEVE_T: ACTION names no place", action.span,
+                        "give GROUP_NO, NOEUD, GROUP_MA, MAILLE or TOUT");
 }
 
-// Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give their nodes.
+// Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give
+// their nodes.
 Place place_of(const Keywords& action, const solver::Mesh& mesh) {
   const bool by_nodes = names_a_place(action, node_places);
   auto nodes = selected_nodes(action, mesh, by_nodes ? node_places : PlaceKeywords());
@@ -135,9 +143,11 @@ void warn_of_order(const Keywords& action, const Reading& reading, Context& cont
   if (!node) return;
   const char* keyword = by_axes ? "REPERE" : "OPERATION";
   context.diagnostics.alarm("nodes-out-of-order",
-                            fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {}='{}' takes them to: the way turns back at {}", keyword,
-                                        by_axes ? "LOCAL" : "MOYENNE", reading.mesh.node_name(*node)),
-                            action.span_of(keyword), "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
+                            fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {}='{}' "
+                                        "takes them to: the way turns back at {}",
+                                        keyword, by_axes ? "LOCAL" : "MOYENNE", reading.mesh.node_name(*node)),
+                            action.span_of(keyword),
+                            "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
 }
 
 // Away from an axis there is no direction on it: nodes there take the axes of others.
@@ -147,7 +157,9 @@ void warn_of_axis(const Keywords& action, const Reading& reading, Context& conte
   const auto on_axis = std::ranges::find_if(reading.nodes, [&](int node) { return !solver::has_axes(*axes, node); });
   if (on_axis == reading.nodes.end()) return;
   context.diagnostics.alarm("node-on-axis",
-                            fmt::format("POST_RELEVE_T: node {} lies on the axis, where there is no radial direction: it takes the axes of the nearest node off it", reading.mesh.node_name(*on_axis)),
+                            fmt::format("POST_RELEVE_T: node {} lies on the axis, where there is no radial direction: "
+                                        "it takes the axes of the nearest node off it",
+                                        reading.mesh.node_name(*on_axis)),
                             action.span_of("REPERE"), "leave it out, or look at its values in the axes of the mesh");
 }
 
@@ -165,10 +177,11 @@ std::vector<int> wanted_components(const Keywords& action, const solver::NodalFi
   return chosen_components(action, field.components);
 }
 
-// The place, the curvilinear abscissa along the list of nodes and the values (U4.81.21) where any of the components is carried.
+// The place, the curvilinear abscissa along the list of nodes and the values (U4.81.21) where any of the components is
+// carried.
 template <class ValueOf>
-void add_values(Table& table, const Reading& reading, std::size_t i, double along, Row row, const std::vector<std::string>& names,
-                const std::vector<int>& components, ValueOf&& value_of) {
+void add_values(Table& table, const Reading& reading, std::size_t i, double along, Row row,
+                const std::vector<std::string>& names, const std::vector<int>& components, ValueOf&& value_of) {
   const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
   row.insert(row.begin() + 1, {"NOEUD", table_node(reading.mesh, reading.nodes[i])});
   row.insert(row.end(), {{"ABSC_CURV", along}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
@@ -195,21 +208,26 @@ void extract(Table& table, const Keywords& action, const Reading& reading) {
 const solver::ElementField& field_by_cells(const Keywords& action, const FieldSource& source) {
   const auto* field = std::get_if<solver::ElementField>(&source.field);
   if (field == nullptr || field->support != solver::Support::element_node) {
-    throw DiagnosticError("unsupported", "POST_RELEVE_T: MOYE_NOEUD='NON' is for fields at the nodes of cells (..._ELNO)", action.span_of("MOYE_NOEUD"),
-                          "leave out MOYE_NOEUD");
+    throw DiagnosticError("unsupported",
+                          "POST_RELEVE_T: MOYE_NOEUD='NON' is for fields at the nodes of cells (..._ELNO)",
+                          action.span_of("MOYE_NOEUD"), "leave out MOYE_NOEUD");
   }
-  const bool plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX") && !action.has("RESULTANTE");
+  const bool plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX") &&
+                     !action.has("RESULTANTE");
   const auto operations = action.texts("OPERATION");
   if (!plain || operations.size() != 1 || operations.front() != "EXTRACTION") {
-    throw DiagnosticError("unsupported", "POST_RELEVE_T: with MOYE_NOEUD='NON' comma extracts components in the axes of the mesh, and nothing else",
-                          action.span_of("MOYE_NOEUD"), "take the averages at nodes");
+    throw DiagnosticError(
+        "unsupported",
+        "POST_RELEVE_T: with MOYE_NOEUD='NON' comma extracts components in the axes of the mesh, and nothing else",
+        action.span_of("MOYE_NOEUD"), "take the averages at nodes");
   }
   return *field;
 }
 
 // For each node the cells around it that count (all without `cells`), and its number in each.
 using Corners = std::vector<std::pair<int, int>>;
-std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementField& field, const std::vector<int>& cells, const std::vector<int>& nodes) {
+std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementField& field,
+                                const std::vector<int>& cells, const std::vector<int>& nodes) {
   std::vector<int> place(mesh.nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
   std::vector<Corners> around(nodes.size());
@@ -217,7 +235,8 @@ std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementF
     if (field.points(cell) == 0) return;
     const auto own = mesh.cell(cell);
     for (std::size_t a = 0; a < own.size(); ++a)
-      if (const int i = place[static_cast<std::size_t>(own[a])]; i >= 0) around[static_cast<std::size_t>(i)].emplace_back(cell, static_cast<int>(a));
+      if (const int i = place[static_cast<std::size_t>(own[a])]; i >= 0)
+        around[static_cast<std::size_t>(i)].emplace_back(cell, static_cast<int>(a));
   };
   if (cells.empty()) {
     for (int cell = 0; cell < mesh.cell_count(); ++cell) add(cell);
@@ -251,10 +270,15 @@ std::array<std::string, 3> force_components(const Keywords& action, const solver
   for (const std::string& name : action.texts("RESULTANTE")) {
     component_of(action, field.components, name, "RESULTANTE");
     const std::string own = name.substr(0, name.size() - 1);
-    const bool is_axis = name.size() > 1 && name.find_last_of("XYZ") == name.size() - 1 && !own.ends_with('X') && !own.ends_with('Y') && !own.ends_with('Z');
+    const bool is_axis = name.size() > 1 && name.find_last_of("XYZ") == name.size() - 1 && !own.ends_with('X') &&
+                         !own.ends_with('Y') && !own.ends_with('Z');
     if (!is_axis || (!stem.empty() && own != stem))
-      throw DiagnosticError("wrong-component", fmt::format("POST_RELEVE_T: a moment is that of one vector of forces, and {} is no component of {}", name, stem.empty() ? "one" : stem + "X, " + stem + "Y, " + stem + "Z"),
-                            action.span_of("RESULTANTE"), "name components such as DX, DY, DZ of FORC_NODA or RX, RY, RZ of CONT_NOEU, or leave out MOMENT and POINT");
+      throw DiagnosticError(
+          "wrong-component",
+          fmt::format("POST_RELEVE_T: a moment is that of one vector of forces, and {} is no component of {}", name,
+                      stem.empty() ? "one" : stem + "X, " + stem + "Y, " + stem + "Z"),
+          action.span_of("RESULTANTE"),
+          "name components such as DX, DY, DZ of FORC_NODA or RX, RY, RZ of CONT_NOEU, or leave out MOMENT and POINT");
     stem = own;
   }
   return {stem + "X", stem + "Y", stem + "Z"};
@@ -263,13 +287,16 @@ std::array<std::string, 3> force_components(const Keywords& action, const solver
 // The sum over the nodes; with MOMENT under the names of a torsor's parts.
 void sum(Table& table, const Keywords& action, const Reading& reading) {
   if (const std::string& frame = action.text("REPERE"); frame != "GLOBAL" && frame != "UTILISATEUR") {
-    throw DiagnosticError("unsupported", "POST_RELEVE_T: a resultant has no axes that change from node to node", action.span_of("REPERE"),
-                          "take it in REPERE='GLOBAL' or 'UTILISATEUR'");
+    throw DiagnosticError("unsupported", "POST_RELEVE_T: a resultant has no axes that change from node to node",
+                          action.span_of("REPERE"), "take it in REPERE='GLOBAL' or 'UTILISATEUR'");
   }
-  const Eigen::Matrix3d axes = action.text("REPERE") == "UTILISATEUR" ? axes_by_angles(action) : Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d axes =
+      action.text("REPERE") == "UTILISATEUR" ? axes_by_angles(action) : Eigen::Matrix3d::Identity();
   Row row = reading.head;
   if (action.has("MOMENT")) {
-    const solver::Resultant total = solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"), force_components(action, reading.field));
+    const solver::Resultant total =
+        solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"),
+                          force_components(action, reading.field));
     const Eigen::Vector3d force = axes * total.force, moment = axes * total.moment;
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("RESULT_{}", "XYZ"[i]), force[i]);
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("MOMENT_{}", "XYZ"[i]), moment[i]);
@@ -288,7 +315,10 @@ void sum(Table& table, const Keywords& action, const Reading& reading) {
       total += value;
       any = true;
     }
-    if (!any) throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no node there carries {}, so it has no resultant", name), action.span_of("RESULTANTE"));
+    if (!any)
+      throw DiagnosticError("unknown-component",
+                            fmt::format("POST_RELEVE_T: no node there carries {}, so it has no resultant", name),
+                            action.span_of("RESULTANTE"));
     row.emplace_back(name, total);
   }
   table.add_row(row);
@@ -311,12 +341,14 @@ Profile profile(const Reading& reading, int component) {
     result.nodes.push_back(reading.nodes[i]);
   }
   if (result.values.empty()) {
-    throw DiagnosticError("unknown-component", fmt::format("no node there carries {}", reading.field.components[component]));
+    throw DiagnosticError("unknown-component",
+                          fmt::format("no node there carries {}", reading.field.components[component]));
   }
   return result;
 }
 
-// One row a quantity: the mean along the line, the slope, the extremes and the ends of the straight line of the same mean and slope.
+// One row a quantity: the mean along the line, the slope, the extremes and the ends of the straight line of the same
+// mean and slope.
 void average(Table& table, const Keywords& action, const Reading& reading) {
   const auto components = wanted_components(action, reading.field);
   std::vector<solver::LineMean> means;
@@ -327,7 +359,8 @@ void average(Table& table, const Keywords& action, const Reading& reading) {
   const auto add = [&](const char* quantity, auto&& value_of) {
     Row row = reading.head;
     row.emplace_back("QUANTITE", quantity);
-    for (std::size_t i = 0; i < components.size(); ++i) row.emplace_back(reading.field.components[components[i]], value_of(means[i]));
+    for (std::size_t i = 0; i < components.size(); ++i)
+      row.emplace_back(reading.field.components[components[i]], value_of(means[i]));
     table.add_row(row);
   };
   add("MOMENT_0", [](const auto& mean) { return mean.mean; });
@@ -344,14 +377,17 @@ void add_mean(Table& table, Row row, const std::string& component, const std::ve
 }
 
 void average_of_nodes(Table& table, const Keywords& action, const Reading& reading) {
-  for (const int component : wanted_components(action, reading.field)) add_mean(table, reading.head, reading.field.components[component], profile(reading, component).values);
+  for (const int component : wanted_components(action, reading.field))
+    add_mean(table, reading.head, reading.field.components[component], profile(reading, component).values);
 }
 
 // `where`: the columns that say where an extreme lies.
 template <class Where>
-void add_extremes(Table& table, const Row& head, const std::string& component, const solver::Extremes& found, Where where) {
-  for (const auto& [name, extreme] : {std::pair("MAX", found.greatest), std::pair("MIN", found.least), std::pair("MAXI_ABS", found.greatest_magnitude),
-                                      std::pair("MINI_ABS", found.least_magnitude)}) {
+void add_extremes(Table& table, const Row& head, const std::string& component, const solver::Extremes& found,
+                  Where where) {
+  for (const auto& [name, extreme] :
+       {std::pair("MAX", found.greatest), std::pair("MIN", found.least),
+        std::pair("MAXI_ABS", found.greatest_magnitude), std::pair("MINI_ABS", found.least_magnitude)}) {
     Row row = head;
     row.emplace_back("EXTREMA", std::string(name));
     const Row place = where(extreme);
@@ -364,15 +400,20 @@ void add_extremes(Table& table, const Row& head, const std::string& component, c
 void list_extremes(Table& table, const Keywords& action, const Reading& reading) {
   for (const int component : wanted_components(action, reading.field)) {
     const auto found = solver::extremes(reading.field, component, std::span<const int>(reading.nodes));
-    if (found) add_extremes(table, reading.head, reading.field.components[component], *found, [&](const solver::Extreme& at) { return Row{{"NOEUD", table_node(reading.mesh, at.place)}}; });
+    if (found)
+      add_extremes(table, reading.head, reading.field.components[component], *found, [&](const solver::Extreme& at) {
+        return Row{{"NOEUD", table_node(reading.mesh, at.place)}};
+      });
   }
 }
 
-// --- values as cells have them: only what is extracted is averaged at nodes (U4.81.21) -------------------------------------
+// --- values as cells have them: only what is extracted is averaged at nodes (U4.81.21)
+// -------------------------------------
 
 bool is_of_cells(const Keywords& action, const FieldSource& source, const std::string& operation) {
   const bool is_plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX");
-  return is_plain && (operation == "EXTREMA" || operation == "MOYENNE_ARITH") && std::holds_alternative<solver::ElementField>(source.field) && !names_a_place(action, node_places);
+  return is_plain && (operation == "EXTREMA" || operation == "MOYENNE_ARITH") &&
+         std::holds_alternative<solver::ElementField>(source.field) && !names_a_place(action, node_places);
 }
 
 void add_of_cells(Table& table, const Keywords& action, const FieldSource& source, const std::string& operation) {
@@ -382,21 +423,26 @@ void add_of_cells(Table& table, const Keywords& action, const FieldSource& sourc
   const Row head = head_of_action(action, source);
   const auto where = [&](const solver::Extreme& at) {
     Row row = {{"MAILLE", table_cell(source.mesh, at.place)}};
-    if (field.support == solver::Support::element_node) row.emplace_back("NOEUD", table_node(source.mesh, source.mesh.cell(at.place)[static_cast<std::size_t>(at.point)]));
+    if (field.support == solver::Support::element_node)
+      row.emplace_back("NOEUD",
+                       table_node(source.mesh, source.mesh.cell(at.place)[static_cast<std::size_t>(at.point)]));
     if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", std::int64_t{at.point + 1});
     return row;
   };
   for (const int component : chosen_components(action, field.components)) {
     const std::string& name = field.components[static_cast<std::size_t>(component)];
     if (operation == "EXTREMA") {
-      if (const auto found = solver::extremes(source.field, component, std::span<const int>(cells))) add_extremes(table, head, name, *found, where);
+      if (const auto found = solver::extremes(source.field, component, std::span<const int>(cells)))
+        add_extremes(table, head, name, *found, where);
       continue;
     }
     std::vector<double> values;
     for (const int cell : cells)
       for (int point = 0; point < field.points(cell); ++point)
         if (const double value = field.at(cell, point, component); !std::isnan(value)) values.push_back(value);
-    if (values.empty()) throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no cell there carries {}", name), action.span);
+    if (values.empty())
+      throw DiagnosticError("unknown-component", fmt::format("POST_RELEVE_T: no cell there carries {}", name),
+                            action.span);
     add_mean(table, head, name, values);
   }
 }
@@ -405,15 +451,19 @@ void check_line(const Keywords& action) {
   const auto operations = action.texts("OPERATION");
   if (!action.has("TOUT") || names_a_place(action, node_places) || names_a_place(action, cell_places)) return;
   if (std::ranges::find(operations, "MOYENNE") == operations.end()) return;
-  throw DiagnosticError("excluded-keyword", "POST_RELEVE_T: MOYENNE goes along a line of nodes, which the whole model is not", action.span_of("TOUT"),
-                        "give GROUP_NO, or take MOYENNE_ARITH");
+  throw DiagnosticError("excluded-keyword",
+                        "POST_RELEVE_T: MOYENNE goes along a line of nodes, which the whole model is not",
+                        action.span_of("TOUT"), "give GROUP_NO, or take MOYENNE_ARITH");
 }
 
 // Resultants are extracted.
 void check_resultant(const Keywords& action) {
   const auto operations = action.texts("OPERATION");
-  if (!action.has("RESULTANTE") || std::ranges::all_of(operations, [](const std::string& word) { return word == "EXTRACTION"; })) return;
-  throw DiagnosticError("excluded-keyword", "POST_RELEVE_T: RESULTANTE goes with OPERATION='EXTRACTION' alone", action.span_of("RESULTANTE"), "name the components by NOM_CMP");
+  if (!action.has("RESULTANTE") ||
+      std::ranges::all_of(operations, [](const std::string& word) { return word == "EXTRACTION"; }))
+    return;
+  throw DiagnosticError("excluded-keyword", "POST_RELEVE_T: RESULTANTE goes with OPERATION='EXTRACTION' alone",
+                        action.span_of("RESULTANTE"), "name the components by NOM_CMP");
 }
 
 void act(Table& table, const Keywords& action, Context& context) {
@@ -448,7 +498,9 @@ void act(Table& table, const Keywords& action, Context& context) {
     }
   }
   if (table.rows.size() == before && !first)
-    context.diagnostics.alarm("unknown-component", "POST_RELEVE_T: no node there has a value: the table has no row of it", action.span, "look at where the field is known, and at NOM_CMP");
+    context.diagnostics.alarm("unknown-component",
+                              "POST_RELEVE_T: no node there has a value: the table has no row of it", action.span,
+                              "look at where the field is known, and at NOM_CMP");
 }
 
 }  // namespace

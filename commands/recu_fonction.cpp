@@ -19,11 +19,15 @@ using interpreter::DiagnosticError;
 
 int only_one(const Call& call, const std::vector<int>& found, const char* keyword, const char* what) {
   if (found.size() == 1) return found.front();
-  throw DiagnosticError("wrong-count", fmt::format("RECU_FONCTION: {} names {} {}s; a function is taken at one", keyword, found.size(), what),
-                        call.span_of(keyword), "name a group of one");
+  throw DiagnosticError(
+      "wrong-count",
+      fmt::format("RECU_FONCTION: {} names {} {}s; a function is taken at one", keyword, found.size(), what),
+      call.span_of(keyword), "name a group of one");
 }
 
-std::vector<int> group_nodes(const Call& call, const solver::Mesh& mesh) { return selected_nodes(call, mesh, {"", "GROUP_NO", "NOEUD", "", ""}); }
+std::vector<int> group_nodes(const Call& call, const solver::Mesh& mesh) {
+  return selected_nodes(call, mesh, {"", "GROUP_NO", "NOEUD", "", ""});
+}
 
 // A function is taken at one node: the first, where a group has more.
 void warn_of_more_nodes(const Call& call, Context& context) {
@@ -31,17 +35,23 @@ void warn_of_more_nodes(const Call& call, Context& context) {
   const solver::Mesh& mesh = call.data<ResultConcept>("RESULTAT").result.mesh();
   const auto nodes = group_nodes(call, mesh);
   if (nodes.size() < 2) return;
-  context.diagnostics.alarm("many-nodes", fmt::format("RECU_FONCTION: GROUP_NO names {} nodes; the function is taken at the first, {}", nodes.size(), mesh.node_name(nodes.front())),
-                            call.span_of("GROUP_NO"), "name a group of one");
+  context.diagnostics.alarm(
+      "many-nodes",
+      fmt::format("RECU_FONCTION: GROUP_NO names {} nodes; the function is taken at the first, {}", nodes.size(),
+                  mesh.node_name(nodes.front())),
+      call.span_of("GROUP_NO"), "name a group of one");
 }
 
 int node_of(const Call& call, const solver::Mesh& mesh) {
   if (call.given("GROUP_NO") || call.given("NOEUD")) {
     const auto nodes = group_nodes(call, mesh);
-    if (nodes.empty()) throw DiagnosticError("empty-group", "RECU_FONCTION: the group holds no node", call.span_of(call.given("GROUP_NO") ? "GROUP_NO" : "NOEUD"));
+    if (nodes.empty())
+      throw DiagnosticError("empty-group", "RECU_FONCTION: the group holds no node",
+                            call.span_of(call.given("GROUP_NO") ? "GROUP_NO" : "NOEUD"));
     return nodes.front();
   }
-  throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span, "give GROUP_NO");
+  throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field at nodes is read at a node", call.span,
+                        "give GROUP_NO");
 }
 
 int point_of(const Call& call, const solver::ElementField& field, int cell, const solver::Mesh& mesh) {
@@ -50,16 +60,20 @@ int point_of(const Call& call, const solver::ElementField& field, int cell, cons
     const auto point = call.integer("POINT");
     const int points = field.points(cell) / field.values_a_point(cell);
     if (point <= points) return static_cast<int>(point) - 1;
-    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), points), call.span_of("POINT"));
+    throw DiagnosticError("out-of-bounds", fmt::format("cell {} has {} points", mesh.cell_name(cell), points),
+                          call.span_of("POINT"));
   }
   if (!call.given("GROUP_NO") && !call.given("NOEUD"))
-    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read at one of their points", call.span, "give POINT, or the node of the cell where the field is at nodes (..._ELNO)");
+    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read at one of their points",
+                          call.span, "give POINT, or the node of the cell where the field is at nodes (..._ELNO)");
   const int node = node_of(call, mesh);
   const auto nodes = mesh.cell(cell);
   const auto found = std::find(nodes.begin(), nodes.end(), node);
-  if (found != nodes.end() && field.support == solver::Support::element_node) return static_cast<int>(found - nodes.begin());
-  throw DiagnosticError("unknown-node", fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)), call.span,
-                        "name a node of the cell and a field at its nodes (..._ELNO), or a POINT");
+  if (found != nodes.end() && field.support == solver::Support::element_node)
+    return static_cast<int>(found - nodes.begin());
+  throw DiagnosticError("unknown-node",
+                        fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)),
+                        call.span, "name a node of the cell and a field at its nodes (..._ELNO), or a POINT");
 }
 
 double field_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
@@ -71,32 +85,41 @@ double field_value(const Call& call, const solver::Field& field, const solver::M
   const auto& element = std::get<solver::ElementField>(field);
   const int column = component_of(call, element.components, component, keyword);
   if (!call.given("GROUP_MA") && !call.given("MAILLE")) {
-    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read on a cell", call.span, "give GROUP_MA and POINT");
+    throw DiagnosticError("missing-keyword", "RECU_FONCTION: a field on cells is read on a cell", call.span,
+                          "give GROUP_MA and POINT");
   }
-  const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", "MAILLE"}), call.given("MAILLE") ? "MAILLE" : "GROUP_MA", "cell");
+  const int cell = only_one(call, selected_cells(call, mesh, {"", "", "", "GROUP_MA", "MAILLE"}),
+                            call.given("MAILLE") ? "MAILLE" : "GROUP_MA", "cell");
   if (element.points(cell) == 0) return std::nan("");
-  return element.at(cell, point_of(call, element, cell, mesh) * element.values_a_point(cell) + sub_point(call, element, cell, mesh), column);
+  return element.at(
+      cell, point_of(call, element, cell, mesh) * element.values_a_point(cell) + sub_point(call, element, cell, mesh),
+      column);
 }
 
 double carried_value(const Call& call, const solver::Field& field, const solver::Mesh& mesh) {
   const double value = field_value(call, field, mesh);
   if (!std::isnan(value)) return value;
   const char* keyword = call.given("NOM_VARI") ? "NOM_VARI" : "NOM_CMP";
-  throw DiagnosticError("unknown-component", "RECU_FONCTION: the field does not carry " + call.text(keyword) + " there", call.span_of(keyword));
+  throw DiagnosticError("unknown-component", "RECU_FONCTION: the field does not carry " + call.text(keyword) + " there",
+                        call.span_of(keyword));
 }
 
 double step_value(const Call& call, const solver::ResultStep& step, const solver::Mesh& mesh) {
   if (!call.given("NOM_PARA_RESU")) {
     const solver::Field& field = layered_field_of(call, step, call.text("NOM_CHAM"));
     if (!call.given("NOM_VARI")) return carried_value(call, field, mesh);
-    return carried_value(call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem_of(step).behaviours.get()), mesh);
+    return carried_value(
+        call, by_variable_names(call, field, call.data<ResultConcept>("RESULTAT").problem_of(step).behaviours.get()),
+        mesh);
   }
   const auto found = step.parameters.find(call.text("NOM_PARA_RESU"));
   if (found != step.parameters.end()) return found->second;
-  throw DiagnosticError("unknown-parameter", "the result has no parameter " + call.text("NOM_PARA_RESU"), call.span_of("NOM_PARA_RESU"));
+  throw DiagnosticError("unknown-parameter", "the result has no parameter " + call.text("NOM_PARA_RESU"),
+                        call.span_of("NOM_PARA_RESU"));
 }
 
-void read_steps(const Call& call, const std::vector<const solver::ResultStep*>& steps, const solver::Mesh& mesh, solver::TabulatedFunction& function) {
+void read_steps(const Call& call, const std::vector<const solver::ResultStep*>& steps, const solver::Mesh& mesh,
+                solver::TabulatedFunction& function) {
   for (const solver::ResultStep* step : steps) {
     function.x.push_back(step->instant);
     function.y.push_back(step_value(call, *step, mesh));
@@ -118,7 +141,9 @@ void warn_of_idle_places_of(const Call& call, interpreter::Diagnostics& diagnost
   if (!call.given("NOM_CHAM")) return;
   const std::vector<solver::ResultStep>& steps = call.data<ResultConcept>("RESULTAT").result.steps;
   const std::string& name = call.text("NOM_CHAM");
-  const auto holds_it = [&](const solver::ResultStep& step) { return step.fields.contains(name) && std::holds_alternative<solver::NodalField>(step.fields.at(name)); };
+  const auto holds_it = [&](const solver::ResultStep& step) {
+    return step.fields.contains(name) && std::holds_alternative<solver::NodalField>(step.fields.at(name));
+  };
   if (std::ranges::none_of(steps, holds_it)) return;
   constexpr std::array idle = {"GROUP_MA", "MAILLE", "POINT", "SOUS_POINT"};
   commands::warn_of_idle_places("RECU_FONCTION", call, idle, diagnostics);
@@ -178,7 +203,8 @@ Product recu_fonction(const Call& call, Context& context) {
   } else {
     read_result(call, function, context.diagnostics);
   }
-  if (function.x.empty()) throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
+  if (function.x.empty())
+    throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
   sort_abscissas(call, function);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_VARI", "NOM_PARA_RESU", "PARA_Y"}) {

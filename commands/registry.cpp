@@ -83,7 +83,8 @@ Product run_located(Function function, const Call& call, Context& context) {
 interpreter::CommandTable table_of(std::span<const std::pair<const char*, Function>> named, Context& context) {
   interpreter::CommandTable table;
   for (const auto& [name, function] : named) {
-    table.emplace(name, [function = function, &context](const Call& call) { return run_located(function, call, context); });
+    table.emplace(name,
+                  [function = function, &context](const Call& call) { return run_located(function, call, context); });
   }
   return table;
 }

@@ -10,7 +10,8 @@ namespace comma::commands {
 /// `context` must outlive the table.
 interpreter::CommandTable make_command_table(Context& context);
 
-/// Of commands that solve, what tells their errors before they do; where nothing will be solved (Context::only_checks), their alarms too.
+/// Of commands that solve, what tells their errors before they do; where nothing will be solved (Context::only_checks),
+/// their alarms too.
 interpreter::CommandTable make_preparation_table(Context& context);
 
 }  // namespace comma::commands

@@ -30,7 +30,8 @@ void each_group(const Keywords& keywords, const std::string& keyword, Find find,
 }
 
 template <class Find, class Visit>
-void each_name(const Keywords& keywords, const std::string& keyword, const char* code, const char* what, Find find, Visit visit) {
+void each_name(const Keywords& keywords, const std::string& keyword, const char* code, const char* what, Find find,
+               Visit visit) {
   for (const std::string& name : keywords.texts(keyword)) {
     const int index = find(name);
     if (index < 0) {
@@ -50,12 +51,17 @@ std::vector<int> selected_cells(const Keywords& keywords, const solver::Mesh& me
     return all;
   }
   if (takes(keywords, names.cell_groups)) {
-    each_group(keywords, names.cell_groups, [&](const std::string& name) { return mesh.cell_group(name); },
-               [&](const std::vector<int>& group) { cells.add_all(group); });
+    each_group(
+        keywords, names.cell_groups, [&](const std::string& name) { return mesh.cell_group(name); },
+        [&](const std::vector<int>& group) { cells.add_all(group); });
   }
   if (takes(keywords, names.cells)) {
-    each_name(keywords, names.cells, "unknown-cell", "cell", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::cells)](const std::string& name) mutable { return found.find(name); },
-              [&](int index) { cells.add(index); });
+    each_name(
+        keywords, names.cells, "unknown-cell", "cell",
+        [found = solver::NameFinder(mesh, solver::NameFinder::Kind::cells)](const std::string& name) mutable {
+          return found.find(name);
+        },
+        [&](int index) { cells.add(index); });
   }
   return cells.take();
 }
@@ -67,23 +73,31 @@ std::vector<int> selected_nodes(const Keywords& keywords, const solver::Mesh& me
     return nodes.take();
   }
   if (takes(keywords, names.node_groups)) {
-    each_group(keywords, names.node_groups, [&](const std::string& name) { return mesh.node_group(name); },
-               [&](const std::vector<int>& group) { nodes.add_all(group); });
+    each_group(
+        keywords, names.node_groups, [&](const std::string& name) { return mesh.node_group(name); },
+        [&](const std::vector<int>& group) { nodes.add_all(group); });
   }
   if (takes(keywords, names.nodes)) {
-    each_name(keywords, names.nodes, "unknown-node", "node", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable { return found.find(name); },
-              [&](int index) { nodes.add(index); });
+    each_name(
+        keywords, names.nodes, "unknown-node", "node",
+        [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable {
+          return found.find(name);
+        },
+        [&](int index) { nodes.add(index); });
   }
   for (const int cell : selected_cells(keywords, mesh, names)) nodes.add_all(mesh.cell(cell));
   return nodes.take();
 }
 
 std::set<int> excluded_nodes(const Keywords& keywords, const solver::Mesh& mesh, const std::string& ending) {
-  const auto nodes = selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO" + ending, "SANS_NOEUD" + ending, "SANS_GROUP_MA" + ending, "SANS_MAILLE" + ending});
+  const auto nodes = selected_nodes(
+      keywords, mesh,
+      {"", "SANS_GROUP_NO" + ending, "SANS_NOEUD" + ending, "SANS_GROUP_MA" + ending, "SANS_MAILLE" + ending});
   return {nodes.begin(), nodes.end()};
 }
 
-std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names, const std::string& ending) {
+std::vector<int> remaining_nodes(const Keywords& keywords, const solver::Mesh& mesh, const PlaceKeywords& names,
+                                 const std::string& ending) {
   auto nodes = selected_nodes(keywords, mesh, names);
   const auto left_out = excluded_nodes(keywords, mesh, ending);
   std::erase_if(nodes, [&](int node) { return left_out.contains(node); });
@@ -94,35 +108,47 @@ std::vector<int> listed_nodes(const Keywords& keywords, const solver::Mesh& mesh
                               const std::string& nodes) {
   std::vector<int> listed;
   if (takes(keywords, node_groups)) {
-    each_group(keywords, node_groups, [&](const std::string& name) { return mesh.node_group(name); },
-               [&](const std::vector<int>& group) { listed.insert(listed.end(), group.begin(), group.end()); });
+    each_group(
+        keywords, node_groups, [&](const std::string& name) { return mesh.node_group(name); },
+        [&](const std::vector<int>& group) { listed.insert(listed.end(), group.begin(), group.end()); });
   }
   if (takes(keywords, nodes)) {
-    each_name(keywords, nodes, "unknown-node", "node", [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable { return found.find(name); },
-              [&](int index) { listed.push_back(index); });
+    each_name(
+        keywords, nodes, "unknown-node", "node",
+        [found = solver::NameFinder(mesh, solver::NameFinder::Kind::nodes)](const std::string& name) mutable {
+          return found.find(name);
+        },
+        [&](int index) { listed.push_back(index); });
   }
   return listed;
 }
 
-std::vector<std::vector<int>> named_node_groups(const Keywords& keywords, const std::string& keyword, const solver::Mesh& mesh) {
+std::vector<std::vector<int>> named_node_groups(const Keywords& keywords, const std::string& keyword,
+                                                const solver::Mesh& mesh) {
   std::vector<std::vector<int>> groups;
-  each_group(keywords, keyword, [&](const std::string& name) { return mesh.node_group(name); },
-             [&](const std::vector<int>& group) { groups.push_back(group); });
+  each_group(
+      keywords, keyword, [&](const std::string& name) { return mesh.node_group(name); },
+      [&](const std::vector<int>& group) { groups.push_back(group); });
   return groups;
 }
 
-std::vector<std::vector<int>> named_cell_groups(const Keywords& keywords, const std::string& keyword, const solver::Mesh& mesh) {
+std::vector<std::vector<int>> named_cell_groups(const Keywords& keywords, const std::string& keyword,
+                                                const solver::Mesh& mesh) {
   std::vector<std::vector<int>> groups;
-  each_group(keywords, keyword, [&](const std::string& name) { return mesh.cell_group(name); },
-             [&](const std::vector<int>& group) { groups.push_back(group); });
+  each_group(
+      keywords, keyword, [&](const std::string& name) { return mesh.cell_group(name); },
+      [&](const std::vector<int>& group) { groups.push_back(group); });
   return groups;
 }
 
-int single_node(const Keywords& keywords, const std::string& node_keyword, const std::string& group_keyword, const solver::Mesh& mesh) {
-  const auto nodes = selected_nodes(keywords, mesh, {.all = "", .node_groups = group_keyword, .nodes = node_keyword, .cell_groups = "", .cells = ""});
+int single_node(const Keywords& keywords, const std::string& node_keyword, const std::string& group_keyword,
+                const solver::Mesh& mesh) {
+  const auto nodes = selected_nodes(
+      keywords, mesh, {.all = "", .node_groups = group_keyword, .nodes = node_keyword, .cell_groups = "", .cells = ""});
   if (nodes.size() == 1) return nodes.front();
   const std::string& keyword = keywords.given(group_keyword) ? group_keyword : node_keyword;
-  throw DiagnosticError("wrong-count", keyword + " names " + std::to_string(nodes.size()) + " nodes where one is wanted",
+  throw DiagnosticError("wrong-count",
+                        keyword + " names " + std::to_string(nodes.size()) + " nodes where one is wanted",
                         keywords.span_of(keyword), "name a group of one node");
 }
 
@@ -141,7 +167,9 @@ bool names_a_place(const Keywords& keywords, const PlaceKeywords& names) {
 }
 
 std::vector<int> needed(std::vector<int> selected, const Keywords& keywords, const char* what) {
-  if (selected.empty()) throw DiagnosticError("empty-group", fmt::format("what is named here holds no {}", what), keywords.span, "look at the groups, and at what is left out");
+  if (selected.empty())
+    throw DiagnosticError("empty-group", fmt::format("what is named here holds no {}", what), keywords.span,
+                          "look at the groups, and at what is left out");
   return selected;
 }
 

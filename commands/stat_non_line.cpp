@@ -55,8 +55,10 @@ void start_at(std::optional<double> instant, const Keywords& increment, solver::
   std::erase_if(plan.instants, [&](double each) { return each <= *instant + reach; });
   plan.instants.insert(plan.instants.begin(), *instant);
   if (plan.instants.size() > 1) return;
-  throw DiagnosticError("wrong-order", fmt::format("STAT_NON_LINE: no instant of INCREMENT lies beyond that of the initial state, {}", *instant),
-                        increment.span, "give a list that goes further, or INST_INIT");
+  throw DiagnosticError(
+      "wrong-order",
+      fmt::format("STAT_NON_LINE: no instant of INCREMENT lies beyond that of the initial state, {}", *instant),
+      increment.span, "give a list that goes further, or INST_INIT");
 }
 
 // The plan with those instants that INCREMENT keeps of its list; the first is the initial state.
@@ -67,15 +69,17 @@ solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initi
     if (increment.given(number)) {
       const auto index = increment.integer(number);
       if (index >= 0 && index < static_cast<std::int64_t>(all.size())) return static_cast<std::size_t>(index);
-      throw DiagnosticError("unknown-step", fmt::format("LIST_INST has the numbers 0 to {}", all.size() - 1), increment.span_of(number));
+      throw DiagnosticError("unknown-step", fmt::format("LIST_INST has the numbers 0 to {}", all.size() - 1),
+                            increment.span_of(number));
     }
     if (!increment.given(instant)) return otherwise;
     const double wanted = increment.real(instant);
     const double reach = increment.real("PRECISION") * (wanted == 0.0 ? 1.0 : std::abs(wanted));
     const auto nearest = std::ranges::min_element(all, {}, [&](double each) { return std::abs(each - wanted); });
-    if (nearest != all.end() && std::abs(*nearest - wanted) <= reach) return static_cast<std::size_t>(nearest - all.begin());
-    throw DiagnosticError("unknown-step", fmt::format("LIST_INST has no instant {}", wanted), increment.span_of(instant),
-                          fmt::format("it goes from {} to {}", all.front(), all.back()));
+    if (nearest != all.end() && std::abs(*nearest - wanted) <= reach)
+      return static_cast<std::size_t>(nearest - all.begin());
+    throw DiagnosticError("unknown-step", fmt::format("LIST_INST has no instant {}", wanted),
+                          increment.span_of(instant), fmt::format("it goes from {} to {}", all.front(), all.back()));
   };
   const std::size_t first = index_of("NUME_INST_INIT", "INST_INIT", 0);
   const std::size_t last = index_of("NUME_INST_FIN", "INST_FIN", all.size() - 1);
@@ -83,12 +87,14 @@ solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initi
     throw DiagnosticError("wrong-order", "STAT_NON_LINE: INCREMENT leaves no step to compute", increment.span,
                           "the last instant must lie beyond the first");
   }
-  plan.instants.assign(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  plan.instants.assign(all.begin() + static_cast<std::ptrdiff_t>(first),
+                       all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   start_at(initial, increment, plan);
   return plan;
 }
 
-// comma makes the tangent again at each iteration unless REAC_ITER is written, or REAC_INCR=0 says that it is never made again.
+// comma makes the tangent again at each iteration unless REAC_ITER is written, or REAC_INCR=0 says that it is never
+// made again.
 solver::TangentPolicy tangent_policy(const Keywords& newton) {
   const auto kind_named = [](const std::string& word) {
     return word == "ELASTIQUE" ? solver::TangentKind::elastic : solver::TangentKind::tangent;
@@ -96,7 +102,8 @@ solver::TangentPolicy tangent_policy(const Keywords& newton) {
   solver::TangentPolicy policy;
   policy.correction = kind_named(newton.text("MATRICE"));
   const std::string prediction = newton.has("PREDICTION") ? newton.text("PREDICTION") : newton.text("MATRICE");
-  policy.prediction = prediction == "TANGENTE" || prediction == "ELASTIQUE" ? kind_named(prediction) : policy.correction;
+  policy.prediction =
+      prediction == "TANGENTE" || prediction == "ELASTIQUE" ? kind_named(prediction) : policy.correction;
   policy.steps = static_cast<int>(newton.integer("REAC_INCR"));
   policy.elastic_below = newton.real("PAS_MINI_ELAS");
   policy.elastic_iterations = static_cast<int>(newton.integer("REAC_ITER_ELAS"));
@@ -109,7 +116,9 @@ solver::LineSearch line_search(const Call& call) {
   const Keywords& search = call.factor("RECH_LINEAIRE");
   const bool along_path = search.text("METHODE") == "PILOTAGE";
   if (along_path != call.has("PILOTAGE")) {
-    throw DiagnosticError("contradictory-keywords", along_path ? "STAT_NON_LINE: RECH_LINEAIRE/METHODE='PILOTAGE' needs the keyword PILOTAGE" : "STAT_NON_LINE: with PILOTAGE the line search has a method of its own",
+    throw DiagnosticError("contradictory-keywords",
+                          along_path ? "STAT_NON_LINE: RECH_LINEAIRE/METHODE='PILOTAGE' needs the keyword PILOTAGE"
+                                     : "STAT_NON_LINE: with PILOTAGE the line search has a method of its own",
                           search.span, along_path ? "write METHODE='CORDE' or 'MIXTE'" : "write METHODE='PILOTAGE'");
   }
   require_order(search, "RHO_MIN", "RHO_MAX");
@@ -138,10 +147,13 @@ void read_newton(const Keywords& newton, const solver::Mesh& mesh, solver::Newto
 void check_driven(const Call& call, const solver::StaticProblem& problem) {
   if (problem.driven.empty() == !call.has("PILOTAGE")) return;
   if (problem.driven.empty())
-    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: PILOTAGE seeks the intensity of a load, and no load is driven", call.factor("PILOTAGE").span,
-                          "give a load of EXCIT TYPE_CHARGE='FIXE_PILO'");
-  throw DiagnosticError("missing-keyword", "STAT_NON_LINE: a load has TYPE_CHARGE='FIXE_PILO', and nothing says how its intensity is found", call.span,
-                        "give PILOTAGE, or leave out TYPE_CHARGE");
+    throw DiagnosticError("missing-keyword",
+                          "STAT_NON_LINE: PILOTAGE seeks the intensity of a load, and no load is driven",
+                          call.factor("PILOTAGE").span, "give a load of EXCIT TYPE_CHARGE='FIXE_PILO'");
+  throw DiagnosticError(
+      "missing-keyword",
+      "STAT_NON_LINE: a load has TYPE_CHARGE='FIXE_PILO', and nothing says how its intensity is found", call.span,
+      "give PILOTAGE, or leave out TYPE_CHARGE");
 }
 
 void read_reference(const Keywords& convergence, solver::NewtonOptions& options) {
@@ -167,11 +179,15 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
     if (absolute) options.absolute_residual = convergence.real("RESI_GLOB_MAXI");
     read_reference(convergence, options);
     if (convergence.given("RESI_COMP_RELA")) options.component_residual = convergence.real("RESI_COMP_RELA");
-    if ((absolute || options.referred_residual || options.component_residual) && !relative) options.relative_residual.reset();
+    if ((absolute || options.referred_residual || options.component_residual) && !relative)
+      options.relative_residual.reset();
     options.one_criterion = convergence.text("VERIF") == "AU_MOINS_UN";
-    if (convergence.has("ITER_GLOB_MAXI")) options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
-    if (convergence.has("ITER_GLOB_ELAS")) options.max_elastic_iterations = static_cast<int>(convergence.integer("ITER_GLOB_ELAS"));
-    if (options.tangent.correction == solver::TangentKind::elastic) options.max_iterations = std::max(options.max_iterations, options.max_elastic_iterations);
+    if (convergence.has("ITER_GLOB_MAXI"))
+      options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
+    if (convergence.has("ITER_GLOB_ELAS"))
+      options.max_elastic_iterations = static_cast<int>(convergence.integer("ITER_GLOB_ELAS"));
+    if (options.tangent.correction == solver::TangentKind::elastic)
+      options.max_iterations = std::max(options.max_iterations, options.max_elastic_iterations);
   }
   const SolverChoice choice = solver_choice(call);
   // Each contact row is a right-hand side, and one factor serves them all.
@@ -184,8 +200,8 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
 // The result to go on with, up to the step that the computation starts from.
 std::shared_ptr<ResultConcept> continued(const Call& call, const InitialStateChoice& initial) {
   if (!initial.state) {
-    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from an initial state", call.span,
-                          "give ETAT_INIT=_F(EVOL_NOLI=" + call.result->name + ")");
+    throw DiagnosticError("missing-keyword", "STAT_NON_LINE: with reuse= the computation goes on from an initial state",
+                          call.span, "give ETAT_INIT=_F(EVOL_NOLI=" + call.result->name + ")");
   }
   return to_go_on_with(call, initial.order);
 }
@@ -208,8 +224,8 @@ solver::IterationObserver live_table(const Context& context) {
     // Where nothing is loaded there is no share of the loads.
     const std::string relative = report.relative_residual < 0.0 ? "-" : fmt::format("{:.1e}", report.relative_residual);
     const std::string depth = report.penetration ? fmt::format("{:.2e}", *report.penetration) : "-";
-    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant, report.iteration,
-                                         relative, report.absolute_residual, report.worst,
+    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant,
+                                         report.iteration, relative, report.absolute_residual, report.worst,
                                          report.active_conditions, report.contact_changes, depth));
   };
 }
@@ -250,13 +266,18 @@ void warn_of_instants_that_go_back(const Call& call, const Scene& scene, Context
   const double reached = kept.back().instant, next = scene.steps.instants[1];
   if (next > reached + call.factor("INCREMENT").real("PRECISION") * std::abs(reached)) return;
   context.diagnostics.alarm("instants-go-back",
-                            fmt::format("STAT_NON_LINE: {} goes on to the instant {:.6g}, and its steps reach {:.6g} already: what asks for an instant in between finds the earlier step", call.result->name, next, reached),
-                            call.factor("INCREMENT").span, "start from the step of that instant (ETAT_INIT, INST), which takes the place of later ones, or make another result");
+                            fmt::format("STAT_NON_LINE: {} goes on to the instant {:.6g}, and its steps reach {:.6g} "
+                                        "already: what asks for an instant in between finds the earlier step",
+                                        call.result->name, next, reached),
+                            call.factor("INCREMENT").span,
+                            "start from the step of that instant (ETAT_INIT, INST), which takes the place of later "
+                            "ones, or make another result");
 }
 
 void warn_of(const Call& call, const Scene& scene, Context& context) {
   warn_of_instants_that_go_back(call, scene, context);
-  warn_of_nonlinear_scene(call, scene.product->problem, scene.steps.instants.front(), scene.initial.behaviours.get(), context);
+  warn_of_nonlinear_scene(call, scene.product->problem, scene.steps.instants.front(), scene.initial.behaviours.get(),
+                          context);
 }
 
 }  // namespace
@@ -297,16 +318,23 @@ Product stat_non_line(const Call& call, Context& context) {
     archive.update(result);
   };
   std::set<double> unconverged;
-  if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON") scene.options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
-  if (call.has("ETAT_INIT") && call.factor("ETAT_INIT").has("SIGM")) scene.options.note_unused_stresses = [&](int cell) { warn_of_unused_stresses(call, product->problem, cell, context); };
+  if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON")
+    scene.options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
+  if (call.has("ETAT_INIT") && call.factor("ETAT_INIT").has("SIGM"))
+    scene.options.note_unused_stresses = [&](int cell) {
+      warn_of_unused_stresses(call, product->problem, cell, context);
+    };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);
-    return solver::solve_static(product->problem, scene.steps, scene.options, product->result, context.counters, iterated, after_step);
+    return solver::solve_static(product->problem, scene.steps, scene.options, product->result, context.counters,
+                                iterated, after_step);
   };
   const auto doubts = solve();
   if (const auto missed = archive.missed(computed); !missed.empty())
-    context.diagnostics.alarm("unknown-step", fmt::format("STAT_NON_LINE: no step ends at {}, which ARCHIVAGE is to keep", fmt::join(missed, ", ")),
-                              call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
+    context.diagnostics.alarm(
+        "unknown-step",
+        fmt::format("STAT_NON_LINE: no step ends at {}, which ARCHIVAGE is to keep", fmt::join(missed, ", ")),
+        call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
   observer.warn_of_nothing(computed, context.diagnostics);
   warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);

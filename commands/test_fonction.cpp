@@ -19,16 +19,20 @@ std::vector<std::string> names_of(const Keywords& test, const FunctionConcept& f
   if (names.empty()) names = function.parameters();
   if (names.empty()) names.resize(count);  // a constant does not ask
   if (names.size() == count) return names;
-  throw DiagnosticError("wrong-count", fmt::format("TEST_FONCTION: VALE_PARA has {} values for {} parameters", count, names.size()),
-                        test.span_of("VALE_PARA"), fmt::format("the function depends on {}", fmt::join(function.parameters(), ", ")));
+  throw DiagnosticError(
+      "wrong-count", fmt::format("TEST_FONCTION: VALE_PARA has {} values for {} parameters", count, names.size()),
+      test.span_of("VALE_PARA"), fmt::format("the function depends on {}", fmt::join(function.parameters(), ", ")));
 }
 
 // Of one parameter Code_Aster does not look at its name (U4.92.02).
-std::vector<std::string> names_or_own(const Keywords& test, const FunctionConcept& function, std::size_t count, Context& context) {
+std::vector<std::string> names_or_own(const Keywords& test, const FunctionConcept& function, std::size_t count,
+                                      Context& context) {
   auto names = names_of(test, function, count);
   const auto own = function.parameters();
   if (names.size() != 1 || own.size() != 1 || names == own) return names;
-  context.diagnostics.alarm("other-parameter", fmt::format("TEST_FONCTION: {} depends on {}, and is tested there, not at a value of {}", test.concept_of("FONCTION")->name, own.front(), names.front()),
+  context.diagnostics.alarm("other-parameter",
+                            fmt::format("TEST_FONCTION: {} depends on {}, and is tested there, not at a value of {}",
+                                        test.concept_of("FONCTION")->name, own.front(), names.front()),
                             test.span_of("NOM_PARA"), fmt::format("write NOM_PARA='{}', or leave it out", own.front()));
   return own;
 }
@@ -55,7 +59,9 @@ std::string attribute_of(const solver::TabulatedFunction& table, const std::stri
 const solver::TabulatedFunction& row_of(const Keywords& test, const SurfaceConcept& surface) {
   if (!test.given("PARA")) return *surface.rows().front();
   const double wanted = test.real("PARA");
-  return surface.row_near(wanted, test.real("PREC_PARA") * (test.text("CRIT_PARA") == "RELATIF" ? std::abs(wanted) : 1.0), test.span_of("PARA"));
+  return surface.row_near(wanted,
+                          test.real("PREC_PARA") * (test.text("CRIT_PARA") == "RELATIF" ? std::abs(wanted) : 1.0),
+                          test.span_of("PARA"));
 }
 
 std::string attribute(const Keywords& test) {
@@ -63,10 +69,14 @@ std::string attribute(const Keywords& test) {
   const auto* surface = dynamic_cast<const SurfaceConcept*>(&function);
   const std::string& name = test.text("ATTR");
   const bool of_rows = name.ends_with("_FONC");
-  if (surface != nullptr) return of_rows ? attribute_of(row_of(test, *surface), name.substr(0, name.size() - 5)) : attribute_of(surface->edges(), name);
+  if (surface != nullptr)
+    return of_rows ? attribute_of(row_of(test, *surface), name.substr(0, name.size() - 5))
+                   : attribute_of(surface->edges(), name);
   if (function.table() != nullptr && !of_rows) return attribute_of(*function.table(), name);
-  throw DiagnosticError("wrong-type", fmt::format("TEST_FONCTION: {} has no attribute {}", test.concept_of("FONCTION")->name, name), test.span_of("ATTR"),
-                        of_rows ? "functions of two parameters (DEFI_NAPPE) have it" : "functions that are given by points have it");
+  throw DiagnosticError(
+      "wrong-type", fmt::format("TEST_FONCTION: {} has no attribute {}", test.concept_of("FONCTION")->name, name),
+      test.span_of("ATTR"),
+      of_rows ? "functions of two parameters (DEFI_NAPPE) have it" : "functions that are given by points have it");
 }
 
 // One interpolation stands for that of the parameter and of the value.

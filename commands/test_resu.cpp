@@ -34,16 +34,22 @@ double reduced(const Keywords& test, const Values& values) {
 
 [[noreturn]] void not_carried(const Keywords& test, const std::string& place) {
   const char* keyword = test.given("NOM_VARI") ? "NOM_VARI" : "NOM_CMP";
-  throw DiagnosticError("unknown-component", fmt::format("{} does not carry {} there", place, fmt::join(test.texts(keyword), ", ")), test.span_of(keyword));
+  throw DiagnosticError("unknown-component",
+                        fmt::format("{} does not carry {} there", place, fmt::join(test.texts(keyword), ", ")),
+                        test.span_of(keyword));
 }
 
 int single(const Keywords& test, const std::vector<int>& found, const std::string& keyword, const char* what) {
   if (found.size() == 1) return found.front();
   if (keyword.empty()) {
-    throw DiagnosticError("missing-keyword", fmt::format("TEST_RESU: the field has its values on {}s, and no keyword names the one to test", what), test.span,
-                          fmt::format("give {}, a group of one {}", std::string(what) == "cell" ? "GROUP_MA" : "GROUP_NO", what));
+    throw DiagnosticError(
+        "missing-keyword",
+        fmt::format("TEST_RESU: the field has its values on {}s, and no keyword names the one to test", what),
+        test.span,
+        fmt::format("give {}, a group of one {}", std::string(what) == "cell" ? "GROUP_MA" : "GROUP_NO", what));
   }
-  throw DiagnosticError("wrong-count", fmt::format("{} names {} {}s; a value is tested at one", keyword, found.size(), what),
+  throw DiagnosticError("wrong-count",
+                        fmt::format("{} names {} {}s; a value is tested at one", keyword, found.size(), what),
                         test.span_of(keyword), "name a group of one, or use TYPE_TEST over several");
 }
 
@@ -59,7 +65,8 @@ std::vector<int> components_tested(const Keywords& test, const std::vector<std::
   if (test.given("NOM_CMP")) {
     const auto names = test.texts("NOM_CMP");
     if (names.size() > 1 && !test.given("TYPE_TEST")) {
-      throw DiagnosticError("wrong-count", fmt::format("NOM_CMP names {} components; a value is tested of one", names.size()),
+      throw DiagnosticError("wrong-count",
+                            fmt::format("NOM_CMP names {} components; a value is tested of one", names.size()),
                             test.span_of("NOM_CMP"), "name one, or use TYPE_TEST over several");
     }
     std::vector<int> chosen;
@@ -76,7 +83,8 @@ double nodal_value(const Keywords& test, const NodalField& field, const solver::
   const auto components = components_tested(test, field.components);
   if (test.given("TYPE_TEST")) {
     auto nodes = names_a_place(test) ? selected_nodes(test, mesh) : std::vector<int>();
-    if (nodes.empty() && names_a_place(test)) throw DiagnosticError("empty-group", "what is named holds no node, and nothing is tested", test.span);
+    if (nodes.empty() && names_a_place(test))
+      throw DiagnosticError("empty-group", "what is named holds no node, and nothing is tested", test.span);
     if (nodes.empty()) {
       nodes.resize(static_cast<std::size_t>(mesh.node_count()));
       std::iota(nodes.begin(), nodes.end(), 0);
@@ -111,23 +119,28 @@ int local_point(const Keywords& test, const ElementField& field, int cell, const
   const auto nodes = mesh.cell(cell);
   const auto found = std::find(nodes.begin(), nodes.end(), node);
   if (found == nodes.end() || field.support != solver::Support::element_node) {
-    throw DiagnosticError("unknown-node", fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)),
+    throw DiagnosticError("unknown-node",
+                          fmt::format("cell {} has no value at node {}", mesh.cell_name(cell), mesh.node_name(node)),
                           test.span, "name a node of the cell and a field at its nodes (..._ELNO), or a POINT");
   }
   return static_cast<int>(found - nodes.begin());
 }
 
 // Which points of cells a test over values (TYPE_TEST) takes in: all, or those of POINT, or at the nodes that it names.
-std::function<bool(int cell, int point)> points_tested(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
+std::function<bool(int cell, int point)> points_tested(const Keywords& test, const ElementField& field,
+                                                       const solver::Mesh& mesh) {
   if (test.given("POINT")) return [wanted = test.integer("POINT")](int, int point) { return point + 1 == wanted; };
   const std::string keyword = place_keyword(test, node_places);
   if (!test.given(keyword)) return [](int, int) { return true; };
   if (field.support != solver::Support::element_node) {
-    throw DiagnosticError("unknown-node", "the field has no values at nodes", test.span_of(keyword), "name cells, or a field at the nodes of elements (..._ELNO)");
+    throw DiagnosticError("unknown-node", "the field has no values at nodes", test.span_of(keyword),
+                          "name cells, or a field at the nodes of elements (..._ELNO)");
   }
   const auto nodes = selected_nodes(test, mesh, node_places);
   const std::set<int> wanted(nodes.begin(), nodes.end());
-  return [wanted, &mesh](int cell, int point) { return wanted.contains(mesh.cell(cell)[static_cast<std::size_t>(point)]); };
+  return [wanted, &mesh](int cell, int point) {
+    return wanted.contains(mesh.cell(cell)[static_cast<std::size_t>(point)]);
+  };
 }
 
 double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
@@ -141,7 +154,8 @@ double element_value(const Keywords& test, const ElementField& field, const solv
     Values values;
     const auto is_tested = points_tested(test, field, mesh);
     for (const int cell : cells) {
-      const int each = field.values_a_point(cell), only = test.given("SOUS_POINT") ? sub_point(test, field, cell, mesh) : -1;
+      const int each = field.values_a_point(cell),
+                only = test.given("SOUS_POINT") ? sub_point(test, field, cell, mesh) : -1;
       for (int place = 0; place < field.points(cell); ++place) {
         if (!is_tested(cell, place / each) || (only >= 0 && place % each != only)) continue;
         for (const int component : components) {
@@ -154,13 +168,15 @@ double element_value(const Keywords& test, const ElementField& field, const solv
   }
   const int cell = single(test, cells, place_keyword(test, cell_places), "cell");
   if (field.points(cell) == 0) not_carried(test, "cell " + mesh.cell_name(cell));
-  const int place = local_point(test, field, cell, mesh) * field.values_a_point(cell) + sub_point(test, field, cell, mesh);
+  const int place =
+      local_point(test, field, cell, mesh) * field.values_a_point(cell) + sub_point(test, field, cell, mesh);
   const double value = field.at(cell, place, components.front());
   if (std::isnan(value)) not_carried(test, "cell " + mesh.cell_name(cell));
   return value;
 }
 
-double field_value(const Keywords& test, const solver::Field& field, const solver::Mesh& mesh, const Values& others = {}) {
+double field_value(const Keywords& test, const solver::Field& field, const solver::Mesh& mesh,
+                   const Values& others = {}) {
   if (const auto* nodal = std::get_if<NodalField>(&field)) return nodal_value(test, *nodal, mesh, others);
   return element_value(test, std::get<ElementField>(field), mesh);
 }
@@ -169,7 +185,8 @@ double field_value(const Keywords& test, const solver::Field& field, const solve
 TestedValue as_reference(const Keywords& test, double value) {
   constexpr double rounding = 1e-9;
   const bool is_integer = std::abs(value - std::round(value)) <= rounding * std::max(1.0, std::abs(value));
-  if (is_integer && (test.given("VALE_CALC_I") || test.given("VALE_REFE_I"))) return static_cast<std::int64_t>(std::llround(value));
+  if (is_integer && (test.given("VALE_CALC_I") || test.given("VALE_REFE_I")))
+    return static_cast<std::int64_t>(std::llround(value));
   return value;
 }
 
@@ -206,14 +223,19 @@ void report(const Keywords& test, const std::string& label, const TestedValue& v
   for (Verdict& verdict : judge(test, "TEST_RESU", full, value)) context.report(std::move(verdict));
 }
 
-// The multipliers of AFFE_CHAR_MECA stand among the values of DEPL: a test of all of them at once takes them in (ssnp140a).
-bool takes_multipliers_in(const Keywords& test) { return test.given("TYPE_TEST") && !test.given("NOM_CMP") && !names_a_place(test); }
+// The multipliers of AFFE_CHAR_MECA stand among the values of DEPL: a test of all of them at once takes them in
+// (ssnp140a).
+bool takes_multipliers_in(const Keywords& test) {
+  return test.given("TYPE_TEST") && !test.given("NOM_CMP") && !names_a_place(test);
+}
 
 TestedValue result_value(const Keywords& test, const ResultConcept& data, const solver::ResultStep& step) {
   if (test.given("PARA")) return parameter_value(test, step);
   const solver::Field& held = layered_field_of(test, step, test.text("NOM_CHAM"));
   const solver::Mesh& mesh = data.result.mesh();
-  if (test.given("NOM_VARI")) return as_reference(test, field_value(test, by_variable_names(test, held, data.problem_of(step).behaviours.get()), mesh));
+  if (test.given("NOM_VARI"))
+    return as_reference(test,
+                        field_value(test, by_variable_names(test, held, data.problem_of(step).behaviours.get()), mesh));
   const bool all = takes_multipliers_in(test) && test.text("NOM_CHAM") == "DEPL";
   return as_reference(test, field_value(test, held, mesh, all ? multipliers_of(data, step) : Values()));
 }
@@ -222,7 +244,8 @@ TestedValue result_value(const Keywords& test, const ResultConcept& data, const 
 void warn_of_idle_places_of(const Keywords& test, const solver::Field& field, Context& context) {
   if (!std::holds_alternative<NodalField>(field)) return;
   constexpr std::array idle = {"POINT", "SOUS_POINT", "GROUP_MA", "MAILLE"};
-  commands::warn_of_idle_places("TEST_RESU", test, std::span(idle).first(test.given("TYPE_TEST") ? 2 : 4), context.diagnostics);
+  commands::warn_of_idle_places("TEST_RESU", test, std::span(idle).first(test.given("TYPE_TEST") ? 2 : 4),
+                                context.diagnostics);
 }
 
 void test_result(const Keywords& test, Context& context) {
@@ -239,7 +262,10 @@ void test_field(const Keywords& test, Context& context) {
   const std::string label = label_of(test, test.concept_of("CHAM_GD")->name);
   warn_of_idle_places_of(test, data.field, context);
   if (test.given("NOM_VARI")) {
-    report(test, label, as_reference(test, field_value(test, by_variable_names(test, data.field, data.behaviours.get()), *data.mesh)), context);
+    report(
+        test, label,
+        as_reference(test, field_value(test, by_variable_names(test, data.field, data.behaviours.get()), *data.mesh)),
+        context);
     return;
   }
   const Values others = data.multipliers && takes_multipliers_in(test) ? data.multipliers->values() : Values();

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-
 #include "commands/commands.hpp"
 #include "commands/tables/reductions.hpp"
 #include "commands/tables/table_filter.hpp"
@@ -14,9 +13,12 @@ using interpreter::DiagnosticError;
 
 TestedValue reduced(const Call& call, const Table& table, int column) {
   const std::string& type = call.text("TYPE_TEST");
-  if (call.given("VALE_CALC_K")) throw DiagnosticError("wrong-type", "TEST_TABLE: TYPE_TEST makes a number of the column", call.span_of("VALE_CALC_K"), "leave out TYPE_TEST to compare a text");
+  if (call.given("VALE_CALC_K"))
+    throw DiagnosticError("wrong-type", "TEST_TABLE: TYPE_TEST makes a number of the column",
+                          call.span_of("VALE_CALC_K"), "leave out TYPE_TEST to compare a text");
   const auto numbers = numbers_in(table, column, call);
-  if (numbers.empty()) throw DiagnosticError("wrong-count", "TEST_TABLE: no row is left to reduce", call.span, "loosen FILTRE");
+  if (numbers.empty())
+    throw DiagnosticError("wrong-count", "TEST_TABLE: no row is left to reduce", call.span, "loosen FILTRE");
   if (type == "MAX") return greatest(numbers);
   if (type == "MIN") return least(numbers);
   return type == "SOMM" ? sum_of(numbers) : sum_of_sizes(numbers);
@@ -26,10 +28,13 @@ TestedValue reduced(const Call& call, const Table& table, int column) {
 TestedValue only_cell(const Call& call, const Table& all, int column) {
   Table table = all;
   if (all.rows.size() > 1) {
-    std::erase_if(table.rows, [&](const auto& row) { return std::holds_alternative<std::monostate>(row[static_cast<std::size_t>(column)]); });
+    std::erase_if(table.rows, [&](const auto& row) {
+      return std::holds_alternative<std::monostate>(row[static_cast<std::size_t>(column)]);
+    });
   }
   if (table.rows.size() != 1) {
-    throw DiagnosticError("wrong-count", fmt::format("TEST_TABLE: {} rows are left; a value is tested in one", table.rows.size()),
+    throw DiagnosticError("wrong-count",
+                          fmt::format("TEST_TABLE: {} rows are left; a value is tested in one", table.rows.size()),
                           call.span_of("FILTRE"), "make FILTRE stricter or looser, or give TYPE_TEST");
   }
   const Cell& cell = table.rows.front()[static_cast<std::size_t>(column)];
@@ -37,10 +42,12 @@ TestedValue only_cell(const Call& call, const Table& all, int column) {
   const bool compares_text = call.given("VALE_CALC_K");
   if (text != nullptr && compares_text) return *text;
   if (text != nullptr) {
-    throw DiagnosticError("wrong-type", fmt::format("TEST_TABLE: the cell holds the text '{}'", *text), call.span_of("NOM_PARA"), "compare it by VALE_CALC_K");
+    throw DiagnosticError("wrong-type", fmt::format("TEST_TABLE: the cell holds the text '{}'", *text),
+                          call.span_of("NOM_PARA"), "compare it by VALE_CALC_K");
   }
   if (compares_text && !std::holds_alternative<std::monostate>(cell)) {
-    throw DiagnosticError("wrong-type", "TEST_TABLE: the cell holds a number", call.span_of("VALE_CALC_K"), "compare it by VALE_CALC or VALE_CALC_I");
+    throw DiagnosticError("wrong-type", "TEST_TABLE: the cell holds a number", call.span_of("VALE_CALC_K"),
+                          "compare it by VALE_CALC or VALE_CALC_I");
   }
   if (const auto* real = std::get_if<double>(&cell)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return *integer;

@@ -14,7 +14,8 @@ namespace {
 
 std::string row(const std::string& place, const std::vector<double>& values, const RealFormat& reals) {
   std::string text = fmt::format(" {:<10}", place);
-  for (const double value : values) text += " " + (std::isnan(value) ? fmt::format("{:>{}}", "-", reals.width()) : reals(value));
+  for (const double value : values)
+    text += " " + (std::isnan(value) ? fmt::format("{:>{}}", "-", reals.width()) : reals(value));
   return text + "\n";
 }
 
@@ -45,12 +46,14 @@ int node_at(const solver::Field& field, const solver::Mesh& mesh, int place, int
 bool is_shown(double value, const ListingStyle& style) { return value >= style.least && value <= style.greatest; }
 
 // Coordinates, where they are asked for, and then the values within the bounds; nothing when there is no value.
-std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, int place, int point) {
+std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, int place,
+                            int point) {
   std::vector<double> values;
   bool any = false;
   if (style.coordinates) {
     const int node = node_at(field, mesh, place, point);
-    for (std::size_t i = 0; i < 3; ++i) values.push_back(node < 0 ? solver::absent : mesh.nodes[static_cast<std::size_t>(node)][i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      values.push_back(node < 0 ? solver::absent : mesh.nodes[static_cast<std::size_t>(node)][i]);
   }
   for (int c = 0; c < static_cast<int>(solver::components_of(field).size()); ++c) {
     const double value = value_at(field, place, point, c);
@@ -64,7 +67,8 @@ std::vector<double> entries(const solver::Field& field, const solver::Mesh& mesh
 }  // namespace
 
 std::string listing(const solver::Mesh& mesh, const ListingStyle& style) {
-  std::string text = fmt::format(" {} nodes, {} cells\n", mesh.node_count(), mesh.cell_count()) + header("NOEUD", {"X", "Y", "Z"}, style.reals);
+  std::string text = fmt::format(" {} nodes, {} cells\n", mesh.node_count(), mesh.cell_count()) +
+                     header("NOEUD", {"X", "Y", "Z"}, style.reals);
   for (int node = 0; node < mesh.node_count(); ++node) {
     const solver::Point& at = mesh.nodes[node];
     text += row(mesh.node_name(node), {at[0], at[1], at[2]}, style.reals);
@@ -89,7 +93,8 @@ std::string listing(const solver::Field& field, const solver::Mesh& mesh, const 
   return text;
 }
 
-std::string extreme_listing(const solver::Field& whole, const solver::Mesh& mesh, const ListingStyle& style, std::span<const Extremum> wanted) {
+std::string extreme_listing(const solver::Field& whole, const solver::Mesh& mesh, const ListingStyle& style,
+                            std::span<const Extremum> wanted) {
   std::string text;
   solver::Field field = whole;
   for (double& value : solver::values_of(field))
@@ -99,7 +104,8 @@ std::string extreme_listing(const solver::Field& whole, const solver::Mesh& mesh
     if (!found) continue;
     for (const Extremum which : wanted) {
       const solver::Extreme& extreme = which == Extremum::greatest ? found->greatest : found->least;
-      text += fmt::format(" {:<10} {} {} at {}\n", solver::components_of(field)[c], which == Extremum::greatest ? "largest " : "smallest", style.reals(extreme.value),
+      text += fmt::format(" {:<10} {} {} at {}\n", solver::components_of(field)[c],
+                          which == Extremum::greatest ? "largest " : "smallest", style.reals(extreme.value),
                           place_name(field, mesh, extreme.place, extreme.point));
     }
   }

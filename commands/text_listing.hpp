@@ -26,6 +26,7 @@ std::string listing(const solver::Field& field, const solver::Mesh& mesh, const 
 enum class Extremum : std::uint8_t { least, greatest };
 
 /// For each component the extreme value within the bounds, and where it is.
-std::string extreme_listing(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style, std::span<const Extremum> wanted);
+std::string extreme_listing(const solver::Field& field, const solver::Mesh& mesh, const ListingStyle& style,
+                            std::span<const Extremum> wanted);
 
 }  // namespace comma::commands

@@ -60,7 +60,8 @@ TestedValue tested_value(const interpreter::Value& value) {
   return value.is_none() ? "" : value.repr();
 }
 
-Verdict verdict_at(const Keywords& test, const std::string& command, const std::string& label, const TestedValue& computed) {
+Verdict verdict_at(const Keywords& test, const std::string& command, const std::string& label,
+                   const TestedValue& computed) {
   Verdict verdict;
   verdict.file = test.span ? test.span.file->path() : "";
   verdict.line = test.span ? test.span.file->position(test.span.begin).line : 0;
@@ -107,7 +108,8 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
   return verdicts;
 }
 
-Verdict judge_text(const Keywords& test, const std::string& command, const std::string& label, const std::string& expected, const std::string& computed) {
+Verdict judge_text(const Keywords& test, const std::string& command, const std::string& label,
+                   const std::string& expected, const std::string& computed) {
   Verdict verdict = verdict_at(test, command, label, computed);
   verdict.kind = "VALE_REFE";
   verdict.reference_type = test.has("REFERENCE") ? test.text("REFERENCE") : "NON_DEFINI";
@@ -121,7 +123,8 @@ namespace {
 
 /// assertEqual, assertAlmostEqual ..., assertIs, assertIsNone: their two values are the same where they hold.
 bool claims_equality(std::string_view method) {
-  return (method.ends_with("Equal") && !method.starts_with("assertNot") && !method.ends_with("LessEqual") && !method.ends_with("GreaterEqual")) ||
+  return (method.ends_with("Equal") && !method.starts_with("assertNot") && !method.ends_with("LessEqual") &&
+          !method.ends_with("GreaterEqual")) ||
          method == "assertIs" || method == "assertIsNone";
 }
 
@@ -158,9 +161,10 @@ std::string format_verdict(const Verdict& verdict) {
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
     return std::get<std::string>(value);
   };
-  return fmt::format("  {:<7}{:<28} {} {:>15}  for {:>15}  {} error {:.1e} {} {:.0e}", verdict.passed ? "ok" : "FAILED", verdict.label,
-                     verdict.kind, verdict.computed ? shown(*verdict.computed) : "nothing", shown(verdict.reference),
-                     verdict.relative ? "relative" : "absolute", verdict.error, verdict.passed ? "<=" : "over", verdict.tolerance);
+  return fmt::format("  {:<7}{:<28} {} {:>15}  for {:>15}  {} error {:.1e} {} {:.0e}", verdict.passed ? "ok" : "FAILED",
+                     verdict.label, verdict.kind, verdict.computed ? shown(*verdict.computed) : "nothing",
+                     shown(verdict.reference), verdict.relative ? "relative" : "absolute", verdict.error,
+                     verdict.passed ? "<=" : "over", verdict.tolerance);
 }
 
 }  // namespace comma::commands

@@ -30,17 +30,17 @@ struct Verdict {
   bool passed = false;
 };
 
-/// Judges a value against every reference that the keywords of a TEST_* occurrence give (VALE_CALC, VALE_CALC_I, VALE_REFE,
-/// VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS).
+/// Judges a value against every reference that the keywords of a TEST_* occurrence give (VALE_CALC, VALE_CALC_I,
+/// VALE_REFE, VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS).
 std::vector<Verdict> judge(const interpreter::Keywords& test, const std::string& command, const std::string& label,
                            const TestedValue& computed);
 
 /// Judges a text against the one that the file expects: kind VALE_REFE.
-Verdict judge_text(const interpreter::Keywords& test, const std::string& command, const std::string& label, const std::string& expected,
-                   const std::string& computed);
+Verdict judge_text(const interpreter::Keywords& test, const std::string& command, const std::string& label,
+                   const std::string& expected, const std::string& computed);
 
-/// The verdict of a claim that the file makes itself (CA.TestCase): kind VALE_REFE, reference type ASSERTION. Values that are
-/// no numbers stand as the language writes them.
+/// The verdict of a claim that the file makes itself (CA.TestCase): kind VALE_REFE, reference type ASSERTION. Values
+/// that are no numbers stand as the language writes them.
 Verdict verdict_of(const interpreter::Assertion& assertion);
 
 /// One line for the console: ok or FAILED, what, the computed value, the reference, the error against its tolerance.

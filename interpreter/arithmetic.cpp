@@ -246,9 +246,7 @@ Value integer_operation(Operator op, const Value& a, const Value& b, Meter& mete
 
 }  // namespace
 
-bool is_numeric(const Value& value) {
-  return value.is_bool() || value.is_number() || value.is_complex();
-}
+bool is_numeric(const Value& value) { return value.is_bool() || value.is_number() || value.is_complex(); }
 
 std::optional<BigInteger> integer_of(const Value& value) {
   if (value.is_big_integer()) return value.as_big_integer();
@@ -298,9 +296,7 @@ Value modulo(const Value& a, const Value& b) {
   return Value::integer(BigInteger::floor_divide(*integer_of(a), *integer_of(b)).second);
 }
 
-Value power(const Value& a, const Value& b, Meter& meter) {
-  return binary_operation(Operator::power, a, b, meter);
-}
+Value power(const Value& a, const Value& b, Meter& meter) { return binary_operation(Operator::power, a, b, meter); }
 
 /// Arithmetic on two numbers; other kinds are an error here.
 Value number_operation(Operator op, const Value& a, const Value& b, Meter& meter) {

@@ -51,9 +51,7 @@ Split split(const std::string& text) {
   return {text.substr(0, point), text.substr(point + 1, mark - point - 1), text.substr(mark)};
 }
 
-std::string written_infinite(double value) {
-  return std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf";
-}
+std::string written_infinite(double value) { return std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf"; }
 
 Words written_reals(const std::vector<double>& values) {
   const bool exponents = wants_exponents(values);
@@ -166,9 +164,7 @@ std::string written(const ArrayObject& array, const std::string& separator, std:
 
 }  // namespace
 
-std::string ArrayObject::text() const {
-  return size() == 0 ? "[]" : written(*this, " ", 0, line_width);
-}
+std::string ArrayObject::text() const { return size() == 0 ? "[]" : written(*this, " ", 0, line_width); }
 
 std::string ArrayObject::repr() const {
   if (size() > 0) return "array(" + written(*this, ", ", 6, line_width - 1) + ")";

@@ -11,9 +11,7 @@ namespace comma::interpreter {
 
 namespace {
 
-bool compares(Operator op) {
-  return op >= Operator::less;
-}
+bool compares(Operator op) { return op >= Operator::less; }
 
 /// Python's // and % for floats, but with numpy's inf and nan where the divisor is zero.
 double remainder(double a, double b) {

@@ -181,9 +181,7 @@ BigInteger operator+(const BigInteger& a, const BigInteger& b) {
   return result;
 }
 
-BigInteger operator-(const BigInteger& a, const BigInteger& b) {
-  return a + (-b);
-}
+BigInteger operator-(const BigInteger& a, const BigInteger& b) { return a + (-b); }
 
 BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   BigInteger result;

@@ -186,15 +186,9 @@ Value in_base(const CallArguments& arguments, std::string_view function, int bas
   return (x->is_negative() ? "-" : "") + std::string(prefix) + x->magnitude().to_string(base);
 }
 
-Value hex(Evaluator&, const CallArguments& arguments) {
-  return in_base(arguments, "hex", 16, "0x");
-}
-Value oct(Evaluator&, const CallArguments& arguments) {
-  return in_base(arguments, "oct", 8, "0o");
-}
-Value bin(Evaluator&, const CallArguments& arguments) {
-  return in_base(arguments, "bin", 2, "0b");
-}
+Value hex(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "hex", 16, "0x"); }
+Value oct(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "oct", 8, "0o"); }
+Value bin(Evaluator&, const CallArguments& arguments) { return in_base(arguments, "bin", 2, "0b"); }
 
 Value chr(Evaluator&, const CallArguments& arguments) {
   expect_arguments("chr", arguments, 1, 1);
@@ -232,7 +226,8 @@ std::optional<Value> attribute_or_nothing(Evaluator& evaluator, const Value& obj
 
 Value hasattr(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("hasattr", arguments, 2, 2);
-  if (arguments[0].is_concept()) return evaluator.has_attribute(arguments[0].as_concept(), attribute_name(arguments[1]));
+  if (arguments[0].is_concept())
+    return evaluator.has_attribute(arguments[0].as_concept(), attribute_name(arguments[1]));
   return attribute_or_nothing(evaluator, arguments[0], attribute_name(arguments[1])).has_value();
 }
 
@@ -253,9 +248,7 @@ Value identity(Evaluator&, const CallArguments& arguments) {
 }
 
 /// _F is made by the evaluator itself, which knows where its keywords stand.
-Value factor(Evaluator&, const CallArguments&) {
-  return {};
-}
+Value factor(Evaluator&, const CallArguments&) { return {}; }
 
 struct Refusal {
   std::string_view name, reason;
@@ -343,9 +336,7 @@ const NameTable& builtins() {
 
 }  // namespace
 
-std::span<const FunctionRow> basic_functions() {
-  return general_table;
-}
+std::span<const FunctionRow> basic_functions() { return general_table; }
 
 bool is_instance(const Value& value, const Value& type) {
   if (type.is_tuple()) {
@@ -356,11 +347,13 @@ bool is_instance(const Value& value, const Value& type) {
     const auto* object = value.as_object<ExceptionObject>();
     return object != nullptr && is_subclass(object->kind, error->kind);
   }
-  if (const auto* builtin = type.as_object<BuiltinObject>(); builtin != nullptr && builtin->name == "_F") return value.is_factor();
+  if (const auto* builtin = type.as_object<BuiltinObject>(); builtin != nullptr && builtin->name == "_F")
+    return value.is_factor();
   const auto* wanted = type.as_object<TypeObject>();
   if (wanted == nullptr) raise(ErrorKind::type, "isinstance() arg 2 must be a type, a tuple of types, or a union");
   const std::string name = value.type_name();
-  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool") || (wanted->name == "dict" && value.is_dict());
+  return wanted->name == name || wanted->name == "object" || (wanted->name == "int" && name == "bool") ||
+         (wanted->name == "dict" && value.is_dict());
 }
 
 std::string_view refusal_of(std::string_view name) {

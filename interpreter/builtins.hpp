@@ -42,26 +42,26 @@ struct MethodRow {
   std::string_view name;
   Method method;
 };
-std::span<const FunctionRow> basic_functions();     ///< builtins.cpp
-std::span<const FunctionRow> sequence_functions();  ///< builtins_sequences.cpp
-std::span<const FunctionRow> math_functions();      ///< module_math.cpp
+std::span<const FunctionRow> basic_functions();      ///< builtins.cpp
+std::span<const FunctionRow> sequence_functions();   ///< builtins_sequences.cpp
+std::span<const FunctionRow> math_functions();       ///< module_math.cpp
 std::vector<FunctionRow> numpy_functions();          ///< module_numpy.cpp
-std::span<const FunctionRow> linalg_functions();    ///< of numpy.linalg
-std::span<const FunctionRow> itertools_functions();    ///< module_itertools.cpp
-std::span<const FunctionRow> copy_functions();         ///< module_copy.cpp
-std::span<const FunctionRow> functools_functions();    ///< module_collections.cpp
+std::span<const FunctionRow> linalg_functions();     ///< of numpy.linalg
+std::span<const FunctionRow> itertools_functions();  ///< module_itertools.cpp
+std::span<const FunctionRow> copy_functions();       ///< module_copy.cpp
+std::span<const FunctionRow> functools_functions();  ///< module_collections.cpp
 std::span<const FunctionRow> operator_functions();
 std::span<const FunctionRow> collections_functions();
 /// chain.from_iterable(...): the items of the items.
 Value chain_of(Evaluator& evaluator, const CallArguments& arguments);
-std::span<const MethodRow> text_methods();          ///< methods_text.cpp
-std::span<const MethodRow> letter_methods();        ///< methods_letters.cpp
-std::span<const MethodRow> list_methods();          ///< methods_containers.cpp
+std::span<const MethodRow> text_methods();    ///< methods_text.cpp
+std::span<const MethodRow> letter_methods();  ///< methods_letters.cpp
+std::span<const MethodRow> list_methods();    ///< methods_containers.cpp
 std::span<const MethodRow> tuple_methods();
 std::span<const MethodRow> dict_methods();
 std::span<const MethodRow> set_methods();
-std::span<const MethodRow> number_methods();  ///< methods_numbers.cpp
-std::span<const MethodRow> array_methods();   ///< module_numpy.cpp
+std::span<const MethodRow> number_methods();     ///< methods_numbers.cpp
+std::span<const MethodRow> array_methods();      ///< module_numpy.cpp
 std::span<const MethodRow> test_case_methods();  ///< test_case.cpp
 
 /// The arguments of a builtin, checked: raises TypeError when there are fewer or more, or keywords not listed.

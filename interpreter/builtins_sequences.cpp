@@ -145,12 +145,8 @@ Value extreme(Evaluator& evaluator, const CallArguments& arguments, std::string_
   return best_key.is_unknown() ? best_key : best;
 }
 
-Value min(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, "min", false);
-}
-Value max(Evaluator& evaluator, const CallArguments& arguments) {
-  return extreme(evaluator, arguments, "max", true);
-}
+Value min(Evaluator& evaluator, const CallArguments& arguments) { return extreme(evaluator, arguments, "min", false); }
+Value max(Evaluator& evaluator, const CallArguments& arguments) { return extreme(evaluator, arguments, "max", true); }
 
 Value quantify(Evaluator& evaluator, const CallArguments& arguments, std::string_view name, bool wanted) {
   expect_arguments(name, arguments, 1, 1);
@@ -163,12 +159,8 @@ Value quantify(Evaluator& evaluator, const CallArguments& arguments, std::string
   return !wanted;
 }
 
-Value any(Evaluator& evaluator, const CallArguments& arguments) {
-  return quantify(evaluator, arguments, "any", true);
-}
-Value all(Evaluator& evaluator, const CallArguments& arguments) {
-  return quantify(evaluator, arguments, "all", false);
-}
+Value any(Evaluator& evaluator, const CallArguments& arguments) { return quantify(evaluator, arguments, "any", true); }
+Value all(Evaluator& evaluator, const CallArguments& arguments) { return quantify(evaluator, arguments, "all", false); }
 
 Value iter(Evaluator&, const CallArguments& arguments) {
   expect_arguments("iter", arguments, 1, 1);
@@ -206,9 +198,7 @@ constexpr std::array sequence_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> sequence_functions() {
-  return sequence_table;
-}
+std::span<const FunctionRow> sequence_functions() { return sequence_table; }
 
 Value make_set(const std::vector<Value>& items, bool frozen) {
   auto set = std::make_shared<Set>();

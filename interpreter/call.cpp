@@ -31,9 +31,7 @@ std::vector<T> converted(const std::vector<Keyword>& items, std::string_view nam
 
 }  // namespace
 
-bool Keywords::has(std::string_view keyword) const {
-  return find(items, keyword) != nullptr;
-}
+bool Keywords::has(std::string_view keyword) const { return find(items, keyword) != nullptr; }
 
 bool Keywords::given(std::string_view keyword) const {
   const Keyword* found = find(items, keyword);
@@ -46,21 +44,13 @@ const Keyword& Keywords::at(std::string_view keyword) const {
   return *found;
 }
 
-double Keywords::real(std::string_view keyword) const {
-  return at(keyword).value.as_real();
-}
+double Keywords::real(std::string_view keyword) const { return at(keyword).value.as_real(); }
 
-std::int64_t Keywords::integer(std::string_view keyword) const {
-  return at(keyword).value.as_integer();
-}
+std::int64_t Keywords::integer(std::string_view keyword) const { return at(keyword).value.as_integer(); }
 
-const std::string& Keywords::text(std::string_view keyword) const {
-  return at(keyword).value.as_text();
-}
+const std::string& Keywords::text(std::string_view keyword) const { return at(keyword).value.as_text(); }
 
-const ConceptPtr& Keywords::concept_of(std::string_view keyword) const {
-  return at(keyword).value.as_concept();
-}
+const ConceptPtr& Keywords::concept_of(std::string_view keyword) const { return at(keyword).value.as_concept(); }
 
 std::vector<double> Keywords::reals(std::string_view keyword) const {
   return converted<double>(items, keyword, [](const Value& value) { return value.as_real(); });
@@ -79,7 +69,8 @@ std::vector<ConceptPtr> Keywords::concepts(std::string_view keyword) const {
 }
 
 std::vector<ConceptPtr> Keywords::concepts_among(std::string_view keyword) const {
-  auto handles = converted<ConceptPtr>(items, keyword, [](const Value& value) { return value.is_concept() ? value.as_concept() : ConceptPtr(); });
+  auto handles = converted<ConceptPtr>(
+      items, keyword, [](const Value& value) { return value.is_concept() ? value.as_concept() : ConceptPtr(); });
   std::erase(handles, nullptr);
   return handles;
 }
@@ -104,7 +95,9 @@ Span Keywords::span_of(std::string_view keyword) const {
 
 DiagnosticError destroyed_concept(const Concept& handle) {
   const Span& at = *handle.destroyed_at;
-  return {"destroyed-concept", fmt::format("{} is not there any more: DETRUIRE has taken it away{}", handle.name, at.file ? fmt::format(" (line {})", at.file->position(at.begin).line) : ""),
+  return {"destroyed-concept",
+          fmt::format("{} is not there any more: DETRUIRE has taken it away{}", handle.name,
+                      at.file ? fmt::format(" (line {})", at.file->position(at.begin).line) : ""),
           Span(), "use it before, or leave DETRUIRE out"};
 }
 

@@ -22,20 +22,21 @@ struct Keyword {
   std::string name;
   Value value;
   std::vector<Keywords> factors;
-  Span name_span;    ///< empty for a default
+  Span name_span;  ///< empty for a default
   Span value_span;
   bool given = false;  ///< false: the value is the catalogue's default
 };
 
-/// The keywords of a call, or of one occurrence of a factor keyword. All accessors throw std::logic_error when the keyword
-/// is absent or of another type: that is a bug of the command or of its catalogue page, never of the user's file.
+/// The keywords of a call, or of one occurrence of a factor keyword. All accessors throw std::logic_error when the
+/// keyword is absent or of another type: that is a bug of the command or of its catalogue page, never of the user's
+/// file.
 class Keywords {
  public:
   std::vector<Keyword> items;
   Span span;  ///< the whole call, or the whole _F(...)
 
-  bool has(std::string_view keyword) const;         ///< given, or filled by a default
-  bool given(std::string_view keyword) const;       ///< written in the file
+  bool has(std::string_view keyword) const;    ///< given, or filled by a default
+  bool given(std::string_view keyword) const;  ///< written in the file
   const Keyword& at(std::string_view keyword) const;
 
   double real(std::string_view keyword) const;
@@ -67,7 +68,7 @@ class Keywords {
 /// A checked call.
 struct Call : Keywords {
   std::string command;
-  ConceptPtr result;            ///< what it produces or, with reuse=, changes in place; null if nothing
+  ConceptPtr result;  ///< what it produces or, with reuse=, changes in place; null if nothing
   bool reuse = false;
 };
 

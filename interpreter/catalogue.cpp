@@ -52,34 +52,24 @@ std::optional<Enum> named_in(const std::array<std::pair<Enum, std::string_view>,
 
 }  // namespace
 
-std::string_view name_of(Kind kind) {
-  return name_in(kind_names, kind);
-}
+std::string_view name_of(Kind kind) { return name_in(kind_names, kind); }
 
 std::optional<Kind> kind_named(std::string_view word) {
   const auto kind = named_in(kind_names, word);
   return kind == Kind::concept_kind ? std::nullopt : kind;
 }
 
-bool holds_text(Kind kind) {
-  return kind >= Kind::text && kind <= Kind::parameter;
-}
+bool holds_text(Kind kind) { return kind >= Kind::text && kind <= Kind::parameter; }
 
-std::string_view name_of(RulePage::Kind kind) {
-  return name_in(rule_names, kind);
-}
+std::string_view name_of(RulePage::Kind kind) { return name_in(rule_names, kind); }
 
-std::optional<RulePage::Kind> rule_named(std::string_view word) {
-  return named_in(rule_names, word);
-}
+std::optional<RulePage::Kind> rule_named(std::string_view word) { return named_in(rule_names, word); }
 
 Catalogue::Catalogue(std::span<const CatalogueBlob> blobs) {
   for (const CatalogueBlob& blob : blobs) blobs_.emplace(blob.name, blob.bytes);
 }
 
-bool Catalogue::has(std::string_view command) const {
-  return !command.empty() && blobs_.contains(command);
-}
+bool Catalogue::has(std::string_view command) const { return !command.empty() && blobs_.contains(command); }
 
 std::vector<std::string> Catalogue::names() const {
   std::vector<std::string> names;

@@ -23,7 +23,7 @@ enum class Kind {
   integer,
   complex,
   text,
-  expression,   ///< an expression of the language; it may use the variables around the call, see expression_keywords.hpp
+  expression,  ///< an expression of the language; it may use the variables around the call, see expression_keywords.hpp
   node_group,
   cell_group,
   node,
@@ -63,7 +63,9 @@ struct RulePage {
   enum class Kind { exactly_one, at_least_one, at_most_one, all_or_none, requires_all, requires_one, excludes };
   Kind kind = Kind::exactly_one;
   std::vector<std::string> keywords;  ///< for the last three kinds, the first is the one that asks
-  bool asks_for_more() const { return kind == Kind::all_or_none || kind == Kind::requires_all || kind == Kind::requires_one; }
+  bool asks_for_more() const {
+    return kind == Kind::all_or_none || kind == Kind::requires_all || kind == Kind::requires_one;
+  }
 };
 
 std::string_view name_of(RulePage::Kind kind);
@@ -100,7 +102,7 @@ struct KeywordPage {
   Bounds bounds;
   bool required = false;
   bool supported = true;
-  std::string no_effect;  ///< why it cannot change a result of comma, or empty
+  std::string no_effect;    ///< why it cannot change a result of comma, or empty
   std::string counts_when;  ///< a condition as of a block, without which it is read by nothing: an alarm then; or empty
   std::shared_ptr<const Expression> counts;
   std::optional<Value> default_value;

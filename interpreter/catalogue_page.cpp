@@ -85,9 +85,7 @@ Bounds bounds_from(const Packed& packed) {
   return {number("above"), number("at_least"), number("below"), number("at_most")};
 }
 
-int count_from(const Packed& packed) {
-  return packed.is_text() ? unlimited : static_cast<int>(packed.integer());
-}
+int count_from(const Packed& packed) { return packed.is_text() ? unlimited : static_cast<int>(packed.integer()); }
 
 LevelPage level_from(const Packed& packed);
 

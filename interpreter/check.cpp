@@ -124,9 +124,7 @@ class LevelCheck {
 
  private:
   /// A factor keyword is True for conditions: they only ask whether it is there.
-  static Value seen_by_conditions(const Value& value) {
-    return value.is_dict() ? Value(true) : value;
-  }
+  static Value seen_by_conditions(const Value& value) { return value.is_dict() ? Value(true) : value; }
 
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
@@ -146,8 +144,8 @@ class LevelCheck {
     }
   }
 
-  /// What depends on a compulsory keyword that is missing, or that has a wrong value, is not known: one mistake makes one
-  /// error.
+  /// What depends on a compulsory keyword that is missing, or that has a wrong value, is not known: one mistake makes
+  /// one error.
   void forget_wrong_values() {
     for (const KeywordPage& keyword : level_.keywords) {
       if (keyword.is_factor()) continue;
@@ -160,8 +158,8 @@ class LevelCheck {
     }
   }
 
-  /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends on
-  /// it is not known.
+  /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends
+  /// on it is not known.
   void guess_misspelt() {
     std::vector<std::string> names;  // in the order of the page, where the likelier ones stand first
     visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { names.push_back(keyword.name); });
@@ -186,12 +184,14 @@ class LevelCheck {
     }
     for (const RulePage& rule : level_.rules) {
       const bool asks = rule.kind == RulePage::Kind::exactly_one || rule.kind == RulePage::Kind::at_least_one;
-      if (asks && std::ranges::none_of(rule.keywords, is_there)) names.insert(names.end(), rule.keywords.begin(), rule.keywords.end());
+      if (asks && std::ranges::none_of(rule.keywords, is_there))
+        names.insert(names.end(), rule.keywords.begin(), rule.keywords.end());
     }
     return names;
   }
 
-  /// The one compulsory keyword, of the level or of a block that stands as long as nothing else is given, that is not there; empty when there is none, or more.
+  /// The one compulsory keyword, of the level or of a block that stands as long as nothing else is given, that is not
+  /// there; empty when there is none, or more.
   std::string only_missing() const {
     Scope given = scope_;
     for (const Pending& pending : pending_) given.values[pending.name] = seen_by_conditions(*pending.argument->value);
@@ -207,7 +207,9 @@ class LevelCheck {
       if (holds(*block.condition, given) == Truth::yes) add_missing(block.inside, given, names);
   }
 
-  bool is_given(const std::string& name) const { return std::ranges::find(pending_, name, &Pending::name) != pending_.end(); }
+  bool is_given(const std::string& name) const {
+    return std::ranges::find(pending_, name, &Pending::name) != pending_.end();
+  }
   bool guessed(const std::string& name) const {
     return std::ranges::any_of(guesses_, [&](const auto& guess) { return guess.second == name; });
   }
@@ -223,8 +225,11 @@ class LevelCheck {
     const bool older = pending.name != pending.argument->name;
     const std::string also = !older ? "" : fmt::format(" ({} is its older name)", pending.argument->name);
     const bool merge = (older || other != pending.name) && pending.argument->value->is_factor();
-    context_.diagnostics.error("duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
-                               pending.argument->name_span, merge ? fmt::format("write both as occurrences of one: {}=(_F(...), _F(...))", pending.name) : "keep one of them");
+    context_.diagnostics.error(
+        "duplicate-keyword", fmt::format("{} is given {} twice{}", label_, pending.name, also),
+        pending.argument->name_span,
+        merge ? fmt::format("write both as occurrences of one: {}=(_F(...), _F(...))", pending.name)
+              : "keep one of them");
   }
 
   /// `certain` is false in a block whose condition depends on a value that is unknown: nothing is missing there.
@@ -252,7 +257,8 @@ class LevelCheck {
     } else if (certain && !scope_.open) {
       take_default(keyword);
     } else {
-      scope_.values[keyword.name] = Value::unknown();  // it may be given, or its default would stand here if the block exists
+      scope_.values[keyword.name] =
+          Value::unknown();  // it may be given, or its default would stand here if the block exists
     }
   }
 
@@ -267,7 +273,8 @@ class LevelCheck {
 
   /// Whether the value is wrong in whichever of the blocks the keyword may be meant.
   bool fits_no_page(const std::string& name, const Argument& argument) const {
-    return std::ranges::none_of(pages_of(name), [&](const KeywordPage* page) { return page->is_factor() || fits(*page, argument); });
+    return std::ranges::none_of(pages_of(name),
+                                [&](const KeywordPage* page) { return page->is_factor() || fits(*page, argument); });
   }
 
   bool fits(const KeywordPage& page, const Argument& argument) const {
@@ -295,7 +302,10 @@ class LevelCheck {
   void warn_of_idle() {
     for (const auto& [keyword, span] : conditional_)
       if (holds(*keyword->counts, scope_) == Truth::no)
-        context_.diagnostics.alarm("idle-keyword", fmt::format("{}/{} has no effect here: it counts when {}", label_, keyword->name, keyword->counts_when), span, "leave it out, or give what it belongs to");
+        context_.diagnostics.alarm(
+            "idle-keyword",
+            fmt::format("{}/{} has no effect here: it counts when {}", label_, keyword->name, keyword->counts_when),
+            span, "leave it out, or give what it belongs to");
   }
 
   void take_given(const KeywordPage& keyword, const Argument& argument) {
@@ -355,7 +365,8 @@ class LevelCheck {
   }
 
   Keywords check_occurrence(const KeywordPage& keyword, const Occurrence& occurrence, const std::string& label) {
-    return LevelCheck(keyword.inside, label, occurrence.span, &scope_, context_).run(occurrence.arguments, occurrence.open);
+    return LevelCheck(keyword.inside, label, occurrence.span, &scope_, context_)
+        .run(occurrence.arguments, occurrence.open);
   }
 
   void take_default(const KeywordPage& keyword) {
@@ -430,7 +441,7 @@ class LevelCheck {
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
   std::vector<std::pair<const KeywordPage*, Span>> conditional_;  ///< given, and of effect under a condition alone
-  std::map<std::string, std::string, std::less<>> guesses_;  ///< a misspelt keyword and the one that was meant
+  std::map<std::string, std::string, std::less<>> guesses_;       ///< a misspelt keyword and the one that was meant
   Keywords result_;
 };
 
@@ -475,7 +486,8 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   const auto reuse = std::ranges::find(written.arguments, "reuse", &Argument::name);
   // Editors number the commands that they write (identifier="3:1"), and no command takes that for anything.
   std::vector<Argument> arguments;
-  std::ranges::copy_if(written.arguments, std::back_inserter(arguments), [](const Argument& a) { return a.name != "reuse" && a.name != "identifier"; });
+  std::ranges::copy_if(written.arguments, std::back_inserter(arguments),
+                       [](const Argument& a) { return a.name != "reuse" && a.name != "identifier"; });
 
   LevelCheck level(page.inside, page.name, written.name_span, nullptr, context);
   level.note_reuse(reuse != written.arguments.end() && !reuse->value->is_none());
@@ -490,7 +502,8 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   checked.sound = count_errors(diagnostics) == errors_before;
   checked.left_out = only_writes(page.role) && checked.sound && context.met_unsupported;
   const bool unknown_reuse = reused && reuse->value->is_unknown();
-  checked.complete = checked.sound && !context.met_unsupported && !context.met_open && !unknown_reuse && !holds_unknown(checked.call);
+  checked.complete =
+      checked.sound && !context.met_unsupported && !context.met_open && !unknown_reuse && !holds_unknown(checked.call);
   return checked;
 }
 

@@ -22,8 +22,8 @@ struct CheckedCall {
 
 /// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count,
 /// out-of-bounds, unknown-word, too-many-occurrences, missing-one-of, exclusive-keywords, requires-keyword, bad-reuse,
-/// unsupported. `unsupported` is the severity of the last one: an alarm while checking, an error before running; of a command that only
-/// writes it is always an alarm.
+/// unsupported. `unsupported` is the severity of the last one: an alarm while checking, an error before running; of a
+/// command that only writes it is always an alarm.
 CheckedCall check_call(const CommandCall& written, const CommandPage& page, const Catalogue& catalogue,
                        Diagnostics& diagnostics, Severity unsupported);
 

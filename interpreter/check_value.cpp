@@ -114,7 +114,8 @@ std::optional<Value> convert(const Value& value, const TypePage& type, const Cat
     case Kind::field:
     case Kind::parameter:
       // Names have fixed lengths in Code_Aster: blanks at their ends do not count.
-      if (value.is_text() && value.as_text().ends_with(' ')) return Value(value.as_text().substr(0, value.as_text().find_last_not_of(' ') + 1));
+      if (value.is_text() && value.as_text().ends_with(' '))
+        return Value(value.as_text().substr(0, value.as_text().find_last_not_of(' ') + 1));
       [[fallthrough]];
     default:
       return value.is_text() ? std::optional(value) : std::nullopt;
@@ -141,7 +142,9 @@ bool within(double number, const Bounds& bounds) {
 /// Counts and numbers of things are no larger; a page that gives a bound of its own (at_most) admits more.
 constexpr std::int64_t most_counted = std::numeric_limits<std::int32_t>::max();
 
-bool fits(const Value& integer) { return integer.as_integer() <= most_counted && integer.as_integer() >= -most_counted; }
+bool fits(const Value& integer) {
+  return integer.as_integer() <= most_counted && integer.as_integer() >= -most_counted;
+}
 
 /// A vector of numpy counts as the tuple of its numbers, everything else as itself.
 Value without_array(const Value& value) {
@@ -182,7 +185,9 @@ class ValueCheck {
   struct Place {
     std::size_t index = 0, count = 1;
   };
-  Span span_at(const Place& place) const { return written_as_several_ ? item_span(span_, place.index, place.count) : span_; }
+  Span span_at(const Place& place) const {
+    return written_as_several_ ? item_span(span_, place.index, place.count) : span_;
+  }
 
   void error(std::string code, std::string message, const Span& span, std::string hint = {}) {
     context_.diagnostics.error(std::move(code), std::move(message), span, std::move(hint));
@@ -199,7 +204,8 @@ class ValueCheck {
         return false;
       }
       if (converted->is_real() && !std::isfinite(converted->as_real())) {
-        error("out-of-bounds", fmt::format("{} wants a finite number, not {}", label_, item.repr()), span_at({i, items.size()}), "give a value");
+        error("out-of-bounds", fmt::format("{} wants a finite number, not {}", label_, item.repr()),
+              span_at({i, items.size()}), "give a value");
         return false;
       }
       item = *converted;
@@ -223,7 +229,8 @@ class ValueCheck {
 
   std::string type_hint(const Value& item) const {
     if (item.is_real() && admits(page_, Kind::integer)) return "write it without a decimal point";
-    if (item.as_object<ArrayObject>() != nullptr) return "a keyword takes an array of one dimension: flatten() makes it one";
+    if (item.as_object<ArrayObject>() != nullptr)
+      return "a keyword takes an array of one dimension: flatten() makes it one";
     if (item.is_factor()) return label_ + " is a simple keyword: give it a value, without _F(...)";
     if (item.is_number() && holds_text(page_.types.front().kind)) return "put it between quotes";
     return producers_hint();
@@ -251,7 +258,8 @@ class ValueCheck {
     const bool fits = page_.max_count == unlimited || count <= static_cast<std::size_t>(page_.max_count);
     if (enough && fits) return true;
     error("wrong-count",
-          fmt::format("{} wants {}, not {}", label_, describe_count(page_.min_count, page_.max_count, "value"), count), span_);
+          fmt::format("{} wants {}, not {}", label_, describe_count(page_.min_count, page_.max_count, "value"), count),
+          span_);
     return false;
   }
 
@@ -273,7 +281,9 @@ class ValueCheck {
     if (context_.level == nullptr) return {};
     for (const KeywordPage& keyword : context_.level->keywords) {
       const auto knows = [&](const WordPage& known) { return known.value.is_text() && known.value.as_text() == word; };
-      if (&keyword != &page_ && !keyword.is_factor() && keyword.words.size() > 2 && std::ranges::any_of(keyword.words, knows)) return keyword.name;
+      if (&keyword != &page_ && !keyword.is_factor() && keyword.words.size() > 2 &&
+          std::ranges::any_of(keyword.words, knows))
+        return keyword.name;
     }
     return {};
   }
@@ -304,11 +314,13 @@ class ValueCheck {
 
   bool check_bounds(const Value& item, const Place& place) {
     if (item.is_integer() && admits(page_, Kind::integer) && !page_.bounds.at_most && !fits(item)) {
-      error("out-of-bounds", fmt::format("{} must be an integer of 32 bits; it is {}", label_, item.repr()), span_at(place), fmt::format("{} at most", most_counted));
+      error("out-of-bounds", fmt::format("{} must be an integer of 32 bits; it is {}", label_, item.repr()),
+            span_at(place), fmt::format("{} at most", most_counted));
       return false;
     }
     if (!item.is_number() || within(item.as_real(), page_.bounds)) return true;
-    error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()), span_at(place));
+    error("out-of-bounds", fmt::format("{} must be {}; it is {}", label_, describe_bounds(page_.bounds), item.repr()),
+          span_at(place));
     return false;
   }
 

@@ -44,9 +44,7 @@ void collect(const Keywords& keywords, const LevelPage& level, Accesses& accesse
   }
 }
 
-int file_resource(int unit) {
-  return -1 - unit;
-}
+int file_resource(int unit) { return -1 - unit; }
 
 }  // namespace
 
@@ -155,12 +153,13 @@ void CommandGraph::note_change(const Concept& changed) {
   own.readers.assign(readers.begin(), readers.end());
 }
 
-/// A table or a function holds its own numbers; any other product refers to what it was made from. What is changed in place by
-/// something made from it (a mesh by a field on it) does not: each would keep the other alive.
+/// A table or a function holds its own numbers; any other product refers to what it was made from. What is changed in
+/// place by something made from it (a mesh by a field on it) does not: each would keep the other alive.
 void CommandGraph::remember_sources(Concept& product, const std::vector<ConceptPtr>& sources, bool in_place) {
   bool news = false;
   for (const ConceptPtr& source : sources) {
-    if (source.get() == &product || std::ranges::find(product.reads_through, source) != product.reads_through.end()) continue;
+    if (source.get() == &product || std::ranges::find(product.reads_through, source) != product.reads_through.end())
+      continue;
     if (in_place && histories_[source->id].changed_behind.contains(product.id)) continue;
     product.reads_through.push_back(source);
     news = take_changes(product.id, source->id) || news;
@@ -184,7 +183,8 @@ void CommandGraph::spread_changes() {
     news = false;
     for (const CommandNode& node : nodes_) {
       if (!node.product) continue;
-      for (const ConceptPtr& source : node.product->reads_through) news = take_changes(node.product->id, source->id) || news;
+      for (const ConceptPtr& source : node.product->reads_through)
+        news = take_changes(node.product->id, source->id) || news;
     }
   }
 }

@@ -61,7 +61,8 @@ class CommandGraph {
   /// changed in place what those were made from: of the rest, what made them has waited.
   CommandNode& add(Call call, ConceptPtr product, const CommandPage& page, bool complete = true);
 
-  /// A call that was to change the concept in place is wrong: what reads it from here on, or something made from it, is not complete.
+  /// A call that was to change the concept in place is wrong: what reads it from here on, or something made from it, is
+  /// not complete.
   void spoil(const Concept& changed);
   /// Whether such a call was to change it.
   bool is_spoiled(const Concept& handle) const;
@@ -84,8 +85,8 @@ class CommandGraph {
     int writer = -1;
     std::vector<int> readers;  ///< since that writer
     bool is_spoiled = false;
-    bool is_changed = false;   ///< in place, by reuse=
-    std::string name;          ///< once it is changed
+    bool is_changed = false;       ///< in place, by reuse=
+    std::string name;              ///< once it is changed
     std::set<int> changed_behind;  ///< the changed concepts among all that reading this one reads
   };
 

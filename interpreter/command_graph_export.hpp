@@ -8,9 +8,9 @@
 
 namespace comma::interpreter {
 
-/// A digraph, reduced to the arrows that no longer way implies: boxes are commands with their concept and line, arrows are
-/// concepts and files. What a verdict needs is drawn solid, what only an output needs dashed, the rest grey; each says so in
-/// its tooltip. Nodes that are needed less than `least` are left out.
+/// A digraph, reduced to the arrows that no longer way implies: boxes are commands with their concept and line, arrows
+/// are concepts and files. What a verdict needs is drawn solid, what only an output needs dashed, the rest grey; each
+/// says so in its tooltip. Nodes that are needed less than `least` are left out.
 std::string to_dot(const CommandGraph& graph, Need least = Need::nothing);
 
 /// {"nodes": [{"id", "command", "concept", "file", "line", "needed_by", "state", "cost"}],

@@ -97,7 +97,8 @@ bool ordered(Operator op, const Value& a, const Value& b, int depth) {
 bool holds_equal(const Value& array, const Value& item) {
   Meter meter{Limits{}};
   const Value equal_places = array_operation(Operator::equal, array, item, meter);
-  return std::ranges::any_of(equal_places.as_object<ArrayObject>()->numbers().data, [](double set) { return set != 0.0; });
+  return std::ranges::any_of(equal_places.as_object<ArrayObject>()->numbers().data,
+                             [](double set) { return set != 0.0; });
 }
 
 bool contains_text(const Value& container, const Value& item) {
@@ -131,9 +132,7 @@ bool truth(const Value& value) {
   return !length || *length > 0;
 }
 
-bool less_than(const Value& a, const Value& b) {
-  return ordered(Operator::less, a, b, 0);
-}
+bool less_than(const Value& a, const Value& b) { return ordered(Operator::less, a, b, 0); }
 
 bool identical(const Value& a, const Value& b) {
   if (a.storage().index() != b.storage().index()) return false;

@@ -18,13 +18,16 @@ namespace {
 Value call_real(const RealFunction& function, const std::vector<Value>& arguments) {
   const auto& names = function.parameters();
   const std::size_t wanted = std::max<std::size_t>(names.size(), 1);
-  const bool numbers = std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
+  const bool numbers =
+      std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
   if (arguments.size() != wanted || !numbers) {
-    throw DiagnosticError("type-error", fmt::format("this function is called with {} number{}", wanted, wanted == 1 ? "" : "s"), {},
+    throw DiagnosticError("type-error",
+                          fmt::format("this function is called with {} number{}", wanted, wanted == 1 ? "" : "s"), {},
                           names.empty() ? "" : fmt::format("write F({})", fmt::join(names, ", ")));
   }
   std::vector<double> at;
-  for (const Value& value : arguments) at.push_back(value.is_bool() ? static_cast<double>(value.as_bool()) : value.as_real());
+  for (const Value& value : arguments)
+    at.push_back(value.is_bool() ? static_cast<double>(value.as_bool()) : value.as_real());
   return Value(function.evaluate(at));
 }
 
@@ -42,7 +45,10 @@ Concept::~Concept() {
 }
 
 ConceptPtr source_behind(const Concept& made, std::string_view method) {
-  const std::string_view type = method == "getMesh" ? "maillage_sdaster" : method == "getModel" ? "modele_sdaster" : method == "getMaterialField" ? "cham_mater" : "";
+  const std::string_view type = method == "getMesh"            ? "maillage_sdaster"
+                                : method == "getModel"         ? "modele_sdaster"
+                                : method == "getMaterialField" ? "cham_mater"
+                                                               : "";
   if (type.empty() || made.type == type) return nullptr;
   std::vector<ConceptPtr> open = made.reads_through;
   std::set<const Concept*> seen;
@@ -64,7 +70,8 @@ Value ConceptData::call(const std::vector<Value>& arguments) const {
 }
 
 Value ConceptData::method(std::string_view name, const std::vector<Value>&, const std::map<std::string, Value>&) const {
-  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {}, did_you_mean(name, method_names()));
+  throw DiagnosticError("not-supported", fmt::format("this concept has no method {}", name), {},
+                        did_you_mean(name, method_names()));
 }
 
 }  // namespace comma::interpreter

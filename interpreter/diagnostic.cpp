@@ -156,9 +156,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     // A word in the wrong case is one slip, however long it is.
     const std::size_t distance = std::min(edit_distance(word, candidate), edit_distance(folded, lower(candidate)) + 1);
     if (distance > most || distance > best_distance) continue;
-    // Of words as near, the one of the same letters, and then the one that begins like the written one: a slip in the first letters is
-    // rare.
-    const std::pair likeness(std::ranges::is_permutation(folded, lower(candidate)), common_prefix(folded, lower(candidate)));
+    // Of words as near, the one of the same letters, and then the one that begins like the written one: a slip in the
+    // first letters is rare.
+    const std::pair likeness(std::ranges::is_permutation(folded, lower(candidate)),
+                             common_prefix(folded, lower(candidate)));
     if (distance == best_distance && likeness <= best_likeness) continue;
     best_distance = distance;
     best_likeness = likeness;

@@ -17,7 +17,8 @@ enum class Severity { error, alarm, info };
 /// "error", "alarm" or "info": the words of the JSON report.
 std::string_view name_of(Severity severity);
 
-/// One finding. `code` is a stable word with hyphens ("unknown-keyword"); `hint` says what to write instead, or is empty.
+/// One finding. `code` is a stable word with hyphens ("unknown-keyword"); `hint` says what to write instead, or is
+/// empty.
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;
@@ -43,7 +44,8 @@ class DiagnosticError : public std::runtime_error {
   explicit DiagnosticError(Diagnostic diagnostic)
       : std::runtime_error(diagnostic.message), diagnostic_(std::move(diagnostic)) {}
   DiagnosticError(std::string code, std::string message, Span span = {}, std::string hint = {})
-      : DiagnosticError(Diagnostic{Severity::error, std::move(code), std::move(message), std::move(hint), std::move(span)}) {}
+      : DiagnosticError(
+            Diagnostic{Severity::error, std::move(code), std::move(message), std::move(hint), std::move(span)}) {}
 
   const Diagnostic& diagnostic() const { return diagnostic_; }
 
@@ -82,10 +84,12 @@ class Diagnostics {
     std::vector<Span> kept_;
   };
 
-  /// While it lives, errors are those of a command within `try`: the file goes on after them, and they are told as alarms.
+  /// While it lives, errors are those of a command within `try`: the file goes on after them, and they are told as
+  /// alarms.
   class Handled {
    public:
-    Handled(Diagnostics& owner, bool handled) : owner_(owner), before_(std::exchange(owner.handled_, owner.handled_ || handled)) {}
+    Handled(Diagnostics& owner, bool handled)
+        : owner_(owner), before_(std::exchange(owner.handled_, owner.handled_ || handled)) {}
     ~Handled() { owner_.handled_ = before_; }
     Handled(const Handled&) = delete;
     Handled& operator=(const Handled&) = delete;
@@ -101,8 +105,8 @@ class Diagnostics {
   bool handled_ = false;
 };
 
-/// The known word nearest to a misspelt one (Damerau-Levenshtein distance, at most a third of the word's length), else "".
-/// Of words as near, the one that begins with more of its letters; then the one that stands first in `known`.
+/// The known word nearest to a misspelt one (Damerau-Levenshtein distance, at most a third of the word's length), else
+/// "". Of words as near, the one that begins with more of its letters; then the one that stands first in `known`.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 /// The hint that names it, or "".
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);

@@ -97,7 +97,8 @@ std::optional<std::vector<Argument>> keywords_of(const Dict& dict, const Span& o
   for (const Dict::Entry& entry : dict.entries()) {
     if (!entry.live) continue;
     if (!entry.key.is_text()) return std::nullopt;
-    Argument& keyword = keywords.emplace_back(Argument{entry.key.as_text(), otherwise, std::make_shared<const Value>(entry.value), otherwise});
+    Argument& keyword = keywords.emplace_back(
+        Argument{entry.key.as_text(), otherwise, std::make_shared<const Value>(entry.value), otherwise});
     if (!dict.factor) continue;
     const auto place = dict.factor->of_keywords.find(keyword.name);
     if (place == dict.factor->of_keywords.end()) continue;

@@ -58,7 +58,8 @@ class Dict {
   std::size_t live_ = 0;
 };
 
-/// A mapping of texts as keywords, each at its place in the file; what has none stands at `otherwise`. Nothing where a key is no text.
+/// A mapping of texts as keywords, each at its place in the file; what has none stands at `otherwise`. Nothing where a
+/// key is no text.
 std::optional<std::vector<Argument>> keywords_of(const Dict& dict, const Span& otherwise);
 
 }  // namespace comma::interpreter

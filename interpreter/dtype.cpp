@@ -56,9 +56,7 @@ std::optional<Value> DtypeObject::compared(Operator op, const Value& other) cons
   return Value((known_type(other) == type) == (op == Operator::equal));
 }
 
-Value dtype_value(NumberType type) {
-  return Value(std::shared_ptr<Object>(std::make_shared<DtypeObject>(type)));
-}
+Value dtype_value(NumberType type) { return Value(std::shared_ptr<Object>(std::make_shared<DtypeObject>(type))); }
 
 std::optional<NumberType> number_type_of(const Value& word) {
   if (word.is_none()) return std::nullopt;

@@ -86,9 +86,7 @@ std::size_t hash_real(double value) {
   return std::hash<double>{}(value);
 }
 
-std::size_t combine(std::size_t seed, std::size_t hash) {
-  return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL);
-}
+std::size_t combine(std::size_t seed, std::size_t hash) { return seed * 1000003 ^ (hash + 0x9E3779B97F4A7C15ULL); }
 
 std::size_t hash_at(const Value& value, int depth) {
   if (depth > deepest_compared) raise(ErrorKind::recursion, "maximum recursion depth exceeded in hash()");
@@ -120,12 +118,8 @@ std::size_t hash_at(const Value& value, int depth) {
 
 }  // namespace
 
-bool equal(const Value& a, const Value& b) {
-  return equal_at(a, b, 0);
-}
+bool equal(const Value& a, const Value& b) { return equal_at(a, b, 0); }
 
-std::size_t hash_of(const Value& value) {
-  return hash_at(value, 0);
-}
+std::size_t hash_of(const Value& value) { return hash_at(value, 0); }
 
 }  // namespace comma::interpreter

@@ -13,7 +13,11 @@
 namespace comma::interpreter {
 
 Evaluator::Evaluator(CommandHost& host, Diagnostics& diagnostics, OutputSink output, Limits limits)
-    : host_(host), diagnostics_(diagnostics), output_(std::move(output)), meter_(limits), home_(std::make_shared<FunctionHome>()) {
+    : host_(host),
+      diagnostics_(diagnostics),
+      output_(std::move(output)),
+      meter_(limits),
+      home_(std::make_shared<FunctionHome>()) {
   home_->evaluator = this;
 }
 
@@ -167,7 +171,8 @@ int Evaluator::line_of_later_definition(const NameNode& name) const {
   for (const StatementPtr& statement : tree_->statements) {
     if (statement->kind != StatementKind::assign || statement->begin <= name.begin) continue;
     for (const NodePtr& target : static_cast<const AssignStatement&>(*statement).targets) {
-      if (target->kind == NodeKind::name && static_cast<const NameNode&>(*target).id == name.id) return file_->position(statement->begin).line;
+      if (target->kind == NodeKind::name && static_cast<const NameNode&>(*target).id == name.id)
+        return file_->position(statement->begin).line;
     }
   }
   return 0;
@@ -190,9 +195,11 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   std::string hint = !near.empty() ? fmt::format("did you mean {}?", near) : "";
   if (math_value(word) != nullptr) hint = fmt::format("write 'from math import {}' before", word);
   if (!refusal.empty()) hint = refusal;
-  const bool in_capitals = std::ranges::all_of(word, [](unsigned char c) { return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_'; });
+  const bool in_capitals = std::ranges::all_of(
+      word, [](unsigned char c) { return std::isupper(c) != 0 || std::isdigit(c) != 0 || c == '_'; });
   if (hint.empty() && !called && in_capitals) hint = fmt::format("a text stands between quotes: '{}'", word);
-  if (const int line = line_of_later_definition(name); line > 0) hint = fmt::format("it is defined later, in line {}", line);
+  if (const int line = line_of_later_definition(name); line > 0)
+    hint = fmt::format("it is defined later, in line {}", line);
   const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
                                               : fmt::format("'{}' is not part of the command language", word);
   if (reported_names_.contains(word)) return Value::unknown();
@@ -204,7 +211,8 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   return Value::unknown();
 }
 
-/// A function that a running command calls changes nothing that waits: what binds variables of the file has run at once.
+/// A function that a running command calls changes nothing that waits: what binds variables of the file has run at
+/// once.
 void Evaluator::announce_binding(const NameNode& name) {
   if (guests_ == 0) host_.before_binding(name.id);
 }

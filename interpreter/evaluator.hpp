@@ -33,15 +33,15 @@ class Evaluator {
 
   /// Runs a file. Variables stay for the next one, as POURSUITE wants it.
   void run(const Ast& ast);
-  /// Runs another file from within one that runs, as if its statements stood at the place of the call (INCLUDE). The tree
-  /// must outlive the run.
+  /// Runs another file from within one that runs, as if its statements stood at the place of the call (INCLUDE). The
+  /// tree must outlive the run.
   void include(const Ast& ast);
   /// One expression; names are looked for with `lookup` first, then as everywhere: globals, builtins, commands, the
   /// names of `math`. Throws DiagnosticError.
   Value evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup);
 
-  /// What is wrong where the file ends itself with a status other than 0 or a text (sys.exit), since it started: what stands
-  /// before it counts, what stands after it has not been read.
+  /// What is wrong where the file ends itself with a status other than 0 or a text (sys.exit), since it started: what
+  /// stands before it counts, what stands after it has not been read.
   const std::optional<Diagnostic>& failed_exit() const { return failed_exit_; }
 
   /// A global variable, or null.
@@ -55,8 +55,8 @@ class Evaluator {
   Value attribute(const Value& object, const std::string& name);
   /// Whether a concept has a method or an attribute of this name; unknown while its data is not there.
   Value has_attribute(const ConceptPtr& handle, const std::string& name);
-  /// The same from outside of a run, for a function of the file (a formula calls it while the graph is executed). It can
-  /// then call no commands.
+  /// The same from outside of a run, for a function of the file (a formula calls it while the graph is executed). It
+  /// can then call no commands.
   static Value call_from_outside(const FunctionObject& function, const CallArguments& arguments);
   Meter& meter() { return meter_; }
   CommandHost& host() { return host_; }

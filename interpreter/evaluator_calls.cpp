@@ -133,7 +133,8 @@ namespace {
 
 /// What is not known has no text, within a list neither.
 bool holds_any_unknown(const CallArguments& arguments) {
-  return arguments.any_unknown() || std::ranges::any_of(arguments.positional, [](const Value& value) { return holds_unknown(value); });
+  return arguments.any_unknown() ||
+         std::ranges::any_of(arguments.positional, [](const Value& value) { return holds_unknown(value); });
 }
 
 }  // namespace
@@ -180,7 +181,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   }
   if (const auto* method = callee.as_object<ConceptMethod>()) {
     if (arguments.any_unknown()) return Value::unknown();
-    if (method->name == "getName" && arguments.size() == 0 && arguments.named.empty()) return Value(method->handle->name);
+    if (method->name == "getName" && arguments.size() == 0 && arguments.named.empty())
+      return Value(method->handle->name);
     if (arguments.size() == 0 && arguments.named.empty())
       if (ConceptPtr source = source_behind(*method->handle, method->name)) return Value(std::move(source));
     return with_host([&]() -> Value {
@@ -207,9 +209,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
   if (callee.is_concept()) {
     if (arguments.any_unknown()) return Value::unknown();
     const ConceptPtr& handle = callee.as_concept();
-    return with_host([&]() -> Value {
-      return host_.force(handle) ? handle->data->call(arguments.positional) : Value::unknown();
-    });
+    return with_host(
+        [&]() -> Value { return host_.force(handle) ? handle->data->call(arguments.positional) : Value::unknown(); });
   }
   raise(ErrorKind::type, fmt::format("'{}' object is not callable", callee.type_name()),
         callee.is_sequence() || callee.is_number() ? "is a comma or an operator missing before '('?" : "");
@@ -348,7 +349,8 @@ void Evaluator::bind_arguments(const FunctionObject& function, const CallArgumen
 
 Value Evaluator::call_from_outside(const FunctionObject& function, const CallArguments& arguments) {
   Evaluator* home = function.home ? function.home->evaluator : nullptr;
-  if (home == nullptr) raise(ErrorKind::runtime, fmt::format("{}() belongs to a file that has ended", function.code->name));
+  if (home == nullptr)
+    raise(ErrorKind::runtime, fmt::format("{}() belongs to a file that has ended", function.code->name));
   return home->call_guest(function, arguments);
 }
 
@@ -382,7 +384,8 @@ Value Evaluator::call_function(const FunctionObject& function, const CallArgumen
   frame->slots.resize(function.code->slots.size());
   bind_arguments(function, arguments, *frame);
   struct Scope {
-    Scope(Evaluator& owner, const Span& place) : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_), placed(place) {
+    Scope(Evaluator& owner, const Span& place)
+        : self(owner), frame(owner.frame_), file(owner.file_), code(owner.code_), placed(place) {
       ++self.calls_;
       if (placed) self.diagnostics_.open_call(place);
     }

@@ -51,7 +51,8 @@ Value Evaluator::evaluate_node(const Node& node) {
     case NodeKind::unary: {
       const auto& unary = static_cast<const UnaryNode&>(node);
       const Value operand = evaluate(*unary.operand);
-      if (unary.op == Operator::minus && operand.is_concept()) return concept_operation(Operator::multiply, operand, Value(-1.0));
+      if (unary.op == Operator::minus && operand.is_concept())
+        return concept_operation(Operator::multiply, operand, Value(-1.0));
       return unary_operation(unary.op, operand);
     }
     case NodeKind::binary: {
@@ -169,12 +170,11 @@ Value Evaluator::evaluate_conditional(const ConditionalNode& node) {
   return evaluate(truth(condition) ? *node.then : *node.otherwise);
 }
 
-Value Evaluator::evaluate_lambda(const LambdaNode& node) {
-  return make_function(node.code, node.defaults);
-}
+Value Evaluator::evaluate_lambda(const LambdaNode& node) { return make_function(node.code, node.defaults); }
 
 Value Evaluator::augmented(Operator op, const Value& before, const Value& value) {
-  return combines_concepts(before, value) ? concept_operation(op, before, value) : augmented_operation(op, before, value, meter_);
+  return combines_concepts(before, value) ? concept_operation(op, before, value)
+                                          : augmented_operation(op, before, value, meter_);
 }
 
 /// Of concepts, and of one and a number: what comes of it has no command that makes it.
@@ -200,7 +200,8 @@ Value Evaluator::concept_operation(Operator op, const Value& left, const Value& 
 Value Evaluator::evaluate_name(const NameNode& node) {
   Value value = load(node);
   // What lies in an absent module is used by its name alone; of the module itself, the part behind the dot is.
-  if (auto* thing = value.as_object<AbsentObject>(); thing != nullptr && !thing->is_module) return use_absent(*thing, thing->path);
+  if (auto* thing = value.as_object<AbsentObject>(); thing != nullptr && !thing->is_module)
+    return use_absent(*thing, thing->path);
   return value;
 }
 
@@ -221,14 +222,10 @@ Value Evaluator::evaluate_subscript(const SubscriptNode& node) {
   if (!object.is_concept()) return item(object, index);
   if (index.is_unknown()) return index;
   const ConceptPtr& handle = object.as_concept();
-  return with_host([&]() -> Value {
-    return host_.force(handle) ? handle->data->subscript(index) : Value::unknown();
-  });
+  return with_host([&]() -> Value { return host_.force(handle) ? handle->data->subscript(index) : Value::unknown(); });
 }
 
-Value Evaluator::evaluate_or_none(const NodePtr& node) {
-  return node ? evaluate(*node) : Value();
-}
+Value Evaluator::evaluate_or_none(const NodePtr& node) { return node ? evaluate(*node) : Value(); }
 
 Value Evaluator::evaluate_slice(const SliceNode& node) {
   auto slice = std::make_shared<SliceObject>();

@@ -16,9 +16,7 @@ namespace comma::interpreter {
 
 namespace {
 
-Value module_value(const std::shared_ptr<ModuleObject>& module) {
-  return Value(std::shared_ptr<Object>(module));
-}
+Value module_value(const std::shared_ptr<ModuleObject>& module) { return Value(std::shared_ptr<Object>(module)); }
 
 std::optional<Value> exception_attribute(const ExceptionObject& error, std::string_view name) {
   if (name == "args") return Value::tuple(error.arguments);
@@ -61,7 +59,8 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
     if (const auto* function = value.as_object<FunctionObject>()) return Value(function->code->name);
     if (const auto* function = value.as_object<BuiltinObject>()) return Value(function->name);
   }
-  if (const auto* function = value.as_object<BuiltinObject>(); function != nullptr && function->name == "chain" && name == "from_iterable")
+  if (const auto* function = value.as_object<BuiltinObject>();
+      function != nullptr && function->name == "chain" && name == "from_iterable")
     return Value(std::shared_ptr<Object>(std::make_shared<BuiltinObject>("from_iterable", chain_of)));
   if (const auto* range = value.as_object<RangeObject>()) {
     if (name == "start") return Value(range->start);
@@ -72,7 +71,9 @@ std::optional<Value> data_attribute(const Value& value, std::string_view name) {
 }
 
 /// What every concept has, whatever its data.
-bool is_common_attribute(std::string_view name) { return name == "name" || name == "nom" || name == "userName" || name == "getName"; }
+bool is_common_attribute(std::string_view name) {
+  return name == "name" || name == "nom" || name == "userName" || name == "getName";
+}
 
 /// type(e).__name__ works for every value: what type() gives is a TypeObject or an exception class.
 Value type_attribute_owner(const TypeObject& type) {
@@ -115,7 +116,8 @@ Value Evaluator::attribute(const Value& object, const std::string& name) {
   }
   if (const auto* foreign = object.as_object<HostObject>()) {
     if (auto value = foreign->attribute(name)) return *value;
-    raise(ErrorKind::attribute, fmt::format("'{}' object has no attribute '{}'", object.type_name(), name), did_you_mean(name, foreign->attribute_names()));
+    raise(ErrorKind::attribute, fmt::format("'{}' object has no attribute '{}'", object.type_name(), name),
+          did_you_mean(name, foreign->attribute_names()));
   }
   if (auto value = data_attribute(object, name)) return *value;
   if (const Method method = find_method(object, name)) {
@@ -140,9 +142,12 @@ std::string_view reason_of(std::string_view module) {
   const std::string_view first = module.substr(0, module.find('.'));
   for (const std::string_view clock : {"time", "datetime", "timeit"})
     if (first == clock) return "a command file knows no clock";
-  for (const std::string_view outside : {"subprocess", "shutil", "glob", "pathlib", "tempfile", "socket", "pickle", "io"})
-    if (first == outside) return "a command file reaches no file, process or network: use LIRE_*, IMPR_* and the units of the .export";
-  return "a command file may import math, numpy (a part), copy, itertools, functools, operator, collections, string, and the modules of code_aster";
+  for (const std::string_view outside :
+       {"subprocess", "shutil", "glob", "pathlib", "tempfile", "socket", "pickle", "io"})
+    if (first == outside)
+      return "a command file reaches no file, process or network: use LIRE_*, IMPR_* and the units of the .export";
+  return "a command file may import math, numpy (a part), copy, itertools, functools, operator, collections, string, "
+         "and the modules of code_aster";
 }
 
 std::shared_ptr<ExceptionObject> no_module(const std::string& path, const Span& span) {
@@ -164,7 +169,8 @@ Value Evaluator::absent(std::string path, bool whole, std::shared_ptr<ExceptionO
 Value Evaluator::use_absent(AbsentObject& thing, const std::string& path) {
   if (recovering() && std::exchange(thing.told, true)) return Value::unknown();
   auto error = std::make_shared<ExceptionObject>(*thing.error);
-  if (error->kind == ErrorKind::module_not_found) error->arguments = {Value(fmt::format("{} cannot be used: {}", path, thing.error->text()))};
+  if (error->kind == ErrorKind::module_not_found)
+    error->arguments = {Value(fmt::format("{} cannot be used: {}", path, thing.error->text()))};
   error->span = Span();
   throw RaisedError(std::move(error));
 }
@@ -184,14 +190,16 @@ void Evaluator::execute_import(const ImportStatement& statement) {
   }
 }
 
-Value Evaluator::import_member(const Value& module, const ImportStatement& statement, const ImportStatement::Item& item) {
+Value Evaluator::import_member(const Value& module, const ImportStatement& statement,
+                               const ImportStatement::Item& item) {
   const std::string path = statement.module + "." + item.path;
   if (const auto* missing = module.as_object<AbsentObject>()) return absent(path, false, missing->error);
   try {
     return attribute(module, item.path);
   } catch (const RaisedError& error) {
-    auto refused = make_exception(ErrorKind::import, fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
-                                  error.object()->hint);
+    auto refused =
+        make_exception(ErrorKind::import, fmt::format("cannot import name '{}' from '{}'", item.path, statement.module),
+                       error.object()->hint);
     refused->span = span_of(item.begin, item.end);
     return absent(path, false, std::move(refused));
   }

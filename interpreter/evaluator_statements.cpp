@@ -130,8 +130,8 @@ void Evaluator::forget_bound(const Statement& statement) {
   }
 }
 
-/// What could not be read is only forgotten. It ends a function, whose exit it may have been, and after this turn the loop
-/// around it: both might go on for ever without it.
+/// What could not be read is only forgotten. It ends a function, whose exit it may have been, and after this turn the
+/// loop around it: both might go on for ever without it.
 Evaluator::Flow Evaluator::execute_broken(const BrokenStatement& statement) {
   ++failures_;
   names_lost_ = names_lost_ || statement.loses_any_name;
@@ -154,7 +154,8 @@ Evaluator::Flow Evaluator::skip_unknown(const Statement& statement) {
 
 void Evaluator::execute_assign(const AssignStatement& statement) {
   if (!statement.value) return;
-  const bool names_product = statement.value->kind == NodeKind::call && statement.targets.size() == 1 && statement.targets[0]->kind == NodeKind::name;
+  const bool names_product = statement.value->kind == NodeKind::call && statement.targets.size() == 1 &&
+                             statement.targets[0]->kind == NodeKind::name;
   if (names_product) target_ = static_cast<const NameNode&>(*statement.targets[0]).id;
   try {
     const Value value = evaluate(*statement.value);
@@ -298,7 +299,8 @@ Evaluator::Flow Evaluator::execute_with(const WithStatement& statement) {
   if (manager.is_unknown()) return skip_unknown(statement);
   auto* claim = manager.as_object<ExpectedError>();
   if (claim == nullptr) {
-    raise(ErrorKind::not_implemented, fmt::format("'with' takes test.assertRaises(...) alone, not '{}'", manager.type_name()),
+    raise(ErrorKind::not_implemented,
+          fmt::format("'with' takes test.assertRaises(...) alone, not '{}'", manager.type_name()),
           "files are declared in the .export and read by commands");
   }
   if (statement.target) assign(*statement.target, manager);

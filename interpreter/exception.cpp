@@ -62,9 +62,7 @@ std::vector<Value> one_text(std::string message) {
 
 }  // namespace
 
-const ErrorClass& class_of(ErrorKind kind) {
-  return classes[static_cast<std::size_t>(kind)];
-}
+const ErrorClass& class_of(ErrorKind kind) { return classes[static_cast<std::size_t>(kind)]; }
 
 bool is_subclass(ErrorKind kind, ErrorKind ancestor) {
   while (kind != ancestor) {
@@ -75,7 +73,8 @@ bool is_subclass(ErrorKind kind, ErrorKind ancestor) {
 }
 
 ErrorKind kind_of_failure(std::string_view code) {
-  if (code == "no-convergence" || code == "increment-too-large" || code.substr(0, 9) == "residual-") return ErrorKind::convergence;
+  if (code == "no-convergence" || code == "increment-too-large" || code.substr(0, 9) == "residual-")
+    return ErrorKind::convergence;
   if (code.substr(0, 8) == "contact-") return ErrorKind::contact;
   if (code == "singular-matrix") return ErrorKind::solver;
   if (code == "time-limit") return ErrorKind::time_limit;
@@ -121,25 +120,31 @@ Diagnostic ExceptionObject::diagnostic() const {
 
 std::optional<Diagnostic> failure_of_exit(const ExceptionObject& exit) {
   const Value status = exit.arguments.empty() ? Value() : exit.arguments[0];
-  if (status.is_none() || (status.is_bool() && !status.as_bool()) || (status.is_integer() && status.as_integer() == 0)) return std::nullopt;
+  if (status.is_none() || (status.is_bool() && !status.as_bool()) || (status.is_integer() && status.as_integer() == 0))
+    return std::nullopt;
   const bool is_text = status.is_text();
-  return Diagnostic{Severity::error, std::string(class_of(exit.kind).code),
-                    is_text ? "the file ends itself: " + status.as_text() : fmt::format("the file ends itself with status {}", status.repr()),
-                    "what stands after this has not been run", exit.span, exit.called_from};
+  return Diagnostic{Severity::error,
+                    std::string(class_of(exit.kind).code),
+                    is_text ? "the file ends itself: " + status.as_text()
+                            : fmt::format("the file ends itself with status {}", status.repr()),
+                    "what stands after this has not been run",
+                    exit.span,
+                    exit.called_from};
 }
 
 bool catches(const Value& classes, const ExceptionObject& error) {
-  const std::vector<Value> each = classes.is_tuple() ? std::vector<Value>(classes.items().begin(), classes.items().end()) : std::vector<Value>{classes};
+  const std::vector<Value> each = classes.is_tuple()
+                                      ? std::vector<Value>(classes.items().begin(), classes.items().end())
+                                      : std::vector<Value>{classes};
   return std::any_of(each.begin(), each.end(), [&](const Value& candidate) {
     const auto* wanted = candidate.as_object<ExceptionClassObject>();
-    if (wanted == nullptr) raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
+    if (wanted == nullptr)
+      raise(ErrorKind::type, "catching classes that do not inherit from BaseException is not allowed");
     return is_subclass(error.kind, wanted->kind);
   });
 }
 
-std::string ExceptionClassObject::repr() const {
-  return fmt::format("<class '{}'>", class_of(kind).name);
-}
+std::string ExceptionClassObject::repr() const { return fmt::format("<class '{}'>", class_of(kind).name); }
 
 std::shared_ptr<ExceptionObject> make_exception(ErrorKind kind, std::string message, std::string hint) {
   auto object = std::make_shared<ExceptionObject>();

@@ -63,7 +63,8 @@ struct ErrorClass {
 const ErrorClass& class_of(ErrorKind kind);
 bool is_subclass(ErrorKind kind, ErrorKind ancestor);
 /// The class that a command's failure belongs to, by the code of its diagnostic: "no-convergence" is a
-/// ConvergenceError, "contact-..." a ContactError, "singular-matrix" a SolverError, "key-error" (what a table lacks) a KeyError, all others an AsterError.
+/// ConvergenceError, "contact-..." a ContactError, "singular-matrix" a SolverError, "key-error" (what a table lacks) a
+/// KeyError, all others an AsterError.
 ErrorKind kind_of_failure(std::string_view code);
 
 /// An exception, raised or not.

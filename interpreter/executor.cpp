@@ -11,7 +11,8 @@ namespace comma::interpreter {
 namespace {
 
 bool is_preparation(const CommandNode& node) {
-  return node.cost == Cost::cheap && (node.role == Role::value || node.role == Role::naming || node.role == Role::setup);
+  return node.cost == Cost::cheap &&
+         (node.role == Role::value || node.role == Role::naming || node.role == Role::setup);
 }
 
 /// Whether what `source` made can be read.
@@ -22,7 +23,9 @@ bool is_readable(const CommandNode& source) {
 
 /// Of a command that reads what one that was left out would have written.
 Diagnostic not_computed(const CommandNode& left_out, const CommandNode& reader) {
-  return {Severity::error, "not-computed", fmt::format("{} reads what {} (line {}) was to write or name, which comma has left out", reader.call.command, left_out.call.command, line_of(left_out)),
+  return {Severity::error, "not-computed",
+          fmt::format("{} reads what {} (line {}) was to write or name, which comma has left out", reader.call.command,
+                      left_out.call.command, line_of(left_out)),
           "see the alarm there", reader.call.span};
 }
 
@@ -48,14 +51,18 @@ bool Executor::report_errors(const Act& act, Severity unsupported) {
 }
 
 bool Executor::is_to_prepare(const CommandNode& node) const {
-  return preparations_ != nullptr && preparations_->contains(node.call.command) && !node.caught && is_in_turn(node) && can_run(node);
+  return preparations_ != nullptr && preparations_->contains(node.call.command) && !node.caught && is_in_turn(node) &&
+         can_run(node);
 }
 
 void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) {
   const auto needs = graph_.needs();
   const Severity unsupported = nothing_more ? Severity::alarm : Severity::error;
-  const auto solves = [](const CommandNode& node) { return node.state == NodeState::waiting && node.cost == Cost::solve; };
-  const bool prepares = nothing_more || std::ranges::count_if(graph_.nodes(), solves) > 1;  // one alone runs next, and tells the same itself
+  const auto solves = [](const CommandNode& node) {
+    return node.state == NodeState::waiting && node.cost == Cost::solve;
+  };
+  const bool prepares = nothing_more || std::ranges::count_if(graph_.nodes(), solves) >
+                                            1;  // one alone runs next, and tells the same itself
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
     const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
@@ -149,9 +156,7 @@ bool Executor::is_cheap(int id) const {
   });
 }
 
-void Executor::forgive(int id) {
-  graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true;
-}
+void Executor::forgive(int id) { graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true; }
 
 void Executor::run(CommandNode& node) {
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);

@@ -18,8 +18,8 @@ namespace comma::interpreter {
 using CommandFunction = std::function<std::shared_ptr<ConceptData>(const Call&)>;
 using CommandTable = std::map<std::string, CommandFunction, std::less<>>;
 
-/// Whether a call may go on, as far as that depends on what the calls before it made: whether the groups it names exist.
-/// Reports what is wrong.
+/// Whether a call may go on, as far as that depends on what the calls before it made: whether the groups it names
+/// exist. Reports what is wrong.
 using CallCheck = std::function<bool(const CommandNode&)>;
 
 class Executor {
@@ -30,10 +30,12 @@ class Executor {
   /// Runs what is cheap, makes no output, gives no verdict, and waits for nothing that is not: meshes, groups, models,
   /// loads. Their errors are those that a check can find before anything is solved. Every call, also one that will not
   /// run now, goes through `check` (unless it is empty) when its turn in the file has come; one that is wrong counts as
-  /// failed. What solves is prepared, if it waits for nothing that solves. `nothing_more`: what is not cheap will never run, so nothing waits for it.
+  /// failed. What solves is prepared, if it waits for nothing that solves. `nothing_more`: what is not cheap will never
+  /// run, so nothing waits for it.
   void run_cheap(Need least, bool nothing_more, const CallCheck& check);
 
-  /// What of commands that solve can go wrong before they do: called like them, for its errors alone. `preparations` must outlive the executor.
+  /// What of commands that solve can go wrong before they do: called like them, for its errors alone. `preparations`
+  /// must outlive the executor.
   void prepare_with(const CommandTable& preparations) { preparations_ = &preparations; }
 
   /// Runs all nodes that are needed at least so much. A failing node is reported and stops those that build on it; the
@@ -62,7 +64,8 @@ class Executor {
   void run_reporting(CommandNode& node);
   /// Whether its failure has been reported, and is none that the file deals with.
   static bool is_reported(const CommandNode& node) { return node.state == NodeState::failed && !node.caught; }
-  /// `unsupported`: how grave it is that comma cannot do what a node asks. Returns whether what failed has been told as an alarm alone.
+  /// `unsupported`: how grave it is that comma cannot do what a node asks. Returns whether what failed has been told as
+  /// an alarm alone.
   template <typename Act>
   bool report_errors(const Act& act, Severity unsupported);
   /// Whether there is something to prepare now.

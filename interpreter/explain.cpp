@@ -157,7 +157,8 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
 [[noreturn]] void throw_unknown_keyword(const std::string& level, const LevelPage& page, std::string_view name) {
   std::vector<std::string> known;
   for (const Place& place : places_of(page)) known.push_back(place.keyword->name);
-  throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {}, did_you_mean(name, known));
+  throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {},
+                        did_you_mean(name, known));
 }
 
 /// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once

@@ -56,7 +56,8 @@ std::optional<Expression> read_expression(const Argument& argument, Diagnostics&
   } catch (const DiagnosticError& error) {
     const Diagnostic& found = error.diagnostic();
     const int column = found.span ? found.span.file->position(found.span.begin).column : 1;
-    diagnostics.error("syntax", fmt::format("{}, at character {} of the expression: {}", argument.name, column, found.message),
+    diagnostics.error("syntax",
+                      fmt::format("{}, at character {} of the expression: {}", argument.name, column, found.message),
                       argument.value_span, found.hint);
     return std::nullopt;
   }
@@ -83,15 +84,18 @@ class Binder {
     if (own_.contains(name) || !call_.scope) return true;
     if (auto value = call_.scope(name)) {
       own_.insert(name);
-      call_.arguments.push_back({name, argument.value_span, std::make_shared<const Value>(std::move(*value)), argument.value_span});
+      call_.arguments.push_back(
+          {name, argument.value_span, std::make_shared<const Value>(std::move(*value)), argument.value_span});
       return true;
     }
     if (builtin_value(name) != nullptr || math_value(name) != nullptr) return true;
     if (!judges_names_) return true;  // that a keyword is missing or wrong is told by the syntax
     own_.insert(name);
     const std::string near = nearest(name, {own_.begin(), own_.end()});
-    diagnostics_.error("unknown-name", fmt::format("{} uses {}, which is neither a parameter nor defined before this line", argument.name, name),
-                       argument.value_span, near.empty() || near == name ? "" : fmt::format("did you mean {}?", near));
+    diagnostics_.error(
+        "unknown-name",
+        fmt::format("{} uses {}, which is neither a parameter nor defined before this line", argument.name, name),
+        argument.value_span, near.empty() || near == name ? "" : fmt::format("did you mean {}?", near));
     return false;
   }
 

@@ -7,7 +7,8 @@
 
 namespace comma::interpreter {
 
-/// Whether Code_Aster has, or once had, a command of this name, and the catalogue has no page of it (the index of the manuals U4 and U7).
+/// Whether Code_Aster has, or once had, a command of this name, and the catalogue has no page of it (the index of the
+/// manuals U4 and U7).
 bool is_foreign_command(std::string_view name);
 
 /// What is to be told of a command without a page.

@@ -32,9 +32,7 @@ struct Spec {
   char type = 0;
 };
 
-bool is_align(char c) {
-  return c == '<' || c == '>' || c == '^' || c == '=';
-}
+bool is_align(char c) { return c == '<' || c == '>' || c == '^' || c == '='; }
 
 int read_number(std::string_view spec, std::size_t& at) {
   int number = -1;

@@ -114,7 +114,9 @@ class PercentFormatter {
   std::string body(const Value& value, char type, const std::string& flags, int precision) {
     if (type == 's' || type == 'r' || type == 'a') {
       const Value shown = type == 's' ? Value(text_of(value)) : convert_value(value, type);
-      return precision < 0 || precision > widest_legacy_field ? shown.as_text() : format_value(shown, "." + std::to_string(precision), meter_);
+      return precision < 0 || precision > widest_legacy_field
+                 ? shown.as_text()
+                 : format_value(shown, "." + std::to_string(precision), meter_);
     }
     if (type == 'c') return character(value);
     if (std::string_view("eEfFgG").find(type) != std::string_view::npos) return real(value, type, flags, precision);

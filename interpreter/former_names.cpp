@@ -8,22 +8,28 @@ namespace {
 
 using Key = std::pair<std::string_view, std::string_view>;
 
-constexpr std::string_view in_behaviour = "it belongs to COMPORTEMENT now", in_list = "DEFI_LIST_INST cuts steps now: give its list as LIST_INST",
-                           in_contact = "DEFI_CONTACT says this now, and CONTACT= of STAT_NON_LINE takes it", leave_out = "leave it out: it is not needed any more";
+constexpr std::string_view in_behaviour = "it belongs to COMPORTEMENT now",
+                           in_list = "DEFI_LIST_INST cuts steps now: give its list as LIST_INST",
+                           in_contact = "DEFI_CONTACT says this now, and CONTACT= of STAT_NON_LINE takes it",
+                           leave_out = "leave it out: it is not needed any more";
 
 const std::map<Key, std::string_view>& keywords() {
   static const std::map<Key, std::string_view> table = {
       {{"AFFE_CHAR_MECA", "CONTACT"}, in_contact},
       {{"AFFE_CHAR_MECA_F", "CONTACT"}, in_contact},
-      {{"AFFE_CHAR_MECA", "LIAISON_UNILATER"}, "DEFI_CONTACT(FORMULATION='LIAISON_UNIL') bounds displacements now, and CONTACT= of STAT_NON_LINE takes it"},
-      {{"AFFE_CHAR_MECA_F", "LIAISON_UNILATER"}, "DEFI_CONTACT(FORMULATION='LIAISON_UNIL') bounds displacements now, and CONTACT= of STAT_NON_LINE takes it"},
+      {{"AFFE_CHAR_MECA", "LIAISON_UNILATER"},
+       "DEFI_CONTACT(FORMULATION='LIAISON_UNIL') bounds displacements now, and CONTACT= of STAT_NON_LINE takes it"},
+      {{"AFFE_CHAR_MECA_F", "LIAISON_UNILATER"},
+       "DEFI_CONTACT(FORMULATION='LIAISON_UNIL') bounds displacements now, and CONTACT= of STAT_NON_LINE takes it"},
       {{"AFFE_CHAR_MECA", "TEMP_CALCULEE"}, "AFFE_VARC of AFFE_MATERIAU gives temperatures now"},
       {{"AFFE_CHAR_MECA", "EPSA_CALCULEE"}, "AFFE_VARC of AFFE_MATERIAU gives such strains now"},
       {{"AFFE_MODELE", "PARTITION"}, "leave it out: comma does not divide models among processors"},
       {{"MODI_MAILLAGE", "MODELE"}, leave_out},
       {{"IMPR_RESU/RESU", "VERI_DOM"}, leave_out},
-      {{"CALC_CHAMP", "OPTION"}, "CONTRAINTE, DEFORMATION, ENERGIE, CRITERES, VARI_INTERNE, PROPRIETES and FORCE name the fields now"},
-      {{"POST_RELEVE_T/ACTION", "CHEMIN"}, "GROUP_NO names the nodes of the line now: DEFI_GROUP finds them (OPTION='SEGM_DROI_ORDO')"},
+      {{"CALC_CHAMP", "OPTION"},
+       "CONTRAINTE, DEFORMATION, ENERGIE, CRITERES, VARI_INTERNE, PROPRIETES and FORCE name the fields now"},
+      {{"POST_RELEVE_T/ACTION", "CHEMIN"},
+       "GROUP_NO names the nodes of the line now: DEFI_GROUP finds them (OPTION='SEGM_DROI_ORDO')"},
       {{"STAT_NON_LINE", "PARM_THETA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "RESI_INTE_RELA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "ITER_INTE_MAXI"}, in_behaviour},

@@ -1,6 +1,6 @@
-// FORMULE's expression: real parameters in, a real number out, millions of times. It is compiled once into a flat program
-// over doubles (formula_program.hpp); where the program meets something that is not plain, the tree of the expression is
-// walked with the language's own arithmetic, which gives the value or the error that Python would give.
+// FORMULE's expression: real parameters in, a real number out, millions of times. It is compiled once into a flat
+// program over doubles (formula_program.hpp); where the program meets something that is not plain, the tree of the
+// expression is walked with the language's own arithmetic, which gives the value or the error that Python would give.
 #pragma once
 
 #include <span>
@@ -22,8 +22,8 @@ class Formula : public RealFunction {
   Formula(std::string text, std::vector<std::string> parameters, FormulaBindings bindings = {},
           std::string origin = "<formula>");
 
-  /// As many arguments as parameters. Throws DiagnosticError (`zero-division`, `value-error`, `type-error` ...; `not-real`
-  /// when the value is no real number) with a span in the text.
+  /// As many arguments as parameters. Throws DiagnosticError (`zero-division`, `value-error`, `type-error` ...;
+  /// `not-real` when the value is no real number) with a span in the text.
   double evaluate(std::span<const double> arguments) const override;
   double operator()(std::span<const double> arguments) const { return evaluate(arguments); }
 

@@ -36,18 +36,19 @@ using Unary = FormulaInstruction::Unary;
 using Binary = FormulaInstruction::Binary;
 
 constexpr std::array<std::pair<std::string_view, Unary>, 34> unary_functions{{
-    {"sin", std::sin},       {"cos", std::cos},       {"tan", std::tan},       {"asin", std::asin},
-    {"acos", std::acos},     {"atan", std::atan},     {"sinh", std::sinh},     {"cosh", std::cosh},
-    {"tanh", std::tanh},     {"asinh", std::asinh},   {"acosh", std::acosh},   {"atanh", std::atanh},
-    {"exp", std::exp},       {"exp2", std::exp2},     {"expm1", std::expm1},   {"log1p", std::log1p},
-    {"log", std::log},       {"log2", std::log2},     {"log10", std::log10},   {"sqrt", std::sqrt},
-    {"cbrt", std::cbrt},     {"fabs", std::fabs},     {"abs", std::fabs},      {"absolute", std::fabs},
-    {"floor", floor_of},     {"ceil", ceil_of},       {"trunc", truncated},    {"degrees", degrees},
-    {"radians", radians},    {"erf", std::erf},       {"erfc", std::erfc},     {"arcsin", std::asin},
-    {"arccos", std::acos},   {"arctan", std::atan},
+    {"sin", std::sin},     {"cos", std::cos},     {"tan", std::tan},     {"asin", std::asin},     {"acos", std::acos},
+    {"atan", std::atan},   {"sinh", std::sinh},   {"cosh", std::cosh},   {"tanh", std::tanh},     {"asinh", std::asinh},
+    {"acosh", std::acosh}, {"atanh", std::atanh}, {"exp", std::exp},     {"exp2", std::exp2},     {"expm1", std::expm1},
+    {"log1p", std::log1p}, {"log", std::log},     {"log2", std::log2},   {"log10", std::log10},   {"sqrt", std::sqrt},
+    {"cbrt", std::cbrt},   {"fabs", std::fabs},   {"abs", std::fabs},    {"absolute", std::fabs}, {"floor", floor_of},
+    {"ceil", ceil_of},     {"trunc", truncated},  {"degrees", degrees},  {"radians", radians},    {"erf", std::erf},
+    {"erfc", std::erfc},   {"arcsin", std::asin}, {"arccos", std::acos}, {"arctan", std::atan},
 }};
 constexpr std::array<std::pair<std::string_view, Binary>, 4> binary_functions{{
-    {"atan2", std::atan2}, {"hypot", std::hypot}, {"pow", std::pow}, {"copysign", std::copysign},
+    {"atan2", std::atan2},
+    {"hypot", std::hypot},
+    {"pow", std::pow},
+    {"copysign", std::copysign},
 }};
 
 template <class Table>
@@ -61,12 +62,15 @@ std::optional<std::vector<const Node*>> parts_of(const Node& node) {
   std::vector<const Node*> parts;
   switch (node.kind) {
     case NodeKind::constant:
-    case NodeKind::name: break;
+    case NodeKind::name:
+      break;
     case NodeKind::tuple:
     case NodeKind::list:
       for (const NodePtr& item : static_cast<const SequenceNode&>(node).items) parts.push_back(item.get());
       break;
-    case NodeKind::unary: parts = {static_cast<const UnaryNode&>(node).operand.get()}; break;
+    case NodeKind::unary:
+      parts = {static_cast<const UnaryNode&>(node).operand.get()};
+      break;
     case NodeKind::binary: {
       const auto& binary = static_cast<const BinaryNode&>(node);
       parts = {binary.left.get(), binary.right.get()};
@@ -92,13 +96,16 @@ std::optional<std::vector<const Node*>> parts_of(const Node& node) {
       for (const CallNode::Item& item : call.arguments) parts.push_back(item.value.get());
       break;
     }
-    case NodeKind::attribute: parts = {static_cast<const AttributeNode&>(node).object.get()}; break;
+    case NodeKind::attribute:
+      parts = {static_cast<const AttributeNode&>(node).object.get()};
+      break;
     case NodeKind::subscript: {
       const auto& subscript = static_cast<const SubscriptNode&>(node);
       parts = {subscript.object.get(), subscript.index.get()};
       break;
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
   return parts;
 }
@@ -122,14 +129,22 @@ class Compiler {
   Gives compile(const Node& node) {
     if (is_constant(node)) return push(folded(node));
     switch (node.kind) {
-      case NodeKind::name: return compile_argument(static_cast<const NameNode&>(node));
-      case NodeKind::unary: return compile_unary(static_cast<const UnaryNode&>(node));
-      case NodeKind::binary: return compile_binary(static_cast<const BinaryNode&>(node));
-      case NodeKind::logical: return compile_logical(static_cast<const LogicalNode&>(node));
-      case NodeKind::compare: return compile_compare(static_cast<const CompareNode&>(node));
-      case NodeKind::conditional: return compile_conditional(static_cast<const ConditionalNode&>(node));
-      case NodeKind::call: return compile_call(static_cast<const CallNode&>(node));
-      default: throw Unsuitable();
+      case NodeKind::name:
+        return compile_argument(static_cast<const NameNode&>(node));
+      case NodeKind::unary:
+        return compile_unary(static_cast<const UnaryNode&>(node));
+      case NodeKind::binary:
+        return compile_binary(static_cast<const BinaryNode&>(node));
+      case NodeKind::logical:
+        return compile_logical(static_cast<const LogicalNode&>(node));
+      case NodeKind::compare:
+        return compile_compare(static_cast<const CompareNode&>(node));
+      case NodeKind::conditional:
+        return compile_conditional(static_cast<const ConditionalNode&>(node));
+      case NodeKind::call:
+        return compile_call(static_cast<const CallNode&>(node));
+      default:
+        throw Unsuitable();
     }
   }
 
@@ -138,8 +153,8 @@ class Compiler {
     return found == parameters_.end() ? -1 : static_cast<int>(found - parameters_.begin());
   }
 
-  /// Neither a parameter nor what may change occurs: a function of the file may count its calls, or read a variable that is
-  /// set later.
+  /// Neither a parameter nor what may change occurs: a function of the file may count its calls, or read a variable
+  /// that is set later.
   bool is_constant(const Node& node) const {
     if (node.kind == NodeKind::name) {
       const auto& name = static_cast<const NameNode&>(node);
@@ -198,7 +213,9 @@ class Compiler {
     return program_.instructions.size() - 1;
   }
 
-  void land(std::size_t jump) { program_.instructions[jump].index = static_cast<std::uint32_t>(program_.instructions.size()); }
+  void land(std::size_t jump) {
+    program_.instructions[jump].index = static_cast<std::uint32_t>(program_.instructions.size());
+  }
 
   Gives compile_argument(const NameNode& name) {
     const int index = parameter(name.id);
@@ -230,14 +247,29 @@ class Compiler {
 
   void emit_arithmetic(Operator op) {
     switch (op) {
-      case Operator::add: emit(FormulaOp::add, -1); break;
-      case Operator::subtract: emit(FormulaOp::subtract, -1); break;
-      case Operator::multiply: emit(FormulaOp::multiply, -1); break;
-      case Operator::divide: emit(FormulaOp::divide, -1); break;
-      case Operator::floor_divide: emit(FormulaOp::floor_divide, -1); break;
-      case Operator::modulo: emit(FormulaOp::modulo, -1); break;
-      case Operator::power: emit(FormulaOp::power, -1); break;
-      default: throw Unsuitable();
+      case Operator::add:
+        emit(FormulaOp::add, -1);
+        break;
+      case Operator::subtract:
+        emit(FormulaOp::subtract, -1);
+        break;
+      case Operator::multiply:
+        emit(FormulaOp::multiply, -1);
+        break;
+      case Operator::divide:
+        emit(FormulaOp::divide, -1);
+        break;
+      case Operator::floor_divide:
+        emit(FormulaOp::floor_divide, -1);
+        break;
+      case Operator::modulo:
+        emit(FormulaOp::modulo, -1);
+        break;
+      case Operator::power:
+        emit(FormulaOp::power, -1);
+        break;
+      default:
+        throw Unsuitable();
     }
   }
 
@@ -245,13 +277,26 @@ class Compiler {
     compile(left);
     compile(right);
     switch (op) {
-      case Operator::less: emit(FormulaOp::less, -1); break;
-      case Operator::less_equal: emit(FormulaOp::less_equal, -1); break;
-      case Operator::greater: emit(FormulaOp::greater, -1); break;
-      case Operator::greater_equal: emit(FormulaOp::greater_equal, -1); break;
-      case Operator::equal: emit(FormulaOp::equal, -1); break;
-      case Operator::not_equal: emit(FormulaOp::not_equal, -1); break;
-      default: throw Unsuitable();
+      case Operator::less:
+        emit(FormulaOp::less, -1);
+        break;
+      case Operator::less_equal:
+        emit(FormulaOp::less_equal, -1);
+        break;
+      case Operator::greater:
+        emit(FormulaOp::greater, -1);
+        break;
+      case Operator::greater_equal:
+        emit(FormulaOp::greater_equal, -1);
+        break;
+      case Operator::equal:
+        emit(FormulaOp::equal, -1);
+        break;
+      case Operator::not_equal:
+        emit(FormulaOp::not_equal, -1);
+        break;
+      default:
+        throw Unsuitable();
     }
   }
 
@@ -323,9 +368,11 @@ class Compiler {
       program_.file_functions.push_back(function);
       return Gives::real;
     }
-    const RealFunction* function = callee.is_concept() && callee.as_concept()->data ? callee.as_concept()->data->real_function() : nullptr;
+    const RealFunction* function =
+        callee.is_concept() && callee.as_concept()->data ? callee.as_concept()->data->real_function() : nullptr;
     if (function == nullptr || std::max<std::size_t>(function->parameters().size(), 1) != count) throw Unsuitable();
-    emit_counted(FormulaOp::concept_function, count).index = static_cast<std::uint32_t>(program_.concept_functions.size());
+    emit_counted(FormulaOp::concept_function, count).index =
+        static_cast<std::uint32_t>(program_.concept_functions.size());
     program_.concept_functions.push_back(function);
     return Gives::real;
   }
@@ -342,7 +389,8 @@ class Compiler {
     const Unary function = name == "round" ? rounded : find_in(unary_functions, name);
     if (function == nullptr || count != 1) throw Unsuitable();
     emit(FormulaOp::unary, 0).unary = function;
-    return function == floor_of || function == ceil_of || function == truncated || function == rounded ? Gives::integer : Gives::real;
+    return function == floor_of || function == ceil_of || function == truncated || function == rounded ? Gives::integer
+                                                                                                       : Gives::real;
   }
 
   Gives emit_conversion(const std::string& type, std::uint16_t count) {

@@ -66,11 +66,24 @@ bool FormulaProgram::run(std::span<const double> arguments, double* stack, doubl
   double* top = stack;  // one past the last number
   for (const FormulaInstruction* at = first; at != end; ++at) {
     switch (at->op) {
-      case FormulaOp::number: *top++ = at->number; break;
-      case FormulaOp::argument: *top++ = arguments[at->index]; break;
-      case FormulaOp::add: --top; top[-1] += *top; break;
-      case FormulaOp::subtract: --top; top[-1] -= *top; break;
-      case FormulaOp::multiply: --top; top[-1] *= *top; break;
+      case FormulaOp::number:
+        *top++ = at->number;
+        break;
+      case FormulaOp::argument:
+        *top++ = arguments[at->index];
+        break;
+      case FormulaOp::add:
+        --top;
+        top[-1] += *top;
+        break;
+      case FormulaOp::subtract:
+        --top;
+        top[-1] -= *top;
+        break;
+      case FormulaOp::multiply:
+        --top;
+        top[-1] *= *top;
+        break;
       case FormulaOp::divide:
         if (*--top == 0.0) return false;
         top[-1] /= *top;
@@ -88,25 +101,53 @@ bool FormulaProgram::run(std::span<const double> arguments, double* stack, doubl
         top[-1] = std::pow(top[-1], *top);
         if (!std::isfinite(top[-1])) return false;
         break;
-      case FormulaOp::negate: top[-1] = -top[-1]; break;
-      case FormulaOp::logical_not: top[-1] = top[-1] == 0.0; break;
-      case FormulaOp::less: --top; top[-1] = top[-1] < *top; break;
-      case FormulaOp::less_equal: --top; top[-1] = top[-1] <= *top; break;
-      case FormulaOp::greater: --top; top[-1] = top[-1] > *top; break;
-      case FormulaOp::greater_equal: --top; top[-1] = top[-1] >= *top; break;
-      case FormulaOp::equal: --top; top[-1] = top[-1] == *top; break;
-      case FormulaOp::not_equal: --top; top[-1] = top[-1] != *top; break;
-      case FormulaOp::jump: at = first + at->index - 1; break;
+      case FormulaOp::negate:
+        top[-1] = -top[-1];
+        break;
+      case FormulaOp::logical_not:
+        top[-1] = top[-1] == 0.0;
+        break;
+      case FormulaOp::less:
+        --top;
+        top[-1] = top[-1] < *top;
+        break;
+      case FormulaOp::less_equal:
+        --top;
+        top[-1] = top[-1] <= *top;
+        break;
+      case FormulaOp::greater:
+        --top;
+        top[-1] = top[-1] > *top;
+        break;
+      case FormulaOp::greater_equal:
+        --top;
+        top[-1] = top[-1] >= *top;
+        break;
+      case FormulaOp::equal:
+        --top;
+        top[-1] = top[-1] == *top;
+        break;
+      case FormulaOp::not_equal:
+        --top;
+        top[-1] = top[-1] != *top;
+        break;
+      case FormulaOp::jump:
+        at = first + at->index - 1;
+        break;
       case FormulaOp::jump_if_false:
         if (*--top == 0.0) at = first + at->index - 1;
         break;
       case FormulaOp::keep_if_false:
-        if (top[-1] == 0.0) at = first + at->index - 1;
-        else --top;
+        if (top[-1] == 0.0)
+          at = first + at->index - 1;
+        else
+          --top;
         break;
       case FormulaOp::keep_if_true:
-        if (top[-1] != 0.0) at = first + at->index - 1;
-        else --top;
+        if (top[-1] != 0.0)
+          at = first + at->index - 1;
+        else
+          --top;
         break;
       case FormulaOp::unary:
         top[-1] = at->unary(top[-1]);

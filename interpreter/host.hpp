@@ -1,5 +1,5 @@
-// The seam between the language and the commands: the evaluator meets a call of a command and hands it to its host, which
-// checks it, adds it to the command graph and returns a handle. The evaluator itself knows no command.
+// The seam between the language and the commands: the evaluator meets a call of a command and hands it to its host,
+// which checks it, adds it to the command graph and returns a handle. The evaluator itself knows no command.
 #pragma once
 
 #include <functional>
@@ -19,9 +19,10 @@ struct CommandCall {
   Span name_span;
   Span span;
   std::vector<Argument> arguments;
-  bool open = false;  ///< there are further arguments that are not known (those of an unknown **mapping)
+  bool open = false;        ///< there are further arguments that are not known (those of an unknown **mapping)
   std::string target = {};  ///< the variable that takes the product, where the call is all that is assigned to one
-  /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be empty.
+  /// What a name means where the call stands, for expressions that it holds as text; valid during the call, may be
+  /// empty.
   std::function<std::optional<Value>(std::string_view)> scope = {};
 };
 
@@ -54,21 +55,25 @@ class CommandHost {
   /// All names, for hints.
   virtual std::vector<std::string> command_names() const = 0;
 
-  /// Checks the call and adds it to the graph. Returns the handle it produces, or None. A call that is wrong is reported
-  /// to the diagnostics and gives Value::unknown(), so that one mistake makes one error. `eager` (inside try) runs it at once.
+  /// Checks the call and adds it to the graph. Returns the handle it produces, or None. A call that is wrong is
+  /// reported to the diagnostics and gives Value::unknown(), so that one mistake makes one error. `eager` (inside try)
+  /// runs it at once.
   virtual Value call(const CommandCall& call, bool eager) = 0;
 
-  /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails as the file may
-  /// have expected. False where there is no data to go on with, for reasons that have been told or since nothing is run.
+  /// Runs what a concept depends on, so that its data can be read. Throws DiagnosticError when that fails as the file
+  /// may have expected. False where there is no data to go on with, for reasons that have been told or since nothing is
+  /// run.
   virtual bool force(const ConceptPtr& handle) = 0;
 
   /// A variable that has a value is about to get another, or none. A call that waits may read it through a function.
   virtual void before_binding(std::string_view /*name*/) {}
 
-  /// A statement that went wrong may have been to change the concept in place: nothing that reads it from here on is sound.
+  /// A statement that went wrong may have been to change the concept in place: nothing that reads it from here on is
+  /// sound.
   virtual void spoil(const Concept& /*changed*/) {}
 
-  /// Whether a call that is made at once, as within `try`, is really run: else nobody knows whether it would have failed.
+  /// Whether a call that is made at once, as within `try`, is really run: else nobody knows whether it would have
+  /// failed.
   virtual bool runs_calls() const { return true; }
 
   /// Takes note of a claim, whether it holds or not. A host without verdicts has no use for it.

@@ -1,4 +1,5 @@
-// What concepts give a file besides numbers and concepts, such as the rows of a table: the commands say what lies behind its dots.
+// What concepts give a file besides numbers and concepts, such as the rows of a table: the commands say what lies
+// behind its dots.
 #pragma once
 
 #include <functional>

@@ -7,8 +7,8 @@
 
 namespace comma::interpreter {
 
-/// The place of item `index` of a display of `count` items that is written out at `whole`: the 'B' of ('A', 'B'). `whole`
-/// itself when the value is written otherwise there (a variable, a comprehension, a sum of tuples).
+/// The place of item `index` of a display of `count` items that is written out at `whole`: the 'B' of ('A', 'B').
+/// `whole` itself when the value is written otherwise there (a variable, a comprehension, a sum of tuples).
 Span item_span(const Span& whole, std::size_t index, std::size_t count);
 
 }  // namespace comma::interpreter

@@ -30,8 +30,9 @@ class LateSearch {
     if (value.is_list() || value.is_dict() || value.is_set()) return true;
     if (const auto* builtin = value.as_object<BuiltinObject>()) return builtin->name == "print";
     const bool is_object = std::holds_alternative<std::shared_ptr<Object>>(value.storage());
-    const bool stays = value.as_object<UnboundMethod>() != nullptr || value.as_object<ConceptMethod>() != nullptr || value.as_object<CommandObject>() != nullptr ||
-                       value.as_object<TypeObject>() != nullptr || value.as_object<ModuleObject>() != nullptr || value.as_object<AbsentObject>() != nullptr ||
+    const bool stays = value.as_object<UnboundMethod>() != nullptr || value.as_object<ConceptMethod>() != nullptr ||
+                       value.as_object<CommandObject>() != nullptr || value.as_object<TypeObject>() != nullptr ||
+                       value.as_object<ModuleObject>() != nullptr || value.as_object<AbsentObject>() != nullptr ||
                        value.as_object<RangeObject>() != nullptr || value.as_object<ExceptionClassObject>() != nullptr;
     return is_object && !stays;
   }

@@ -30,12 +30,8 @@ constexpr int tab_width = 8;
 /// A number with more digits than this is a mistake; reading it would take quadratic time.
 constexpr std::size_t longest_number = 5000;
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 /// Letters beyond ASCII may stand in names; punctuation, blanks and symbols may not.
 bool is_letter(char32_t c) {
@@ -83,9 +79,7 @@ std::string hint_for(char32_t c) {
 
 }  // namespace
 
-bool is_keyword(std::string_view word) {
-  return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
-}
+bool is_keyword(std::string_view word) { return std::find(keywords.begin(), keywords.end(), word) != keywords.end(); }
 
 Lexer::Lexer(std::shared_ptr<const SourceFile> file, Diagnostics& diagnostics, std::uint32_t begin, std::uint32_t end,
              bool inside_brackets)
@@ -136,8 +130,8 @@ int Lexer::measure_indentation() {
   return column;
 }
 
-/// A line between two levels belongs to the inner block (indented by `inner`) if that goes on behind it, else to a block of
-/// its own in the outer one.
+/// A line between two levels belongs to the inner block (indented by `inner`) if that goes on behind it, else to a
+/// block of its own in the outer one.
 void Lexer::fit_indentation(int column, int inner) {
   error("bad-indentation", "this line is indented less than its block but more than the one around it", at_, at_ + 1,
         fmt::format("indent it by {} or by {} blanks", indents_.back(), inner));

@@ -10,13 +10,15 @@ namespace comma::interpreter {
 
 namespace {
 
-constexpr std::array augmented = {"=", "+=", "-=", "*=", "/=", "//=", "%=", "**=", "<<=", ">>=", "&=", "|=", "^=", "@="};
+constexpr std::array augmented = {
+    "=", "+=", "-=", "*=", "/=", "//=", "%=", "**=", "<<=", ">>=", "&=", "|=", "^=", "@="};
 
 std::vector<Token> tokens_of(const std::shared_ptr<const SourceFile>& file, std::uint32_t begin, std::uint32_t end) {
   Diagnostics told_before;
   Lexer lexer(file, told_before, begin, end, true);
   std::vector<Token> tokens;
-  for (Token token = lexer.next(); token.kind != TokenKind::end; token = lexer.next()) tokens.push_back(std::move(token));
+  for (Token token = lexer.next(); token.kind != TokenKind::end; token = lexer.next())
+    tokens.push_back(std::move(token));
   return tokens;
 }
 
@@ -43,7 +45,8 @@ class Search {
     if (is_name(i)) lost_.names.push_back({file_, tokens_[i].begin, tokens_[i].end});
   }
 
-  /// Whether a statement may begin here. Where brackets are open this is doubtful: the lines of a call's arguments follow
+  /// Whether a statement may begin here. Where brackets are open this is doubtful: the lines of a call's arguments
+  /// follow
   /// '(' or ',', and lie further right.
   bool may_start_statement(std::size_t i) const {
     if (i == 0 || is(i - 1, ";") || is(i - 1, ":")) return true;
@@ -52,7 +55,9 @@ class Search {
   }
 
   /// NAME = OTHER( with OTHER not _F.
-  bool calls_a_command(std::size_t i) const { return is(i + 1, "=") && is_name(i + 2) && !is(i + 2, "_F") && is(i + 3, "("); }
+  bool calls_a_command(std::size_t i) const {
+    return is(i + 1, "=") && is_name(i + 2) && !is(i + 2, "_F") && is(i + 3, "(");
+  }
 
   void look_at(std::size_t i) {
     if (is(i, "INCLUDE")) lost_.any = true;
@@ -71,7 +76,8 @@ class Search {
     if (is(i + 1, ".") || is(i + 1, "[")) return lose(i);
     std::size_t last = i;
     while (is_name(last) && is(last + 1, ",")) last += 2;
-    const bool assigns = last + 1 < tokens_.size() && std::ranges::find(augmented, tokens_[last + 1].text) != augmented.end();
+    const bool assigns =
+        last + 1 < tokens_.size() && std::ranges::find(augmented, tokens_[last + 1].text) != augmented.end();
     if (!assigns) return;
     for (; i <= last; i += 2) lose(i);
     if (is(last + 1, "=") && is_name(last + 2) && is(last + 3, "=")) lose_targets(last + 2);
@@ -82,7 +88,9 @@ class Search {
   }
 
   void lose_imports(std::size_t i) {
-    while (i < tokens_.size() && !is(i, "import") && !(i > 0 && tokens_[i].starts_line && depth_ == 0 && !is(i, "from"))) ++i;
+    while (i < tokens_.size() && !is(i, "import") &&
+           !(i > 0 && tokens_[i].starts_line && depth_ == 0 && !is(i, "from")))
+      ++i;
     for (++i; i < tokens_.size() && (!tokens_[i].starts_line || is(i - 1, "(") || is(i - 1, ",")); ++i) {
       if (is(i, "*")) lost_.any = true;
       lose(i);
@@ -98,7 +106,8 @@ class Search {
 
 }  // namespace
 
-LostNames lost_names(const std::shared_ptr<const SourceFile>& file, std::uint32_t begin, std::uint32_t end, int column) {
+LostNames lost_names(const std::shared_ptr<const SourceFile>& file, std::uint32_t begin, std::uint32_t end,
+                     int column) {
   return Search(file, begin, end, column).run();
 }
 

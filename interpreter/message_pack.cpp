@@ -143,13 +143,9 @@ class PackedReader {
   std::size_t position_ = 0;
 };
 
-Packed Packed::read(std::span<const std::uint8_t> bytes) {
-  return PackedReader(bytes).read_all();
-}
+Packed Packed::read(std::span<const std::uint8_t> bytes) { return PackedReader(bytes).read_all(); }
 
-double Packed::number() const {
-  return is_integer() ? static_cast<double>(integer()) : std::get<double>(content_);
-}
+double Packed::number() const { return is_integer() ? static_cast<double>(integer()) : std::get<double>(content_); }
 
 const Packed* Packed::find(std::string_view key) const {
   for (const auto& [name, value] : map())

@@ -38,18 +38,20 @@ void Meter::look() {
     memory_at_start_ = resident_memory();
   }
   if (steps_ > limits_.steps) {
-    throw LimitReached("limit-steps", fmt::format("this takes more than {} steps: the run is stopped", limits_.steps), {},
-                       "look for a loop that never ends; --max-steps sets the limit");
+    throw LimitReached("limit-steps", fmt::format("this takes more than {} steps: the run is stopped", limits_.steps),
+                       {}, "look for a loop that never ends; --max-steps sets the limit");
   }
   if (std::chrono::duration<double>(Clock::now() - started_).count() > limits_.seconds) {
-    throw LimitReached("limit-time", fmt::format("this takes longer than {:g} s: the run is stopped", limits_.seconds), {},
-                       "look for a loop that does too much; --max-seconds sets the limit");
+    throw LimitReached("limit-time", fmt::format("this takes longer than {:g} s: the run is stopped", limits_.seconds),
+                       {}, "look for a loop that does too much; --max-seconds sets the limit");
   }
   const std::uint64_t memory = resident_memory();
-  if (std::exchange(others_worked_, false) && memory > growth_) memory_at_start_ = std::max(memory_at_start_, memory - growth_);
+  if (std::exchange(others_worked_, false) && memory > growth_)
+    memory_at_start_ = std::max(memory_at_start_, memory - growth_);
   growth_ = std::max(memory, memory_at_start_) - memory_at_start_;
   if (growth_ > limits_.memory) {
-    throw LimitReached("limit-memory", fmt::format("this takes more than {} MB: the run is stopped", limits_.memory >> 20), {},
+    throw LimitReached("limit-memory",
+                       fmt::format("this takes more than {} MB: the run is stopped", limits_.memory >> 20), {},
                        "look for lists that only grow; --max-memory sets the limit");
   }
   next_look_ = std::min(steps_ + steps_between_looks, limits_.steps + 1);
@@ -58,7 +60,8 @@ void Meter::look() {
 void Meter::check_object(std::uint64_t bytes) const {
   const std::uint64_t largest = std::min(limits_.largest_object, limits_.memory);
   if (bytes > largest) {
-    throw LimitReached("limit-memory", fmt::format("this makes an object of more than {} MB: the run is stopped", largest >> 20), {},
+    throw LimitReached("limit-memory",
+                       fmt::format("this makes an object of more than {} MB: the run is stopped", largest >> 20), {},
                        "look for a product or a range that is too large");
   }
 }

@@ -9,13 +9,13 @@ namespace comma::interpreter {
 
 /// The work of commands does not count: it is the evaluator's own steps, memory and time that are bounded.
 struct Limits {
-  std::uint64_t steps = 50'000'000;            ///< statements, loop turns, calls, and bulk work in proportion
-  std::uint64_t largest_object = 64U << 20;    ///< bytes of one text or list
-  std::uint64_t integer_bits = 1U << 20;       ///< of one integer: a product of two such takes about a second
+  std::uint64_t steps = 50'000'000;               ///< statements, loop turns, calls, and bulk work in proportion
+  std::uint64_t largest_object = 64U << 20;       ///< bytes of one text or list
+  std::uint64_t integer_bits = 1U << 20;          ///< of one integer: a product of two such takes about a second
   std::uint64_t memory = std::uint64_t{2} << 30;  ///< bytes by which the evaluator may make the process grow
-  double seconds = 60.0;                       ///< wall-clock time
-  int call_depth = 1000;                       ///< functions within functions: Python's own limit
-  std::size_t stack_bytes = 4U << 20;          ///< of the native stack, half of what a thread commonly has
+  double seconds = 60.0;                          ///< wall-clock time
+  int call_depth = 1000;                          ///< functions within functions: Python's own limit
+  std::size_t stack_bytes = 4U << 20;             ///< of the native stack, half of what a thread commonly has
 };
 
 /// Counts what is used; throws LimitReached ("limit-steps", "limit-memory", "limit-time") when it is too much.

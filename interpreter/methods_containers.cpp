@@ -108,23 +108,15 @@ Value sequence_count(Evaluator& evaluator, const Value& self, const CallArgument
 
 // dict
 
-std::shared_ptr<Dict> shared_dict(const Value& self) {
-  return std::get<std::shared_ptr<Dict>>(self.storage());
-}
+std::shared_ptr<Dict> shared_dict(const Value& self) { return std::get<std::shared_ptr<Dict>>(self.storage()); }
 
 Value view(const Value& self, DictView::Kind kind) {
   return Value(std::shared_ptr<Object>(std::make_shared<DictView>(shared_dict(self), kind)));
 }
 
-Value keys(Evaluator&, const Value& self, const CallArguments&) {
-  return view(self, DictView::Kind::keys);
-}
-Value values(Evaluator&, const Value& self, const CallArguments&) {
-  return view(self, DictView::Kind::values);
-}
-Value items(Evaluator&, const Value& self, const CallArguments&) {
-  return view(self, DictView::Kind::items);
-}
+Value keys(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::keys); }
+Value values(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::values); }
+Value items(Evaluator&, const Value& self, const CallArguments&) { return view(self, DictView::Kind::items); }
 
 Value get(Evaluator&, const Value& self, const CallArguments& arguments) {
   expect_arguments("get", arguments, 1, 2);
@@ -323,17 +315,9 @@ constexpr std::array of_sets = {
 
 }  // namespace
 
-std::span<const MethodRow> list_methods() {
-  return of_lists;
-}
-std::span<const MethodRow> tuple_methods() {
-  return of_tuples;
-}
-std::span<const MethodRow> dict_methods() {
-  return of_dicts;
-}
-std::span<const MethodRow> set_methods() {
-  return of_sets;
-}
+std::span<const MethodRow> list_methods() { return of_lists; }
+std::span<const MethodRow> tuple_methods() { return of_tuples; }
+std::span<const MethodRow> dict_methods() { return of_dicts; }
+std::span<const MethodRow> set_methods() { return of_sets; }
 
 }  // namespace comma::interpreter

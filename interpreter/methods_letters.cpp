@@ -11,24 +11,12 @@ namespace {
 
 using Points = std::vector<char32_t>;
 
-bool is_lower(char32_t c) {
-  return (c >= 'a' && c <= 'z') || (c >= 0xDF && c <= 0xFF && c != 0xF7);
-}
-bool is_upper(char32_t c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7);
-}
-bool is_decimal(char32_t c) {
-  return c >= '0' && c <= '9';
-}
-bool is_alpha(char32_t c) {
-  return is_lower(c) || is_upper(c) || c == 0xAA || c == 0xB5 || c == 0xBA || c >= 0x100;
-}
-char32_t to_lower(char32_t c) {
-  return is_upper(c) ? c + 32 : c;
-}
-char32_t to_upper(char32_t c) {
-  return is_lower(c) && c != 0xDF && c != 0xFF ? c - 32 : c;
-}
+bool is_lower(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 0xDF && c <= 0xFF && c != 0xF7); }
+bool is_upper(char32_t c) { return (c >= 'A' && c <= 'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7); }
+bool is_decimal(char32_t c) { return c >= '0' && c <= '9'; }
+bool is_alpha(char32_t c) { return is_lower(c) || is_upper(c) || c == 0xAA || c == 0xB5 || c == 0xBA || c >= 0x100; }
+char32_t to_lower(char32_t c) { return is_upper(c) ? c + 32 : c; }
+char32_t to_upper(char32_t c) { return is_lower(c) && c != 0xDF && c != 0xFF ? c - 32 : c; }
 template <class Change>
 Value change_characters(const Value& self, Change change) {
   Points points = decode_utf8(self.as_text());
@@ -79,18 +67,12 @@ bool all_characters(const Value& self, Test test) {
   return !points.empty() && std::all_of(points.begin(), points.end(), test);
 }
 
-Value isdigit(Evaluator&, const Value& self, const CallArguments&) {
-  return all_characters(self, is_decimal);
-}
-Value isalpha(Evaluator&, const Value& self, const CallArguments&) {
-  return all_characters(self, is_alpha);
-}
+Value isdigit(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_decimal); }
+Value isalpha(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_alpha); }
 Value isalnum(Evaluator&, const Value& self, const CallArguments&) {
   return all_characters(self, [](char32_t c) { return is_alpha(c) || is_decimal(c); });
 }
-Value isspace(Evaluator&, const Value& self, const CallArguments&) {
-  return all_characters(self, is_blank_character);
-}
+Value isspace(Evaluator&, const Value& self, const CallArguments&) { return all_characters(self, is_blank_character); }
 
 Value isupper(Evaluator&, const Value& self, const CallArguments&) {
   const Points points = decode_utf8(self.as_text());
@@ -120,8 +102,6 @@ constexpr std::array letter_table = {
 
 }  // namespace
 
-std::span<const MethodRow> letter_methods() {
-  return letter_table;
-}
+std::span<const MethodRow> letter_methods() { return letter_table; }
 
 }  // namespace comma::interpreter

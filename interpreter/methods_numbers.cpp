@@ -28,12 +28,10 @@ Value bit_length(Evaluator&, const Value& self, const CallArguments& arguments) 
 }
 
 constexpr std::array number_table = {MethodRow{"is_integer", is_integer}, MethodRow{"conjugate", conjugate},
-                                MethodRow{"bit_length", bit_length}};
+                                     MethodRow{"bit_length", bit_length}};
 
 }  // namespace
 
-std::span<const MethodRow> number_methods() {
-  return number_table;
-}
+std::span<const MethodRow> number_methods() { return number_table; }
 
 }  // namespace comma::interpreter

@@ -453,8 +453,6 @@ constexpr std::array text_table = {
 
 }  // namespace
 
-std::span<const MethodRow> text_methods() {
-  return text_table;
-}
+std::span<const MethodRow> text_methods() { return text_table; }
 
 }  // namespace comma::interpreter

@@ -49,7 +49,8 @@ Value negative(Evaluator&, const CallArguments& arguments) {
 Value item_getter(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("itemgetter", arguments, 1, std::max<std::size_t>(arguments.size(), 1));
   const auto code = [&meter = evaluator.meter(), wanted = arguments.positional](const std::vector<Value>& given) {
-    if (given.size() != 1) raise(ErrorKind::type, "itemgetter expected 1 argument, got " + std::to_string(given.size()));
+    if (given.size() != 1)
+      raise(ErrorKind::type, "itemgetter expected 1 argument, got " + std::to_string(given.size()));
     std::vector<Value> items;
     for (const Value& index : wanted) items.push_back(subscript(given[0], index, meter));
     return items.size() == 1 ? items[0] : Value::tuple(std::move(items));

@@ -24,7 +24,9 @@ class Copying {
     if (value.is_dict()) return copy_dict(value);
     if (value.is_set()) return make_set(value.as_set().keys(), value.type_name() == "frozenset");
     if (value.is_tuple()) return deep_ ? Value::tuple(inner(value.items())) : value;
-    if (value.is_concept()) raise(ErrorKind::type, "a concept cannot be copied", "make another one by a command, or put the concept itself into a new list");
+    if (value.is_concept())
+      raise(ErrorKind::type, "a concept cannot be copied",
+            "make another one by a command, or put the concept itself into a new list");
     if (const auto* array = value.as_object<ArrayObject>()) return make_value(array->numbers());
     if (value.as_object<Iterator>() != nullptr || value.as_object<HostObject>() != nullptr)
       raise(ErrorKind::type, "a '" + value.type_name() + "' object cannot be copied");

@@ -44,12 +44,8 @@ Value binary(Evaluator&, const CallArguments& arguments) {
   return checked(Function(x, y), x, y);
 }
 
-double to_degrees(double x) {
-  return x * (180.0 / std::numbers::pi);
-}
-double to_radians(double x) {
-  return x * (std::numbers::pi / 180.0);
-}
+double to_degrees(double x) { return x * (180.0 / std::numbers::pi); }
+double to_radians(double x) { return x * (std::numbers::pi / 180.0); }
 
 double gamma_function(double x) {
   if (x == std::trunc(x) && x <= 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -65,9 +61,7 @@ double log_gamma(double x) {
 double pole_free_atanh(double x) {
   return std::abs(x) >= 1.0 ? std::numeric_limits<double>::quiet_NaN() : std::atanh(x);
 }
-double pole_free_log1p(double x) {
-  return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x);
-}
+double pole_free_log1p(double x) { return x <= -1.0 ? std::numeric_limits<double>::quiet_NaN() : std::log1p(x); }
 
 /// Logarithm of any positive int, however large.
 double natural_log(const Value& value) {
@@ -130,15 +124,9 @@ Value test(Evaluator&, const CallArguments& arguments) {
   return Test(real_argument(arguments[0]));
 }
 
-bool is_nan(double x) {
-  return std::isnan(x);
-}
-bool is_infinite(double x) {
-  return std::isinf(x);
-}
-bool is_finite(double x) {
-  return std::isfinite(x);
-}
+bool is_nan(double x) { return std::isnan(x); }
+bool is_infinite(double x) { return std::isinf(x); }
+bool is_finite(double x) { return std::isfinite(x); }
 
 Value hypot(Evaluator&, const CallArguments& arguments) {
   std::vector<double> parts;
@@ -426,9 +414,7 @@ const Value* common_math_value(std::string_view name) {
   return std::find(common.begin(), common.end(), name) == common.end() ? nullptr : math_value(name);
 }
 
-std::span<const FunctionRow> math_functions() {
-  return math_table;
-}
+std::span<const FunctionRow> math_functions() { return math_table; }
 
 const Value* math_value(std::string_view name) {
   static const NameTable names = make_math();

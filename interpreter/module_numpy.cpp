@@ -11,9 +11,7 @@ namespace comma::interpreter {
 
 namespace numpy {
 
-Numbers argument(Evaluator& evaluator, const Value& value) {
-  return numbers_of(value, evaluator.meter());
-}
+Numbers argument(Evaluator& evaluator, const Value& value) { return numbers_of(value, evaluator.meter()); }
 
 Numbers array_argument(Evaluator& evaluator, const Value& value) {
   Numbers numbers = argument(evaluator, value);
@@ -74,9 +72,7 @@ std::vector<FunctionRow> numpy_functions() {
   return rows;
 }
 
-std::span<const FunctionRow> linalg_functions() {
-  return numpy::linalg_table();
-}
+std::span<const FunctionRow> linalg_functions() { return numpy::linalg_table(); }
 
 std::span<const MethodRow> array_methods() {
   static const std::vector<MethodRow> all = [] {

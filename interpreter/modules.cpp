@@ -26,8 +26,7 @@ Value initialise(Evaluator& evaluator, const CallArguments& arguments) {
   kept.callee_span = arguments.callee_span;
   for (const Value& option : arguments.positional) {
     if (!option.is_text())
-      raise(ErrorKind::type, "init takes options in quotes and KEYWORD=value",
-            "as in init(CODE=\"OUI\")");
+      raise(ErrorKind::type, "init takes options in quotes and KEYWORD=value", "as in init(CODE=\"OUI\")");
   }
   for (const auto& item : arguments.named) {
     if (item.name != "debug") kept.named.push_back(item);
@@ -198,7 +197,8 @@ Members members_of_string() {
 /// What these switched on, Python 3 has.
 Members members_of_future() {
   Members members;
-  for (const char* name : {"absolute_import", "annotations", "division", "generators", "nested_scopes", "print_function", "unicode_literals", "with_statement"})
+  for (const char* name : {"absolute_import", "annotations", "division", "generators", "nested_scopes",
+                           "print_function", "unicode_literals", "with_statement"})
     members.emplace(name, Value(true));
   return members;
 }
@@ -209,12 +209,8 @@ Members members_of_sys() {
           {"argv", Value::list({""})}};
 }
 
-Members nothing() {
-  return {};
-}
-Members members_of_os() {
-  return {{"sep", Value("/")}, {"linesep", Value("\n")}};
-}
+Members nothing() { return {}; }
+Members members_of_os() { return {{"sep", Value("/")}, {"linesep", Value("\n")}}; }
 
 struct ModuleRow {
   std::string_view name;

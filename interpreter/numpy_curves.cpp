@@ -149,8 +149,6 @@ constexpr std::array curve_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> curve_functions() {
-  return curve_table;
-}
+std::span<const FunctionRow> curve_functions() { return curve_table; }
 
 }  // namespace comma::interpreter::numpy

@@ -38,33 +38,15 @@ Value to_boolean(Evaluator& evaluator, const CallArguments& arguments) {
   return make_value(std::move(numbers));
 }
 
-double magnitude(double x) {
-  return std::fabs(x);
-}
-double sign_of(double x) {
-  return std::isnan(x) ? x : x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
-}
-double squared(double x) {
-  return x * x;
-}
-double to_radians(double x) {
-  return x * (std::numbers::pi / 180.0);
-}
-double to_degrees(double x) {
-  return x * (180.0 / std::numbers::pi);
-}
-bool is_nan(double x) {
-  return std::isnan(x);
-}
-bool is_finite(double x) {
-  return std::isfinite(x);
-}
-bool is_infinite(double x) {
-  return std::isinf(x);
-}
-bool is_zero(double x) {
-  return x == 0.0;
-}
+double magnitude(double x) { return std::fabs(x); }
+double sign_of(double x) { return std::isnan(x) ? x : x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
+double squared(double x) { return x * x; }
+double to_radians(double x) { return x * (std::numbers::pi / 180.0); }
+double to_degrees(double x) { return x * (180.0 / std::numbers::pi); }
+bool is_nan(double x) { return std::isnan(x); }
+bool is_finite(double x) { return std::isfinite(x); }
+bool is_infinite(double x) { return std::isinf(x); }
+bool is_zero(double x) { return x == 0.0; }
 
 Numbers pairwise(Evaluator& evaluator, const Numbers& a, const Numbers& b, NumberType type,
                  double (*function)(double, double)) {
@@ -83,24 +65,12 @@ Value real_of_two(Evaluator& evaluator, const CallArguments& arguments) {
                              NumberType::real, Function));
 }
 
-double larger(double a, double b) {
-  return std::isnan(a) || a >= b ? a : b;
-}
-double smaller(double a, double b) {
-  return std::isnan(a) || a <= b ? a : b;
-}
-double angle(double y, double x) {
-  return std::atan2(y, x);
-}
-double hypotenuse(double a, double b) {
-  return std::hypot(a, b);
-}
-double both(double a, double b) {
-  return a != 0.0 && b != 0.0 ? 1.0 : 0.0;
-}
-double either(double a, double b) {
-  return a != 0.0 || b != 0.0 ? 1.0 : 0.0;
-}
+double larger(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+double smaller(double a, double b) { return std::isnan(a) || a <= b ? a : b; }
+double angle(double y, double x) { return std::atan2(y, x); }
+double hypotenuse(double a, double b) { return std::hypot(a, b); }
+double both(double a, double b) { return a != 0.0 && b != 0.0 ? 1.0 : 0.0; }
+double either(double a, double b) { return a != 0.0 || b != 0.0 ? 1.0 : 0.0; }
 
 /// Both kinds of number in one: what is chosen among is brought to the common type.
 template <double (*Function)(double, double)>
@@ -289,11 +259,7 @@ constexpr std::array element_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> element_functions() {
-  return element_table;
-}
-std::span<const MethodRow> element_methods() {
-  return element_method_table;
-}
+std::span<const FunctionRow> element_functions() { return element_table; }
+std::span<const MethodRow> element_methods() { return element_method_table; }
 
 }  // namespace comma::interpreter::numpy

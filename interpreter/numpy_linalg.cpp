@@ -200,8 +200,6 @@ constexpr std::array linalg_rows = {
 
 }  // namespace
 
-std::span<const FunctionRow> linalg_table() {
-  return linalg_rows;
-}
+std::span<const FunctionRow> linalg_table() { return linalg_rows; }
 
 }  // namespace comma::interpreter::numpy

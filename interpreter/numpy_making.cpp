@@ -15,7 +15,8 @@ namespace {
 
 Value array(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("array", arguments, 1, 2, {"dtype"});
-  if (holds_unknown(arguments[0])) return Value::unknown();  // what was reported already must not be reported again as no number
+  if (holds_unknown(arguments[0]))
+    return Value::unknown();  // what was reported already must not be reported again as no number
   Numbers numbers = array_argument(evaluator, arguments[0]);
   const auto type = type_argument(arguments, 1);
   return make_value(type ? converted(std::move(numbers), *type) : std::move(numbers));
@@ -236,11 +237,7 @@ constexpr std::array making_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> making_functions() {
-  return making_table;
-}
-std::span<const MethodRow> making_methods() {
-  return making_method_table;
-}
+std::span<const FunctionRow> making_functions() { return making_table; }
+std::span<const MethodRow> making_methods() { return making_method_table; }
 
 }  // namespace comma::interpreter::numpy

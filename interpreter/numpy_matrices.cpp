@@ -67,11 +67,7 @@ constexpr std::array matrix_method_table = {MethodRow{"dot", as_method<dot>}};
 
 }  // namespace
 
-std::span<const FunctionRow> matrix_functions() {
-  return matrix_table;
-}
-std::span<const MethodRow> matrix_methods() {
-  return matrix_method_table;
-}
+std::span<const FunctionRow> matrix_functions() { return matrix_table; }
+std::span<const MethodRow> matrix_methods() { return matrix_method_table; }
 
 }  // namespace comma::interpreter::numpy

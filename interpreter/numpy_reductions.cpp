@@ -15,9 +15,7 @@ namespace {
 
 using Fold = double (*)(Line);
 
-double sum_in_order(Line line) {
-  return std::accumulate(line.begin(), line.end(), 0.0);
-}
+double sum_in_order(Line line) { return std::accumulate(line.begin(), line.end(), 0.0); }
 
 /// In the order in which numpy adds (its pairwise_sum), so that sums agree to the last digit.
 double sum_in_pairs(Line line) {
@@ -37,9 +35,7 @@ double sum_in_pairs(Line line) {
   return total;
 }
 
-double product(Line line) {
-  return std::accumulate(line.begin(), line.end(), 1.0, std::multiplies<>());
-}
+double product(Line line) { return std::accumulate(line.begin(), line.end(), 1.0, std::multiplies<>()); }
 
 std::size_t place_of_extreme(Line line, bool largest) {
   if (line.empty()) raise(ErrorKind::value, "zero-size array to reduction operation which has no identity");
@@ -51,18 +47,10 @@ std::size_t place_of_extreme(Line line, bool largest) {
   return best;
 }
 
-double place_of_largest(Line line) {
-  return static_cast<double>(place_of_extreme(line, true));
-}
-double place_of_smallest(Line line) {
-  return static_cast<double>(place_of_extreme(line, false));
-}
-double largest(Line line) {
-  return line[place_of_extreme(line, true)];
-}
-double smallest(Line line) {
-  return line[place_of_extreme(line, false)];
-}
+double place_of_largest(Line line) { return static_cast<double>(place_of_extreme(line, true)); }
+double place_of_smallest(Line line) { return static_cast<double>(place_of_extreme(line, false)); }
+double largest(Line line) { return line[place_of_extreme(line, true)]; }
+double smallest(Line line) { return line[place_of_extreme(line, false)]; }
 double any_set(Line line) {
   return std::ranges::any_of(line, [](double x) { return x != 0.0; }) ? 1.0 : 0.0;
 }
@@ -98,9 +86,7 @@ Value reduce(const CallArguments& arguments, const Numbers& source, const std::f
   return make_value(std::move(result));
 }
 
-double sum_of(Line line, bool down) {
-  return down ? sum_in_order(line) : sum_in_pairs(line);
-}
+double sum_of(Line line, bool down) { return down ? sum_in_order(line) : sum_in_pairs(line); }
 
 enum class Result { same, at_least_integer, integer, boolean, real };
 
@@ -181,9 +167,7 @@ Value along(Evaluator& evaluator, const CallArguments& arguments, std::size_t po
   return make_value(std::move(result));
 }
 
-bool before(double a, double b) {
-  return std::isnan(b) ? !std::isnan(a) : a < b;
-}
+bool before(double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; }
 
 std::vector<double> sorted_line(Line line) {
   std::vector<double> result(line.begin(), line.end());
@@ -305,11 +289,7 @@ constexpr std::array reducing_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> reducing_functions() {
-  return reducing_table;
-}
-std::span<const MethodRow> reducing_methods() {
-  return reducing_method_table;
-}
+std::span<const FunctionRow> reducing_functions() { return reducing_table; }
+std::span<const MethodRow> reducing_methods() { return reducing_method_table; }
 
 }  // namespace comma::interpreter::numpy

@@ -238,11 +238,7 @@ constexpr std::array shape_method_table = {
 
 }  // namespace
 
-std::span<const FunctionRow> shape_functions() {
-  return shape_table;
-}
-std::span<const MethodRow> shape_methods() {
-  return shape_method_table;
-}
+std::span<const FunctionRow> shape_functions() { return shape_table; }
+std::span<const MethodRow> shape_methods() { return shape_method_table; }
 
 }  // namespace comma::interpreter::numpy

@@ -104,7 +104,8 @@ struct Frame {
   std::vector<std::optional<Value>> slots;
 };
 
-/// Where a function belongs: its evaluator, or null when that is gone. A formula may outlive the statement that made it.
+/// Where a function belongs: its evaluator, or null when that is gone. A formula may outlive the statement that made
+/// it.
 struct FunctionHome {
   Evaluator* evaluator = nullptr;
 };
@@ -142,8 +143,8 @@ struct ModuleObject : Object {
   std::string repr() const override { return "<module '" + name + "'>"; }
 };
 
-/// A module that comma does not have, or what a file imports out of one that does not have it. The import alone is no error: many files import out
-/// of habit what they never use.
+/// A module that comma does not have, or what a file imports out of one that does not have it. The import alone is no
+/// error: many files import out of habit what they never use.
 struct AbsentObject : Object {
   AbsentObject(std::string what, bool whole, std::shared_ptr<ExceptionObject> why)
       : path(std::move(what)), is_module(whole), error(std::move(why)) {}

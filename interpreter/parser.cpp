@@ -60,21 +60,17 @@ std::size_t skip_targets(std::string_view text) {
   return at;
 }
 
-bool is_compound_word(std::string_view word) {
-  return word == "if" || word == "for" || word == "else";
-}
+bool is_compound_word(std::string_view word) { return word == "if" || word == "for" || word == "else"; }
 
-/// Whether a line that begins with `for` or `if` is the head of a block, which ends with its colon or with a bracket that goes on, and not a part of a
-/// comprehension.
+/// Whether a line that begins with `for` or `if` is the head of a block, which ends with its colon or with a bracket
+/// that goes on, and not a part of a comprehension.
 bool ends_as_head(std::string_view text) {
   const std::string_view line = text.substr(0, text.find_first_of("\r\n#"));
   const std::size_t last = line.find_last_not_of(" \t");
   return last != std::string_view::npos && std::string_view(":([{").find(line[last]) != std::string_view::npos;
 }
 
-std::string_view closing_of(std::string_view opening) {
-  return opening == "(" ? ")" : opening == "[" ? "]" : "}";
-}
+std::string_view closing_of(std::string_view opening) { return opening == "(" ? ")" : opening == "[" ? "]" : "}"; }
 
 bool is_operand(const Token& token) {
   if (token.kind == TokenKind::keyword) {
@@ -247,7 +243,8 @@ bool Parser::starts_statement(const Token& token) const {
   if (!starts_line_outside(token)) return false;
   const std::string_view rest = file_->text().substr(token.begin);
   if (token.kind == TokenKind::keyword) {
-    const bool only_there = std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
+    const bool only_there =
+        std::find(statement_words.begin(), statement_words.end(), token.text) != statement_words.end();
     return only_there || (is_compound_word(token.text) && ends_as_head(rest));
   }
   if (token.kind != TokenKind::name) return false;
@@ -266,7 +263,8 @@ void Parser::recover(Failure failure, const Token& start) {
   const bool follows_from_broken = broken_;
   while (now_.kind != TokenKind::newline && now_.kind != TokenKind::end) {
     if (now_.kind == TokenKind::indent || now_.kind == TokenKind::dedent) break;
-    const bool failed_here = now_.begin == failure.token_begin && now_.kind == TokenKind::name && starts_line_outside(now_);
+    const bool failed_here =
+        now_.begin == failure.token_begin && now_.kind == TokenKind::name && starts_line_outside(now_);
     if (now_.begin > start.begin && (failed_here || starts_statement(now_))) {
       at_next_statement = true;
       break;
@@ -361,8 +359,8 @@ NodePtr Parser::parse_only_expression() {
 
 namespace {
 
-/// A quote that is missing turns texts into code and code into texts to the end of its line: whatever else is found there
-/// follows from it.
+/// A quote that is missing turns texts into code and code into texts to the end of its line: whatever else is found
+/// there follows from it.
 void move_findings(Diagnostics& found, Diagnostics& told) {
   std::set<int> misread;
   const auto line_of = [](const Diagnostic& item) { return item.span.file->position(item.span.begin).line; };

@@ -15,8 +15,8 @@
 
 namespace comma::interpreter {
 
-/// Reads a whole file. Errors go to `diagnostics`; the tree then holds the sound statements, and a BrokenStatement in the
-/// place of each other one.
+/// Reads a whole file. Errors go to `diagnostics`; the tree then holds the sound statements, and a BrokenStatement in
+/// the place of each other one.
 Ast parse(const std::shared_ptr<const SourceFile>& file, Diagnostics& diagnostics);
 
 /// Reads a text that is one expression, line breaks counting as blanks; null when it is none. `names` gets its free

@@ -33,7 +33,9 @@ const BinaryRow* binary_row(const Token& token) {
   return nullptr;
 }
 
-bool is_whole_number(const Node& node) { return node.kind == NodeKind::constant && static_cast<const ConstantNode&>(node).value.is_integer(); }
+bool is_whole_number(const Node& node) {
+  return node.kind == NodeKind::constant && static_cast<const ConstantNode&>(node).value.is_integer();
+}
 
 }  // namespace
 
@@ -293,7 +295,8 @@ void Parser::parse_argument(CallNode& call) {
     } else if (at(":=")) {
       fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
     } else if (follows_keyword) {
-      const bool decimal_comma = is_whole_number(*item.value) && is_whole_number(*call.arguments.back().value) && call.arguments.back().value->end + 1 == item.value->begin;
+      const bool decimal_comma = is_whole_number(*item.value) && is_whole_number(*call.arguments.back().value) &&
+                                 call.arguments.back().value->end + 1 == item.value->begin;
       report("syntax", "an argument without keyword follows one with a keyword", span_of(*item.value),
              decimal_comma ? "numbers have a decimal point: write 10.5 for ten and a half" : "write KEYWORD=value");
     }

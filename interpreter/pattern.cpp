@@ -14,7 +14,8 @@ bool finds_pattern(const std::string& text, const std::string& pattern) {
   try {
     return std::regex_search(text, std::regex(pattern, std::regex::ECMAScript | std::regex_constants::__polynomial));
   } catch (const std::regex_error&) {
-    raise(ErrorKind::value, fmt::format("the pattern {} cannot be read", Value(pattern).repr()), "write it without groups that are named or look around");
+    raise(ErrorKind::value, fmt::format("the pattern {} cannot be read", Value(pattern).repr()),
+          "write it without groups that are named or look around");
   }
 }
 

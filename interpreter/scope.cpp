@@ -13,9 +13,7 @@ void ScopeStack::Scope::add_slot(const std::string& name) {
   if (slot_numbers.emplace(name, static_cast<int>(slots.size())).second) slots.push_back(name);
 }
 
-void ScopeStack::open(bool comprehension) {
-  scopes_.emplace_back().comprehension = comprehension;
-}
+void ScopeStack::open(bool comprehension) { scopes_.emplace_back().comprehension = comprehension; }
 
 ScopeStack::Closed ScopeStack::close() {
   Scope scope = take_innermost();

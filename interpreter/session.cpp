@@ -11,20 +11,17 @@ Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagn
                  SessionOptions options)
     : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
 
-bool Session::is_command(std::string_view name) const {
-  return catalogue_.has(name) || is_foreign_command(name);
-}
+bool Session::is_command(std::string_view name) const { return catalogue_.has(name) || is_foreign_command(name); }
 
-std::vector<std::string> Session::command_names() const {
-  return catalogue_.names();
-}
+std::vector<std::string> Session::command_names() const { return catalogue_.names(); }
 
 Value Session::call(const CommandCall& written, bool eager) {
   const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
   if (!catalogue_.has(written.name)) {
     MissingCommand missing = missing_command(written.name, catalogue_.names());
     const Severity severity = is_foreign_command(written.name) ? unsupported : Severity::error;
-    diagnostics_.add({severity, std::move(missing.code), std::move(missing.message), std::move(missing.hint), written.name_span});
+    diagnostics_.add(
+        {severity, std::move(missing.code), std::move(missing.message), std::move(missing.hint), written.name_span});
     return Value::unknown();
   }
   const CommandPage& page = catalogue_.page(written.name);
@@ -45,7 +42,8 @@ Value Session::call(const CommandCall& written, bool eager) {
   }
 
   ConceptPtr product = checked.call.result;
-  if (!product && !checked.product_type.empty()) product = make_concept(checked.product_type, written.target, written.name_span);
+  if (!product && !checked.product_type.empty())
+    product = make_concept(checked.product_type, written.target, written.name_span);
   checked.call.result = product;
   CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
   node.caught = eager;

@@ -36,9 +36,9 @@ class Session : public CommandHost {
   std::vector<std::string> command_names() const override;
   Value call(const CommandCall& call, bool eager) override;
 
-  /// While the file has errors, or is only being checked, what would have to be solved is left alone, and the evaluator goes
-  /// on with an unknown value. It does so too, inside of `try` as well, when a call outside of `try` fails: that ends a
-  /// file where the call stands, so it is reported and the file's own handlers do not get it.
+  /// While the file has errors, or is only being checked, what would have to be solved is left alone, and the evaluator
+  /// goes on with an unknown value. It does so too, inside of `try` as well, when a call outside of `try` fails: that
+  /// ends a file where the call stands, so it is reported and the file's own handlers do not get it.
   bool force(const ConceptPtr& handle) override;
   /// Runs the calls that read the variable through a function of the file.
   void before_binding(std::string_view name) override;

@@ -13,9 +13,7 @@ namespace comma::interpreter {
 
 namespace {
 
-bool continues_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 }  // namespace
 
@@ -34,8 +32,10 @@ SourceFile::SourceFile(std::string path, std::string text) : path_(std::move(pat
 std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path) {
   std::error_code absent;
   const auto kind = std::filesystem::status(path, absent).type();
-  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::none) {
-    throw DiagnosticError("unreadable-file", path + " is not a regular file", {}, "name a text file on a disk: folders, devices and pipes are not read");
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular &&
+      kind != std::filesystem::file_type::none) {
+    throw DiagnosticError("unreadable-file", path + " is not a regular file", {},
+                          "name a text file on a disk: folders, devices and pipes are not read");
   }
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;

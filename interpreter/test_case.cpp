@@ -27,7 +27,8 @@ class Claim {
       : arguments_(arguments), operands_(operands), options_(std::move(options)) {
     const std::size_t most = operands + options_.size();
     if (arguments.size() < operands || arguments.size() > most) {
-      raise(ErrorKind::type, fmt::format("{}() takes {} to {} arguments, not {}", method, operands, most, arguments.size()));
+      raise(ErrorKind::type,
+            fmt::format("{}() takes {} to {} arguments, not {}", method, operands, most, arguments.size()));
     }
     for (const auto& item : arguments.named) {
       if (std::find(options_.begin(), options_.end(), item.name) == options_.end()) {
@@ -152,14 +153,17 @@ Value assert_not_almost_equal(Evaluator& evaluator, const Value&, const CallArgu
 std::string names_of(const Value& classes) {
   if (const auto* one = classes.as_object<ExceptionClassObject>()) return std::string(class_of(one->kind).name);
   std::string names;
-  if (!classes.is_tuple()) raise(ErrorKind::type, "assertRaises() arg 1 must be an exception type or tuple of exception types");
+  if (!classes.is_tuple())
+    raise(ErrorKind::type, "assertRaises() arg 1 must be an exception type or tuple of exception types");
   for (const Value& each : classes.items()) names += (names.empty() ? "" : ", ") + names_of(each);
   return "(" + names + ")";
 }
 
 /// Without a function to call: what `with` watches over. With one: the call, judged.
-Value expect_error(Evaluator& evaluator, std::string_view method, const CallArguments& arguments, std::size_t operands) {
-  if (arguments.size() < operands) raise(ErrorKind::type, fmt::format("{}() takes at least {} arguments, not {}", method, operands, arguments.size()));
+Value expect_error(Evaluator& evaluator, std::string_view method, const CallArguments& arguments,
+                   std::size_t operands) {
+  if (arguments.size() < operands)
+    raise(ErrorKind::type, fmt::format("{}() takes at least {} arguments, not {}", method, operands, arguments.size()));
   auto claim = std::make_shared<ExpectedError>();
   claim->classes = arguments[0];
   names_of(arguments[0]);
@@ -172,8 +176,10 @@ Value expect_error(Evaluator& evaluator, std::string_view method, const CallArgu
   claim->assertion.span = arguments.span;
   if (arguments.size() == operands) {
     for (const auto& option : arguments.named)
-      if (option.name != "msg") raise(ErrorKind::type, fmt::format("{}() got an unexpected keyword argument '{}'", method, option.name));
-    if (const Value* message = arguments.find("msg"); message != nullptr && message->is_text()) claim->assertion.message = message->as_text();
+      if (option.name != "msg")
+        raise(ErrorKind::type, fmt::format("{}() got an unexpected keyword argument '{}'", method, option.name));
+    if (const Value* message = arguments.find("msg"); message != nullptr && message->is_text())
+      claim->assertion.message = message->as_text();
     return Value(std::shared_ptr<Object>(std::move(claim)));
   }
   CallArguments rest = arguments;
@@ -237,7 +243,9 @@ bool ExpectedError::judge(Evaluator& evaluator, const std::shared_ptr<ExceptionO
   if (raised) exception = Value(std::shared_ptr<Object>(raised));
   assertion.holds = raised && (!pattern || finds_pattern(raised->text(), *pattern));
   if (!assertion.holds && assertion.message.empty())
-    assertion.message = raised ? fmt::format("{} does not hold {}", Value(raised->text()).repr(), Value(*pattern).repr()) : names_of(classes) + " not raised";
+    assertion.message = raised
+                            ? fmt::format("{} does not hold {}", Value(raised->text()).repr(), Value(*pattern).repr())
+                            : names_of(classes) + " not raised";
   evaluator.host().judge(assertion);
   return true;
 }

@@ -1,5 +1,5 @@
-// CA.TestCase(): claims that a command file makes about its own values, under the names of Python's unittest. Each claim
-// goes to the host, which makes a verdict of it; a claim that does not hold stops nothing.
+// CA.TestCase(): claims that a command file makes about its own values, under the names of Python's unittest. Each
+// claim goes to the host, which makes a verdict of it; a claim that does not hold stops nothing.
 #pragma once
 
 #include "interpreter/host.hpp"
@@ -8,7 +8,8 @@
 
 namespace comma::interpreter {
 
-/// assertRaises(ERROR), assertRaisesRegex(ERROR, pattern): what a block or a call has to raise; `exception` is what it raised.
+/// assertRaises(ERROR), assertRaisesRegex(ERROR, pattern): what a block or a call has to raise; `exception` is what it
+/// raised.
 struct ExpectedError : HostObject {
   Value classes;
   std::optional<std::string> pattern;  ///< that the exception's text holds
@@ -19,7 +20,8 @@ struct ExpectedError : HostObject {
   std::optional<Value> attribute(std::string_view name) const override;
   std::vector<std::string> attribute_names() const override { return {"exception"}; }
 
-  /// Gives its verdict on what was raised, null for nothing. False for an exception of another class: it goes on its way up.
+  /// Gives its verdict on what was raised, null for nothing. False for an exception of another class: it goes on its
+  /// way up.
   bool judge(Evaluator& evaluator, const std::shared_ptr<ExceptionObject>& raised);
 };
 

@@ -30,7 +30,7 @@ struct Token {
   Value value;            ///< of a number or a text
   bool starts_line = false;
   bool flawed = false;  ///< the lexer has reported something about it
-  int column = 0;  ///< indentation of its line, tabs counted to multiples of 8
+  int column = 0;       ///< indentation of its line, tabs counted to multiples of 8
 };
 
 }  // namespace comma::interpreter

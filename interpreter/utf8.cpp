@@ -6,9 +6,7 @@ namespace comma::interpreter {
 
 namespace {
 
-bool is_continuation(unsigned char c) {
-  return (c & 0xC0) == 0x80;
-}
+bool is_continuation(unsigned char c) { return (c & 0xC0) == 0x80; }
 
 std::size_t length_of_lead(unsigned char c) {
   if (c < 0x80) return 1;

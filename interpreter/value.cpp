@@ -37,9 +37,7 @@ void release(std::vector<Value> pending) {
   }
 }
 
-bool is_container(const Value& value) {
-  return value.is_sequence() || value.is_dict();
-}
+bool is_container(const Value& value) { return value.is_sequence() || value.is_dict(); }
 
 [[noreturn]] void throw_wrong_type(const Value& value, const char* wanted) {
   throw std::logic_error(fmt::format("a value of type {} was read as {}", value.type_name(), wanted));
@@ -54,9 +52,7 @@ const T& get(const Value& value, const char* wanted) {
 
 }  // namespace
 
-std::string Object::repr() const {
-  return "<" + type_name() + ">";
-}
+std::string Object::repr() const { return "<" + type_name() + ">"; }
 
 Sequence::Sequence(std::vector<Value> values) : items(std::move(values)) {}
 
@@ -91,12 +87,8 @@ Value::Value(std::shared_ptr<Dict> mapping) : storage_(std::move(mapping)) {}
 Value::Value(std::shared_ptr<Set> set) : storage_(std::move(set)) {}
 Value::Value(std::shared_ptr<Object> object) : storage_(std::move(object)) {}
 
-Value Value::tuple(std::vector<Value> items) {
-  return Value(std::make_shared<Tuple>(std::move(items)));
-}
-Value Value::list(std::vector<Value> items) {
-  return Value(std::make_shared<List>(std::move(items)));
-}
+Value Value::tuple(std::vector<Value> items) { return Value(std::make_shared<Tuple>(std::move(items))); }
+Value Value::list(std::vector<Value> items) { return Value(std::make_shared<List>(std::move(items))); }
 
 Value Value::dict(std::vector<std::pair<std::string, Value>> items) {
   auto mapping = std::make_shared<Dict>();
@@ -109,70 +101,32 @@ Value Value::integer(BigInteger value) {
   return Value(Storage(std::make_shared<const BigInteger>(std::move(value))));
 }
 
-Value Value::unknown() {
-  return Value(Storage(Unknown{}));
-}
+Value Value::unknown() { return Value(Storage(Unknown{})); }
 
-bool Value::is_unknown() const {
-  return std::holds_alternative<Unknown>(storage_);
-}
-bool Value::is_none() const {
-  return std::holds_alternative<std::monostate>(storage_);
-}
-bool Value::is_bool() const {
-  return std::holds_alternative<bool>(storage_);
-}
-bool Value::is_integer() const {
-  return std::holds_alternative<std::int64_t>(storage_);
-}
-bool Value::is_big_integer() const {
-  return std::holds_alternative<std::shared_ptr<const BigInteger>>(storage_);
-}
-bool Value::is_real() const {
-  return std::holds_alternative<double>(storage_);
-}
-bool Value::is_number() const {
-  return is_integer() || is_real() || is_big_integer();
-}
-bool Value::is_complex() const {
-  return std::holds_alternative<std::complex<double>>(storage_);
-}
-bool Value::is_text() const {
-  return std::holds_alternative<std::shared_ptr<const std::string>>(storage_);
-}
-bool Value::is_tuple() const {
-  return std::holds_alternative<std::shared_ptr<Tuple>>(storage_);
-}
-bool Value::is_list() const {
-  return std::holds_alternative<std::shared_ptr<List>>(storage_);
-}
-bool Value::is_sequence() const {
-  return is_tuple() || is_list();
-}
-bool Value::is_dict() const {
-  return std::holds_alternative<std::shared_ptr<Dict>>(storage_);
-}
-bool Value::is_set() const {
-  return std::holds_alternative<std::shared_ptr<Set>>(storage_);
-}
-bool Value::is_factor() const {
-  return is_dict() && as_dict().factor != nullptr;
-}
-bool Value::is_concept() const {
-  return std::holds_alternative<ConceptPtr>(storage_);
-}
+bool Value::is_unknown() const { return std::holds_alternative<Unknown>(storage_); }
+bool Value::is_none() const { return std::holds_alternative<std::monostate>(storage_); }
+bool Value::is_bool() const { return std::holds_alternative<bool>(storage_); }
+bool Value::is_integer() const { return std::holds_alternative<std::int64_t>(storage_); }
+bool Value::is_big_integer() const { return std::holds_alternative<std::shared_ptr<const BigInteger>>(storage_); }
+bool Value::is_real() const { return std::holds_alternative<double>(storage_); }
+bool Value::is_number() const { return is_integer() || is_real() || is_big_integer(); }
+bool Value::is_complex() const { return std::holds_alternative<std::complex<double>>(storage_); }
+bool Value::is_text() const { return std::holds_alternative<std::shared_ptr<const std::string>>(storage_); }
+bool Value::is_tuple() const { return std::holds_alternative<std::shared_ptr<Tuple>>(storage_); }
+bool Value::is_list() const { return std::holds_alternative<std::shared_ptr<List>>(storage_); }
+bool Value::is_sequence() const { return is_tuple() || is_list(); }
+bool Value::is_dict() const { return std::holds_alternative<std::shared_ptr<Dict>>(storage_); }
+bool Value::is_set() const { return std::holds_alternative<std::shared_ptr<Set>>(storage_); }
+bool Value::is_factor() const { return is_dict() && as_dict().factor != nullptr; }
+bool Value::is_concept() const { return std::holds_alternative<ConceptPtr>(storage_); }
 
 bool Value::is_callable() const {
   const auto* object = std::get_if<std::shared_ptr<Object>>(&storage_);
   return object != nullptr && (*object)->is_callable();
 }
 
-bool Value::as_bool() const {
-  return get<bool>(*this, "bool");
-}
-std::int64_t Value::as_integer() const {
-  return get<std::int64_t>(*this, "int");
-}
+bool Value::as_bool() const { return get<bool>(*this, "bool"); }
+std::int64_t Value::as_integer() const { return get<std::int64_t>(*this, "int"); }
 
 double Value::as_real() const {
   if (is_integer()) return static_cast<double>(as_integer());
@@ -185,30 +139,18 @@ std::complex<double> Value::as_complex() const {
   return get<std::complex<double>>(*this, "complex");
 }
 
-const std::string& Value::as_text() const {
-  return *get<std::shared_ptr<const std::string>>(*this, "str");
-}
+const std::string& Value::as_text() const { return *get<std::shared_ptr<const std::string>>(*this, "str"); }
 
 std::span<const Value> Value::items() const {
   if (is_list()) return as_list();
   return get<std::shared_ptr<Tuple>>(*this, "tuple")->items;
 }
 
-const ConceptPtr& Value::as_concept() const {
-  return get<ConceptPtr>(*this, "concept");
-}
-const BigInteger& Value::as_big_integer() const {
-  return *get<std::shared_ptr<const BigInteger>>(*this, "int");
-}
-Dict& Value::as_dict() const {
-  return *get<std::shared_ptr<Dict>>(*this, "dict");
-}
-Dict& Value::as_set() const {
-  return *get<std::shared_ptr<Set>>(*this, "set")->keys;
-}
-std::vector<Value>& Value::as_list() const {
-  return get<std::shared_ptr<List>>(*this, "list")->items;
-}
+const ConceptPtr& Value::as_concept() const { return get<ConceptPtr>(*this, "concept"); }
+const BigInteger& Value::as_big_integer() const { return *get<std::shared_ptr<const BigInteger>>(*this, "int"); }
+Dict& Value::as_dict() const { return *get<std::shared_ptr<Dict>>(*this, "dict"); }
+Dict& Value::as_set() const { return *get<std::shared_ptr<Set>>(*this, "set")->keys; }
+std::vector<Value>& Value::as_list() const { return get<std::shared_ptr<List>>(*this, "list")->items; }
 
 std::string Value::type_name() const {
   if (is_concept()) return as_concept()->type;
@@ -220,8 +162,6 @@ std::string Value::type_name() const {
   return names[storage_.index()];
 }
 
-std::string Value::repr() const {
-  return repr_of(*this);
-}
+std::string Value::repr() const { return repr_of(*this); }
 
 }  // namespace comma::interpreter

@@ -76,11 +76,10 @@ struct Set {
 class Value {
  public:
   struct Unknown {};
-  using Storage =
-      std::variant<std::monostate, Unknown, bool, std::int64_t, double, std::complex<double>,
-                   std::shared_ptr<const std::string>, std::shared_ptr<const BigInteger>, std::shared_ptr<Tuple>,
-                   std::shared_ptr<List>, std::shared_ptr<Dict>, std::shared_ptr<Set>, ConceptPtr,
-                   std::shared_ptr<Object>>;
+  using Storage = std::variant<std::monostate, Unknown, bool, std::int64_t, double, std::complex<double>,
+                               std::shared_ptr<const std::string>, std::shared_ptr<const BigInteger>,
+                               std::shared_ptr<Tuple>, std::shared_ptr<List>, std::shared_ptr<Dict>,
+                               std::shared_ptr<Set>, ConceptPtr, std::shared_ptr<Object>>;
 
   Value();  ///< None
   Value(bool value);

@@ -8,8 +8,8 @@
 
 namespace comma::solver {
 
-/// `code` is a stable word with hyphens: "singular-matrix", "no-convergence", "contradictory-conditions", "damaged-mesh",
-/// "unknown-group", "unsupported" ... `hint` says what would mend it, or is empty.
+/// `code` is a stable word with hyphens: "singular-matrix", "no-convergence", "contradictory-conditions",
+/// "damaged-mesh", "unknown-group", "unsupported" ... `hint` says what would mend it, or is empty.
 class Error : public std::runtime_error {
  public:
   Error(std::string code, const std::string& message, std::string hint = {})

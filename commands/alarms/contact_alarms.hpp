@@ -9,6 +9,7 @@
 namespace comma::commands {
 
 /// Alarms `few-points`, `shared-slave-nodes`, `idle-exclusion`, `inward-normals`, `mixed-faces`, `idle-coefficient`.
-void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& definition, const solver::Model& model, interpreter::Diagnostics& diagnostics);
+void warn_of_contact(const interpreter::Call& call, const solver::ContactDefinition& definition,
+                     const solver::Model& model, interpreter::Diagnostics& diagnostics);
 
 }  // namespace comma::commands

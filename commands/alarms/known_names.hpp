@@ -16,7 +16,8 @@ bool is_field_name(std::string_view name);
 std::vector<std::string> field_names();
 
 /// The components that a field can have on the elements of a model, or nothing when comma does not know the field's.
-/// Numbered ones stand as their letter: "V" for V1, V2 ... of the internal variables, "X" for X1, X2 ... of fields of one's own.
+/// Numbered ones stand as their letter: "V" for V1, V2 ... of the internal variables, "X" for X1, X2 ... of fields of
+/// one's own.
 std::optional<std::vector<std::string>> components_of_field(std::string_view field, const solver::Model& model);
 bool has_component(const std::vector<std::string>& components, std::string_view name);
 

@@ -17,21 +17,26 @@ namespace comma::commands {
 namespace {
 
 // Where the sign of a load is that of the normals. Faces between two bodies have no outer side.
-void warn_of_inward_normals(const Keywords& occurrence, const char* keyword, const LoadedModel& target, Context& context) {
+void warn_of_inward_normals(const Keywords& occurrence, const char* keyword, const LoadedModel& target,
+                            Context& context) {
   std::vector<int> skin = selected_cells(occurrence, target.mesh);
   std::erase_if(skin, [&](int cell) { return !target.model.is_skin(cell); });
   const std::vector<int> inward = solver::inward_skin(target.mesh, skin);
   if (inward.empty()) return;
-  const std::string groups = occurrence.given("GROUP_MA") ? fmt::format(" of {}", fmt::join(occurrence.texts("GROUP_MA"), ", ")) : "";
-  context.diagnostics.alarm("inward-surface",
-                            fmt::format("{}: the normals of {} of the {} cells{} point into the body, that of {} for one: what acts along them has the other sign there", keyword,
-                                        inward.size(), skin.size(), groups, target.mesh.cell_name(inward.front())),
-                            occurrence.span, "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
+  const std::string groups =
+      occurrence.given("GROUP_MA") ? fmt::format(" of {}", fmt::join(occurrence.texts("GROUP_MA"), ", ")) : "";
+  context.diagnostics.alarm(
+      "inward-surface",
+      fmt::format("{}: the normals of {} of the {} cells{} point into the body, that of {} for one: what acts along "
+                  "them has the other sign there",
+                  keyword, inward.size(), skin.size(), groups, target.mesh.cell_name(inward.front())),
+      occurrence.span, "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
 }
 
 void check_normals(const Call& call, const LoadedModel& target, Context& context) {
   if (call.text("VERI_NORM") == "NON") return;
-  for (const Keywords& pressure : call.factors("PRES_REP")) warn_of_inward_normals(pressure, "PRES_REP", target, context);
+  for (const Keywords& pressure : call.factors("PRES_REP"))
+    warn_of_inward_normals(pressure, "PRES_REP", target, context);
   for (const Keywords& imposed : call.factors("FACE_IMPO")) {
     if (!imposed.given("DNOR")) continue;
     const Amount amount = amount_of(imposed, "DNOR");
@@ -45,14 +50,17 @@ void warn_of_weight_out_of_plane(const Call& call, const LoadedModel& target, Co
   const int cells = target.mesh.cell_count();
   bool has_plane = false, in_space = false;
   for (int cell = 0; cell < cells; ++cell) {
-    has_plane = has_plane || solver::continuum_dimension(target.model.formulations[static_cast<std::size_t>(cell)]) == 2;
+    has_plane =
+        has_plane || solver::continuum_dimension(target.model.formulations[static_cast<std::size_t>(cell)]) == 2;
     in_space = in_space || solver::contains(target.model.components_of(cell), solver::Component::dz);
   }
   if (!has_plane || in_space) return;
   for (const Keywords& weight : call.factors("PESANTEUR")) {
     const auto direction = weight.reals("DIRECTION");
     if (direction.size() < 3 || direction[2] == 0.0) continue;
-    context.diagnostics.alarm("lost-force", "PESANTEUR: what acts along Z, out of the plane of the model, is lost", weight.span_of("DIRECTION"), "in a plane model weight acts along X and Y (Y alone with AXIS)");
+    context.diagnostics.alarm("lost-force", "PESANTEUR: what acts along Z, out of the plane of the model, is lost",
+                              weight.span_of("DIRECTION"),
+                              "in a plane model weight acts along X and Y (Y alone with AXIS)");
   }
 }
 
@@ -62,9 +70,16 @@ void warn_of_weightless_cells(const Call& call, const LoadedModel& target, Conte
     for (const Keywords& load : call.factors(keyword)) {
       if (!names_a_place(load, cell_places)) continue;
       const std::vector<int> cells = selected_cells(load, target.mesh);
-      const auto bears = [&](int cell) { return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none && !target.model.is_skin(cell); };
+      const auto bears = [&](int cell) {
+        return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none &&
+               !target.model.is_skin(cell);
+      };
       if (std::ranges::any_of(cells, bears)) continue;
-      context.diagnostics.alarm("lost-force", fmt::format("{}: none of the {} cells that it names has a mass: they bound others, or carry no element", keyword, cells.size()), load.span, "name the cells of the bodies, or leave out where it acts: the whole model");
+      context.diagnostics.alarm(
+          "lost-force",
+          fmt::format("{}: none of the {} cells that it names has a mass: they bound others, or carry no element",
+                      keyword, cells.size()),
+          load.span, "name the cells of the bodies, or leave out where it acts: the whole model");
     }
 }
 
@@ -73,23 +88,29 @@ void warn_of_lost_forces(const Call& call, const LoadedModel& target, Context& c
   for (const Keywords& force : call.factors("FORCE_NODALE")) {
     const std::vector<int> nodes = selected_nodes(force, target.mesh);
     const auto is_loose = [&](int node) {
-      return std::ranges::none_of(displacement_keywords, [&](const NamedComponent& named) { return target.dofs.dof(node, named.component) >= 0; });
+      return std::ranges::none_of(displacement_keywords, [&](const NamedComponent& named) {
+        return target.dofs.dof(node, named.component) >= 0;
+      });
     };
     if (const auto lost = std::ranges::count_if(nodes, is_loose); lost > 0) {
-      context.diagnostics.alarm("lost-force",
-                                fmt::format("FORCE_NODALE: {} of the {} nodes belong to no element of the model, {} the first: what acts on them is lost", lost, nodes.size(),
-                                            target.mesh.node_name(*std::ranges::find_if(nodes, is_loose))),
-                                force.span, "leave them out of the group, or put them into the cells that bear the force");
+      context.diagnostics.alarm(
+          "lost-force",
+          fmt::format("FORCE_NODALE: {} of the {} nodes belong to no element of the model, {} the first: what acts on "
+                      "them is lost",
+                      lost, nodes.size(), target.mesh.node_name(*std::ranges::find_if(nodes, is_loose))),
+          force.span, "leave them out of the group, or put them into the cells that bear the force");
     }
     for (const NamedComponent& named : force_keywords) {
       if (!force.given(named.keyword)) continue;
       const auto lacks = [&](int node) { return !is_loose(node) && target.dofs.dof(node, named.component) < 0; };
       const auto lost = std::ranges::count_if(nodes, lacks);
       if (lost == 0) continue;
-      context.diagnostics.alarm("lost-force",
-                                fmt::format("FORCE_NODALE: {} of the {} nodes have no {}, {} the first: {} is lost there", lost, nodes.size(), solver::name_of(named.component),
-                                            target.mesh.node_name(*std::ranges::find_if(nodes, lacks)), named.keyword),
-                                force.at(named.keyword).name_span, "name the nodes that have it by a group of their own");
+      context.diagnostics.alarm(
+          "lost-force",
+          fmt::format("FORCE_NODALE: {} of the {} nodes have no {}, {} the first: {} is lost there", lost, nodes.size(),
+                      solver::name_of(named.component), target.mesh.node_name(*std::ranges::find_if(nodes, lacks)),
+                      named.keyword),
+          force.at(named.keyword).name_span, "name the nodes that have it by a group of their own");
     }
   }
 }
@@ -108,7 +129,9 @@ struct ForceKeyword {
   Overloading overloading = Overloading::by_component;
 };
 
-bool is_loaded(const LoadedModel& target, int cell) { return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none; }
+bool is_loaded(const LoadedModel& target, int cell) {
+  return target.model.formulations[static_cast<std::size_t>(cell)] != solver::Formulation::none;
+}
 
 bool is_loaded_skin(const LoadedModel& target, int cell) { return target.model.is_skin(cell); }
 
@@ -136,18 +159,24 @@ std::vector<int> places_of(const ForceKeyword& keyword, const Keywords& force, c
 }
 
 // PRES of FORCE_COQUE is F3 against the normal.
-std::string name_of_part(const ForceKeyword& keyword, const std::string& name) { return std::string_view(keyword.name) == "FORCE_COQUE" && name == "PRES" ? "F3" : name; }
+std::string name_of_part(const ForceKeyword& keyword, const std::string& name) {
+  return std::string_view(keyword.name) == "FORCE_COQUE" && name == "PRES" ? "F3" : name;
+}
 
-// What replaces what other occurrences give: the number or function of a component; of keywords that count whole, anything.
-std::vector<std::pair<std::string, const interpreter::Keyword*>> overloading_parts(const ForceKeyword& keyword, const Keywords& force) {
+// What replaces what other occurrences give: the number or function of a component; of keywords that count whole,
+// anything.
+std::vector<std::pair<std::string, const interpreter::Keyword*>> overloading_parts(const ForceKeyword& keyword,
+                                                                                   const Keywords& force) {
   if (keyword.overloading == Overloading::whole) return {{keyword.name, nullptr}};
   std::vector<std::pair<std::string, const interpreter::Keyword*>> parts;
   for (const interpreter::Keyword& item : force.items)
-    if (item.given && (item.value.is_concept() || item.value.is_number())) parts.emplace_back(name_of_part(keyword, item.name), &item);
+    if (item.given && (item.value.is_concept() || item.value.is_number()))
+      parts.emplace_back(name_of_part(keyword, item.name), &item);
   return parts;
 }
 
-void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, const LoadedModel& target, Context& context) {
+void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, const LoadedModel& target,
+                               Context& context) {
   if (call.factors(keyword.name).size() < 2) return;
   std::map<std::pair<int, std::string>, const interpreter::Keyword*> last;
   Overriding found{keyword.name};
@@ -164,10 +193,12 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
       }
     }
   }
-  warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads", context);
+  warn_of(found, call.factors(keyword.name).back().span, "where they are meant to add up, put them into two loads",
+          context);
 }
 
-// Forces of a beam or plate in own axes replace those in the axes of the mesh, and the other way round; those of a plate at one level those at another.
+// Forces of a beam or plate in own axes replace those in the axes of the mesh, and the other way round; those of a
+// plate at one level those at another.
 void warn_of_other_axes(const Call& call, const char* keyword, const LoadedModel& target, Context& context) {
   std::map<int, std::pair<bool, std::string>> frames;
   Overriding found{keyword};
@@ -180,18 +211,26 @@ void warn_of_other_axes(const Call& call, const char* keyword, const LoadedModel
       if (is_first || before == frame) continue;
       ++found.count;
       if (!found.example.empty()) continue;
-      const std::string level = before.second == frame.second ? std::string() : fmt::format(" at PLAN='{}'", before.second);
-      found.example = fmt::format("the force in {} axes{} on {}", before.first ? "own" : "global", level, target.mesh.cell_name(cell));
+      const std::string level =
+          before.second == frame.second ? std::string() : fmt::format(" at PLAN='{}'", before.second);
+      found.example = fmt::format("the force in {} axes{} on {}", before.first ? "own" : "global", level,
+                                  target.mesh.cell_name(cell));
     }
   }
-  if (found.count > 0) warn_of(found, call.factors(keyword).back().span, "where they are meant to add up, put them into two loads", context);
+  if (found.count > 0)
+    warn_of(found, call.factors(keyword).back().span, "where they are meant to add up, put them into two loads",
+            context);
 }
 
 }  // namespace
 
 void warn_of(const Overriding& found, const interpreter::Span& at, const char* hint, Context& context) {
   if (found.count == 0) return;
-  context.diagnostics.alarm("overridden-value", fmt::format("{}: {} of its values give way to later ones of the same keyword, that of {} for one", found.keyword, found.count, found.example), at, hint);
+  context.diagnostics.alarm(
+      "overridden-value",
+      fmt::format("{}: {} of its values give way to later ones of the same keyword, that of {} for one", found.keyword,
+                  found.count, found.example),
+      at, hint);
 }
 
 void warn_of_loads(const Call& call, const LoadedModel& target, Context& context) {

@@ -8,7 +8,8 @@
 
 namespace comma::commands {
 
-/// Of several values that occurrences of one keyword give to a component at a place the last counts (U1.03.00, rule of overloading).
+/// Of several values that occurrences of one keyword give to a component at a place the last counts (U1.03.00, rule of
+/// overloading).
 struct Overriding {
   std::string keyword{};
   std::ptrdiff_t count = 0;

@@ -101,7 +101,8 @@ class NameCheck {
       : node_(node), graph_(graph), catalogue_(catalogue), diagnostics_(diagnostics) {}
 
   bool run() {
-    if (const std::string& name = node_.call.command; name == "DEFI_GROUP" || name == "CREA_MAILLAGE") collect_own_names(node_.call);
+    if (const std::string& name = node_.call.command; name == "DEFI_GROUP" || name == "CREA_MAILLAGE")
+      collect_own_names(node_.call);
     // Loads and contact speak of displacements.
     const std::string& command = node_.call.command;
     const bool of_displacements = command == "DEFI_CONTACT" || command.starts_with("AFFE_CHAR_MECA");
@@ -143,7 +144,8 @@ class NameCheck {
                    const std::vector<std::string>& outer_fields) {
     Reach reach = outer;
     for (const Keyword& keyword : keywords.items) collect_concepts(keyword.value, reach);
-    const std::vector<std::string> fields = keywords.given("NOM_CHAM") ? texts_of(keywords.at("NOM_CHAM").value) : outer_fields;
+    const std::vector<std::string> fields =
+        keywords.given("NOM_CHAM") ? texts_of(keywords.at("NOM_CHAM").value) : outer_fields;
     for (const Keyword& keyword : keywords.items) {
       if (!keyword.given) continue;
       const auto pages = pages_of(levels, keyword.name);
@@ -168,14 +170,22 @@ class NameCheck {
     }
     if (kinds.size() != 1) return;
     switch (*kinds.begin()) {
-      case Kind::node_group: return check_groups(site, "node", &solver::Mesh::node_groups, "cell", &solver::Mesh::cell_groups);
-      case Kind::cell_group: return check_groups(site, "cell", &solver::Mesh::cell_groups, "node", &solver::Mesh::node_groups);
-      case Kind::node: return check_members(site, "node", &solver::Mesh::find_node);
-      case Kind::cell: return check_members(site, "cell", &solver::Mesh::find_cell);
-      case Kind::component: return check_components(site);
-      case Kind::field: return check_fields(site);
-      case Kind::parameter: return check_parameters(site);
-      default: return;
+      case Kind::node_group:
+        return check_groups(site, "node", &solver::Mesh::node_groups, "cell", &solver::Mesh::cell_groups);
+      case Kind::cell_group:
+        return check_groups(site, "cell", &solver::Mesh::cell_groups, "node", &solver::Mesh::node_groups);
+      case Kind::node:
+        return check_members(site, "node", &solver::Mesh::find_node);
+      case Kind::cell:
+        return check_members(site, "cell", &solver::Mesh::find_cell);
+      case Kind::component:
+        return check_components(site);
+      case Kind::field:
+        return check_fields(site);
+      case Kind::parameter:
+        return check_parameters(site);
+      default:
+        return;
     }
   }
 
@@ -186,7 +196,8 @@ class NameCheck {
     const auto meshes = meshes_of(site.reach);
     if (meshes.empty()) return;
     const auto has = [&](Groups solver::Mesh::*kind_of_groups, const std::string& name) {
-      return std::ranges::any_of(meshes, [&](const solver::Mesh* mesh) { return (mesh->*kind_of_groups).contains(name); });
+      return std::ranges::any_of(meshes,
+                                 [&](const solver::Mesh* mesh) { return (mesh->*kind_of_groups).contains(name); });
     };
     const auto is_own = [&](const std::string& name) {
       if (own_names_.contains(name)) return true;
@@ -209,7 +220,8 @@ class NameCheck {
     const auto exists = [&](const std::string& name) {
       return std::ranges::any_of(meshes, [&](const solver::Mesh* mesh) { return (mesh->*find)(name) >= 0; });
     };
-    check_each(site, fmt::format("unknown-{}", kind), fmt::format("the mesh has no {}", kind), exists, [](const std::string&) { return std::string(); });
+    check_each(site, fmt::format("unknown-{}", kind), fmt::format("the mesh has no {}", kind), exists,
+               [](const std::string&) { return std::string(); });
   }
 
   void check_components(const Site& site) {
@@ -231,13 +243,16 @@ class NameCheck {
     if (site.label.find("/LIAISON_") != std::string::npos) known.emplace_back("DNOR");
     const auto exists = [&](const std::string& name) { return has_component(known, name); };
     const auto hint = [&](const std::string& name) { return hint_for(name, known, "component"); };
-    check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists, hint);
+    check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists,
+               hint);
   }
 
   /// Where it is not certain that fields of a mechanical result are meant, only a word that is nearly one is a mistake.
   void check_fields(const Site& site) {
     const bool certain = reads_a(site.reach, {"evol_noli", "evol_elas"});
-    const auto exists = [&](const std::string& name) { return is_field_name(name) || (!certain && nearest(name, field_names()).empty()); };
+    const auto exists = [&](const std::string& name) {
+      return is_field_name(name) || (!certain && nearest(name, field_names()).empty());
+    };
     const auto hint = [](const std::string& name) { return hint_for(name, field_names(), "field"); };
     check_each(site, "unknown-field", "there is no field", exists, hint);
   }
@@ -255,7 +270,8 @@ class NameCheck {
   }
 
   /// Reports each name of the value that does not exist, once, where it stands.
-  void check_each(const Site& site, std::string_view code, const std::string& finding, const std::function<bool(const std::string&)>& exists,
+  void check_each(const Site& site, std::string_view code, const std::string& finding,
+                  const std::function<bool(const std::string&)>& exists,
                   const std::function<std::string(const std::string&)>& hint) {
     std::set<std::string> missing;
     for (const PlacedText& name : placed_texts_of(site.keyword.value)) {
@@ -274,14 +290,16 @@ class NameCheck {
     constexpr int most_at_a_place = 3;
     int here = 0;
     for (const Diagnostic& item : diagnostics_.items()) {
-      const bool is_here = item.severity == Severity::error && item.span && span && item.span.file == span.file && item.span.begin == span.begin && item.span.end == span.end;
+      const bool is_here = item.severity == Severity::error && item.span && span && item.span.file == span.file &&
+                           item.span.begin == span.begin && item.span.end == span.end;
       if (is_here && (item.message == message || ++here == most_at_a_place)) return true;
     }
     return false;
   }
 
   bool reads_a(const Reach& reach, std::initializer_list<std::string_view> types) const {
-    return std::ranges::any_of(reach, [&](const Concept* handle) { return std::ranges::find(types, handle->type) != types.end(); });
+    return std::ranges::any_of(
+        reach, [&](const Concept* handle) { return std::ranges::find(types, handle->type) != types.end(); });
   }
 
   /// The meshes behind the concepts; none when one of them is not known for certain at this point of the file.
@@ -330,7 +348,8 @@ class NameCheck {
 
 }  // namespace
 
-bool check_names(const CommandNode& node, const CommandGraph& graph, const Catalogue& catalogue, Diagnostics& diagnostics) {
+bool check_names(const CommandNode& node, const CommandGraph& graph, const Catalogue& catalogue,
+                 Diagnostics& diagnostics) {
   return NameCheck(node, graph, catalogue, diagnostics).run();
 }
 

@@ -1,6 +1,6 @@
-// Names that the syntax cannot judge: groups, nodes, cells, components, fields and parameters, looked up in the meshes and
-// models that a call reaches through its concepts (a result reads its model, the model its mesh). Every call is looked at,
-// also one that `comma check` will not run.
+// Names that the syntax cannot judge: groups, nodes, cells, components, fields and parameters, looked up in the meshes
+// and models that a call reaches through its concepts (a result reads its model, the model its mesh). Every call is
+// looked at, also one that `comma check` will not run.
 #pragma once
 
 #include "interpreter/catalogue.hpp"

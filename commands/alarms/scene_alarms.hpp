@@ -1,4 +1,5 @@
-// What the commands that solve tell about a scene before they solve it: data that is missing, that nothing takes, or that is likely not to be what is meant.
+// What the commands that solve tell about a scene before they solve it: data that is missing, that nothing takes, or
+// that is likely not to be what is meant.
 #pragma once
 
 #include "commands/context.hpp"
@@ -7,15 +8,18 @@
 
 namespace comma::commands {
 
-/// Alarms `near-incompressible` (cells that lock), `no-density` (weight or rotation of a material without one), `no-expansion` (nothing depends on a
-/// temperature or drying that is given), `repeated-load` (a load that EXCIT names more than once), `other-model`
-/// (a load, contact or properties that were made on a model of other elements).
+/// Alarms `near-incompressible` (cells that lock), `no-density` (weight or rotation of a material without one),
+/// `no-expansion` (nothing depends on a temperature or drying that is given), `repeated-load` (a load that EXCIT names
+/// more than once), `other-model` (a load, contact or properties that were made on a model of other elements).
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
-/// The same, and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already, without an initial state), `no-behaviour`
-/// (cells that COMPORTEMENT leaves out), `initial-strains` (PRE_EPSI of materials that remember), and of what ETAT_INIT lacks `no-initial-field`, `partial-state`, `forgotten-flow`,
-/// `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from fields), `other-variables` (a cell goes on with a law of other internal
-/// variables), `odd-variables` (more of them than the law has, or a cumulated plastic strain below zero). `before`: the laws of the initial state; null: elasticity, or not known.
-void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant, const solver::BehaviourOfCells* before, Context& context);
+/// The same, and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already,
+/// without an initial state), `no-behaviour` (cells that COMPORTEMENT leaves out), `initial-strains` (PRE_EPSI of
+/// materials that remember), and of what ETAT_INIT lacks `no-initial-field`, `partial-state`, `forgotten-flow`,
+/// `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from fields), `other-variables` (a cell
+/// goes on with a law of other internal variables), `odd-variables` (more of them than the law has, or a cumulated
+/// plastic strain below zero). `before`: the laws of the initial state; null: elasticity, or not known.
+void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant,
+                             const solver::BehaviourOfCells* before, Context& context);
 
 }  // namespace comma::commands

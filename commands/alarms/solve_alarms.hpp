@@ -1,4 +1,5 @@
-// What the commands that solve tell about a solution that may be far from that of the body although the equations were solved.
+// What the commands that solve tell about a solution that may be far from that of the body although the equations were
+// solved.
 #pragma once
 
 #include <set>
@@ -10,17 +11,23 @@
 
 namespace comma::commands {
 
-/// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive definite.
-void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before, Context& context);
+/// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive
+/// definite.
+void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before,
+                                  Context& context);
 
-/// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave`, `weak-friction` and others on what may be wrong with the contact and the bounds of a solution.
-void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem, const solver::ContactDoubts& doubts, Context& context);
+/// Alarms `soft-penalty`, `soft-friction-penalty`, `held-overlap`, `coarse-slave`, `weak-friction` and others on what
+/// may be wrong with the contact and the bounds of a solution.
+void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem,
+                     const solver::ContactDoubts& doubts, Context& context);
 
 /// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);
 
-/// Alarm `unused-stresses`: what ETAT_INIT gives as SIGM is not what its other fields make of the stresses, of a law that takes these.
-void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell, Context& context);
+/// Alarm `unused-stresses`: what ETAT_INIT gives as SIGM is not what its other fields make of the stresses, of a law
+/// that takes these.
+void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell,
+                             Context& context);
 
 /// Alarm `coarse-turns`, where beams in large rotations have turned so far in their steps that they are longer for it.
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context);

@@ -29,31 +29,32 @@ constexpr std::pair<std::string_view, solver::Relation> relations[] = {
     {"DIS_ECRO_CINE", solver::Relation::hardening_spring},
 };
 constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
-    {"PETIT", solver::Kinematics::small},
-    {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
-    {"GDEF_LOG", solver::Kinematics::logarithmic},
-    {"SIMO_MIEHE", solver::Kinematics::multiplicative},
-    {"PETIT_REAC", solver::Kinematics::updated},
-    {"GROT_GDEP", solver::Kinematics::large_rotations},
+    {"PETIT", solver::Kinematics::small},          {"GREEN_LAGRANGE", solver::Kinematics::green_lagrange},
+    {"GDEF_LOG", solver::Kinematics::logarithmic}, {"SIMO_MIEHE", solver::Kinematics::multiplicative},
+    {"PETIT_REAC", solver::Kinematics::updated},   {"GROT_GDEP", solver::Kinematics::large_rotations},
 };
 
 solver::CellBehaviour behaviour_of(const Keywords& keywords) {
-  const auto relation = std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
-  const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"), &std::pair<std::string_view, solver::Kinematics>::first);
+  const auto relation =
+      std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
+  const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"),
+                                             &std::pair<std::string_view, solver::Kinematics>::first);
   return {deformation->second, relation->second};
 }
 
 // In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.
 solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
   const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
-  if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0) return behaviour;
+  if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0)
+    return behaviour;
   behaviour.kinematics = solver::Kinematics::green_lagrange;
   return behaviour;
 }
 
 }  // namespace
 
-std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model, bool from_initial_state) {
+std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model,
+                                                              bool from_initial_state) {
   const solver::Mesh& mesh = *model.mesh;
   solver::CellBehaviour usual;
   usual.from_initial_state = from_initial_state;

@@ -23,7 +23,8 @@ void take_field(const Keywords& keywords, const char* keyword, const char* kind,
   if (!keywords.has(keyword)) return;
   const auto* field = std::get_if<Field>(&keywords.data<FieldConcept>(keyword).field);
   if (field == nullptr) {
-    throw DiagnosticError("wrong-type", std::string("ETAT_INIT/") + keyword + " must be a field " + kind, keywords.span_of(keyword));
+    throw DiagnosticError("wrong-type", std::string("ETAT_INIT/") + keyword + " must be a field " + kind,
+                          keywords.span_of(keyword));
   }
   target = *field;
 }
@@ -37,22 +38,31 @@ void take_held(const solver::ResultStep& step, const char* name, std::optional<F
 
 const solver::ResultStep& step_of(const Keywords& keywords) {
   const solver::Result& result = keywords.data<ResultConcept>("EVOL_NOLI").result;
-  if (keywords.has("NUME_ORDRE") || keywords.has("INST")) return only_step(keywords, result, "a computation starts from one");
-  if (result.steps.empty()) throw DiagnosticError("unknown-step", "ETAT_INIT: the result holds no step to start from", keywords.span_of("EVOL_NOLI"));
+  if (keywords.has("NUME_ORDRE") || keywords.has("INST"))
+    return only_step(keywords, result, "a computation starts from one");
+  if (result.steps.empty())
+    throw DiagnosticError("unknown-step", "ETAT_INIT: the result holds no step to start from",
+                          keywords.span_of("EVOL_NOLI"));
   return result.steps.back();
 }
 
 const solver::ResultStep& step_of_order(const Keywords& keywords, const char* keyword) {
   const auto& steps = keywords.data<ResultConcept>("EVOL_NOLI").result.steps;
-  const auto found = std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order == keywords.integer(keyword); });
+  const auto found = std::ranges::find_if(
+      steps, [&](const solver::ResultStep& step) { return step.order == keywords.integer(keyword); });
   if (found != steps.end()) return *found;
-  throw DiagnosticError("unknown-step", fmt::format("ETAT_INIT: {} has no step number {}", keywords.concept_of("EVOL_NOLI")->name, keywords.integer(keyword)),
-                        keywords.span_of(keyword), steps.empty() ? "" : fmt::format("it has those from {} to {}", steps.front().order, steps.back().order));
+  throw DiagnosticError(
+      "unknown-step",
+      fmt::format("ETAT_INIT: {} has no step number {}", keywords.concept_of("EVOL_NOLI")->name,
+                  keywords.integer(keyword)),
+      keywords.span_of(keyword),
+      steps.empty() ? "" : fmt::format("it has those from {} to {}", steps.front().order, steps.back().order));
 }
 
 // What a path that goes on from there needs to know of it.
 void take_path(const solver::Result& result, const solver::ResultStep& step, solver::InitialState& state) {
-  if (const auto intensity = step.parameters.find("ETA_PILOTAGE"); intensity != step.parameters.end()) state.intensity = intensity->second;
+  if (const auto intensity = step.parameters.find("ETA_PILOTAGE"); intensity != step.parameters.end())
+    state.intensity = intensity->second;
   if (&step != &result.steps.front()) take_held(*(&step - 1), "DEPL", state.earlier);
 }
 
@@ -64,12 +74,14 @@ bool has_surfaces_of(const solver::ContactDefinition& a, const solver::ContactDe
 }
 
 // Of contact between the same surfaces the step says how it is.
-void take_contact_fields(const interpreter::Call& call, const solver::StaticProblem& before, const solver::ResultStep& step, solver::InitialState& state) {
+void take_contact_fields(const interpreter::Call& call, const solver::StaticProblem& before,
+                         const solver::ResultStep& step, solver::InitialState& state) {
   if (!before.contact || !call.has("CONTACT")) return;
   const auto* now = std::get_if<solver::ContactDefinition>(&call.data<ContactConcept>("CONTACT").conditions);
   if (now == nullptr || !has_surfaces_of(*before.contact, *now)) return;
   for (const char* name : {"CONT_NOEU", "CONT_ELEM"})
-    if (const auto held = step.fields.find(name); held != step.fields.end()) state.contact_fields.emplace(name, held->second);
+    if (const auto held = step.fields.find(name); held != step.fields.end())
+      state.contact_fields.emplace(name, held->second);
 }
 
 // Stresses and variables live at Gauss points.
@@ -79,7 +91,8 @@ void bring_to_points(const interpreter::Call& call, std::optional<solver::Elemen
 }
 
 void require_same_mesh(const Keywords& keywords, const solver::Mesh& mesh) {
-  if (keywords.has("EVOL_NOLI")) require_mesh(keywords, "EVOL_NOLI", &keywords.data<ResultConcept>("EVOL_NOLI").result.mesh(), mesh);
+  if (keywords.has("EVOL_NOLI"))
+    require_mesh(keywords, "EVOL_NOLI", &keywords.data<ResultConcept>("EVOL_NOLI").result.mesh(), mesh);
   for (const char* field : {"DEPL", "SIGM", "VARI"})
     if (keywords.has(field)) require_mesh(keywords, field, keywords.data<FieldConcept>(field).mesh.get(), mesh);
 }
@@ -118,7 +131,9 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
 }
 
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem) {
-  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial || !problem.initial->stresses || problem.initial->displacement) return;
+  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial ||
+      !problem.initial->stresses || problem.initial->displacement)
+    return;
   const Keywords& keywords = call.factor("ETAT_INIT");
   const solver::ElementField& stresses = *problem.initial->stresses;
   for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
@@ -127,13 +142,17 @@ void check_initial_stresses(const interpreter::Call& call, const solver::StaticP
     const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !problem.initial->variables;
     if (!by_displacement && !by_variables) continue;
     const auto width = static_cast<std::size_t>(stresses.components.size());
-    const auto first = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell)]) * width, end = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell) + 1]) * width;
+    const auto first = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell)]) * width,
+               end = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell) + 1]) * width;
     const auto values = std::span(stresses.values).subspan(first, end - first);
     if (std::ranges::none_of(values, [](double value) { return std::abs(value) > 0.0; })) continue;
-    throw DiagnosticError("unsupported",
-                          fmt::format("ETAT_INIT: cell {} does not start from stresses: those of {} follow from the {}", problem.model->mesh->cell_name(cell),
-                                      by_displacement ? "ELAS_HYPER" : "SIMO_MIEHE", by_displacement ? "displacement" : "internal variables"),
-                          keywords.span_of("SIGM"), by_displacement ? "give DEPL, or another RELATION" : "give VARI too, or take DEFORMATION='GDEF_LOG'");
+    throw DiagnosticError(
+        "unsupported",
+        fmt::format("ETAT_INIT: cell {} does not start from stresses: those of {} follow from the {}",
+                    problem.model->mesh->cell_name(cell), by_displacement ? "ELAS_HYPER" : "SIMO_MIEHE",
+                    by_displacement ? "displacement" : "internal variables"),
+        keywords.span_of("SIGM"),
+        by_displacement ? "give DEPL, or another RELATION" : "give VARI too, or take DEFORMATION='GDEF_LOG'");
   }
 }
 

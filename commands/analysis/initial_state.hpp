@@ -13,15 +13,17 @@ struct InitialStateChoice {
   std::shared_ptr<const solver::InitialState> state;  ///< null without ETAT_INIT
   std::optional<double> instant;                      ///< of the step of EVOL_NOLI, or INST_ETAT_INIT
   std::optional<int> order;                           ///< NUME_ORDRE of that step
-  std::shared_ptr<const solver::BehaviourOfCells> behaviours;  ///< that it was computed with; null: elasticity, or not known
+  std::shared_ptr<const solver::BehaviourOfCells>
+      behaviours;  ///< that it was computed with; null: elasticity, or not known
 };
 
-/// The step of EVOL_NOLI that NUME_ORDRE or INST names, the last one without; DEPL, SIGM and VARI in the place of its fields. Throws
-/// DiagnosticError `unknown-step`, `wrong-type` for a field of another kind.
+/// The step of EVOL_NOLI that NUME_ORDRE or INST names, the last one without; DEPL, SIGM and VARI in the place of its
+/// fields. Throws DiagnosticError `unknown-step`, `wrong-type` for a field of another kind.
 InitialStateChoice initial_state(const interpreter::Call& call);
 
-/// Throws DiagnosticError `unsupported` where SIGM stands for a law that does not start from stresses: those of hyperelasticity follow from the
-/// displacement, those of SIMO_MIEHE from the internal variables (R5.03.21). Where displacements are given too they are taken for a state of the law.
+/// Throws DiagnosticError `unsupported` where SIGM stands for a law that does not start from stresses: those of
+/// hyperelasticity follow from the displacement, those of SIMO_MIEHE from the internal variables (R5.03.21). Where
+/// displacements are given too they are taken for a state of the law.
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem);
 
 }  // namespace comma::commands

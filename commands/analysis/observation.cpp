@@ -47,10 +47,12 @@ std::vector<int> all_indices(int count) {
   return indices;
 }
 
-std::vector<Sample> samples_of(const solver::NodalField& field, int component, const solver::Mesh& mesh, const std::vector<int>& nodes) {
+std::vector<Sample> samples_of(const solver::NodalField& field, int component, const solver::Mesh& mesh,
+                               const std::vector<int>& nodes) {
   std::vector<Sample> samples;
   for (const int node : nodes) {
-    if (const double value = field.at(node, component); !std::isnan(value)) samples.push_back({{{"NOEUD", table_node(mesh, node)}}, value});
+    if (const double value = field.at(node, component); !std::isnan(value))
+      samples.push_back({{{"NOEUD", table_node(mesh, node)}}, value});
   }
   return samples;
 }
@@ -65,8 +67,8 @@ std::vector<int> chosen_of(const Keywords& keywords, const char* keyword, int co
   return chosen;
 }
 
-std::vector<Sample> samples_of(const solver::ElementField& field, int component, const solver::Mesh& mesh, const std::vector<int>& cells,
-                               const Keywords& keywords) {
+std::vector<Sample> samples_of(const solver::ElementField& field, int component, const solver::Mesh& mesh,
+                               const std::vector<int>& cells, const Keywords& keywords) {
   std::vector<Sample> samples;
   const std::string& over_points = keywords.text("EVAL_ELGA");
   for (const int cell : cells) {
@@ -90,18 +92,21 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
 
 // One component, under the name of the formula.
 solver::Field formula_of(const Keywords& keywords, const solver::Field& held, const solver::Mesh& mesh) {
-  if (!keywords.has("FORMULE")) throw DiagnosticError("missing-keyword", "OBSERVATION: EVAL_CMP='FORMULE' needs FORMULE", keywords.span);
+  if (!keywords.has("FORMULE"))
+    throw DiagnosticError("missing-keyword", "OBSERVATION: EVAL_CMP='FORMULE' needs FORMULE", keywords.span);
   const auto& handle = keywords.concept_of("FORMULE");
   const auto& function = interpreter::data_of<FunctionConcept>(handle, "FORMULE");
   const auto& components = solver::components_of(held);
   try {
     const auto value = [&function](std::span<const double> at) { return function.evaluate(at); };
-    solver::Field made = solver::made_of_rows(held, std::array{solver::formula(components, {function.parameters(), value})});
+    solver::Field made =
+        solver::made_of_rows(held, std::array{solver::formula(components, {function.parameters(), value})});
     require_finite(made, mesh, "OBSERVATION", keywords.span_of("FORMULE"));
     std::visit([&](auto& any) { any.components = {handle->name}; }, made);
     return made;
   } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), std::string("OBSERVATION: ") + error.what(), keywords.span_of("FORMULE"), error.hint());
+    throw DiagnosticError(error.code(), std::string("OBSERVATION: ") + error.what(), keywords.span_of("FORMULE"),
+                          error.hint());
   }
 }
 
@@ -109,19 +114,25 @@ solver::Field formula_of(const Keywords& keywords, const solver::Field& held, co
 void check_place(const Keywords& keywords, const solver::Field& field) {
   const bool at_nodes = std::holds_alternative<solver::NodalField>(field);
   if (at_nodes || !names_a_place(keywords, places_of_nodes) || names_a_place(keywords, cell_places)) return;
-  throw DiagnosticError("wrong-place", fmt::format("OBSERVATION: {} has its values on cells, and none are named", keywords.text("NOM_CHAM")), keywords.span,
-                        "name cells by GROUP_MA or MAILLE");
+  throw DiagnosticError(
+      "wrong-place",
+      fmt::format("OBSERVATION: {} has its values on cells, and none are named", keywords.text("NOM_CHAM")),
+      keywords.span, "name cells by GROUP_MA or MAILLE");
 }
 
 }  // namespace
 
-Observer::Observer(const interpreter::Call& call, const ResultConcept& computed) : computed_(computed), mesh_(computed.result.mesh()) {
+Observer::Observer(const interpreter::Call& call, const ResultConcept& computed)
+    : computed_(computed), mesh_(computed.result.mesh()) {
   for (const Keywords& given : call.factors("OBSERVATION")) {
     const bool everywhere = !names_a_place(given, places_of_nodes);
-    Observation observation{given, given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
-                            everywhere ? all_indices(mesh_.node_count()) : selected_nodes(given, mesh_, places_of_nodes),
-                            everywhere ? all_indices(mesh_.cell_count()) : selected_cells(given, mesh_, cell_places),
-                            given.reals("INST"), instant_tolerance(given)};
+    Observation observation{
+        given,
+        given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
+        everywhere ? all_indices(mesh_.node_count()) : selected_nodes(given, mesh_, places_of_nodes),
+        everywhere ? all_indices(mesh_.cell_count()) : selected_cells(given, mesh_, cell_places),
+        given.reals("INST"),
+        instant_tolerance(given)};
     if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;
     observations_.push_back(std::move(observation));
   }
@@ -132,7 +143,8 @@ bool Observer::is_due(const Observation& observation, double instant, int number
   if (number == 0) return keywords.text("OBSE_ETAT_INIT") == "OUI";
   if (keywords.has("PAS_OBSE")) return number % std::max<std::int64_t>(1, keywords.integer("PAS_OBSE")) == 0;
   if (observation.instants.empty()) return true;
-  return std::ranges::any_of(observation.instants, [&](double wanted) { return observation.tolerance.meets(wanted, instant); });
+  return std::ranges::any_of(observation.instants,
+                             [&](double wanted) { return observation.tolerance.meets(wanted, instant); });
 }
 
 void Observer::observe(int number, Table& table) {
@@ -147,17 +159,24 @@ void Observer::warn_of_nothing(std::span<const double> computed, interpreter::Di
   for (const Observation& observation : observations_) {
     const Keywords& keywords = observation.keywords;
     constexpr std::array idle = {"POINT", "SOUS_POINT", "EVAL_ELGA"};
-    if (observation.at_nodes) warn_of_idle_places("OBSERVATION", keywords, std::span(idle).first(keywords.text("EVAL_ELGA") == "VALE" ? 2 : 3), diagnostics);
+    if (observation.at_nodes)
+      warn_of_idle_places("OBSERVATION", keywords, std::span(idle).first(keywords.text("EVAL_ELGA") == "VALE" ? 2 : 3),
+                          diagnostics);
     if (const auto missed = missed_instants(observation.tolerance, observation.instants, computed); !missed.empty())
-      diagnostics.alarm("unknown-step", fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")), keywords.span,
-                        "name instants of INCREMENT/LIST_INST");
+      diagnostics.alarm(
+          "unknown-step",
+          fmt::format("OBSERVATION: no step ends at {}: the table has no row of it", fmt::join(missed, ", ")),
+          keywords.span, "name instants of INCREMENT/LIST_INST");
     else if (observation.was_due && observation.rows == 0)
-      diagnostics.alarm("unknown-component", fmt::format("OBSERVATION: {} has no value there: the table has no row of it", keywords.text("NOM_CHAM")), keywords.span,
-                        "look at where the field is known, and at NOM_CMP");
+      diagnostics.alarm(
+          "unknown-component",
+          fmt::format("OBSERVATION: {} has no value there: the table has no row of it", keywords.text("NOM_CHAM")),
+          keywords.span, "look at where the field is known, and at NOM_CMP");
   }
 }
 
-const solver::Field& Observer::watched(const Keywords& keywords, const solver::ResultStep& step, Computation& computation, solver::Field& made) const {
+const solver::Field& Observer::watched(const Keywords& keywords, const solver::ResultStep& step,
+                                       Computation& computation, solver::Field& made) const {
   const std::string& name = keywords.text("NOM_CHAM");
   const bool is_computed = !step.fields.contains(name) && solver::FieldComputation::knows(name);
   if (is_computed && !computation) computation.emplace(computed_.problem, computed_.result);
@@ -168,7 +187,8 @@ const solver::Field& Observer::watched(const Keywords& keywords, const solver::R
   return made = by_variable_names(keywords, held, computed_.problem.behaviours.get());
 }
 
-void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation, Table& table) const {
+void Observer::observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation,
+                       Table& table) const {
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
   if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
@@ -182,13 +202,17 @@ void Observer::observe(Observation& observation, const solver::ResultStep& step,
   for (const int component : by_formula ? std::vector<int>{0} : chosen_components(keywords, components)) {
     const auto* nodal = std::get_if<solver::NodalField>(&field);
     observation.at_nodes = nodal != nullptr;
-    std::vector<Sample> samples = nodal != nullptr
-                                      ? samples_of(*nodal, component, mesh_, observation.nodes)
-                                      : samples_of(std::get<solver::ElementField>(field), component, mesh_, observation.cells, keywords);
+    std::vector<Sample> samples = nodal != nullptr ? samples_of(*nodal, component, mesh_, observation.nodes)
+                                                   : samples_of(std::get<solver::ElementField>(field), component, mesh_,
+                                                                observation.cells, keywords);
     if (operation != "VALE" && !samples.empty()) samples = {{{}, reduced(operation, samples)}};
     for (const Sample& sample : samples) {
-      Row row = {{"NOM_OBSERVATION", observation.name}, {"NUME_OBSE", std::int64_t{number}}, {"INST", step.instant},
-                 {"NOM_CHAM", keywords.text("NOM_CHAM")}, {"EVAL_CHAM", operation}, {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
+      Row row = {{"NOM_OBSERVATION", observation.name},
+                 {"NUME_OBSE", std::int64_t{number}},
+                 {"INST", step.instant},
+                 {"NOM_CHAM", keywords.text("NOM_CHAM")},
+                 {"EVAL_CHAM", operation},
+                 {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
       row.insert(row.end(), sample.place.begin(), sample.place.end());
       row.emplace_back("VALE", sample.value);
       table.add_row(row);

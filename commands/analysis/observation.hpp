@@ -20,12 +20,13 @@ class Observer {
   Observer(const interpreter::Call& call, const ResultConcept& computed);
 
   bool empty() const { return observations_.empty(); }
-  /// Appends the rows of the last step; `number` counts the steps, 0 being the initial state. Fields that the step does not hold are computed as CALC_CHAMP
-  /// does. Throws DiagnosticError
-  /// `unknown-field`, `unknown-component`, `wrong-type`.
+  /// Appends the rows of the last step; `number` counts the steps, 0 being the initial state. Fields that the step does
+  /// not hold are computed as CALC_CHAMP does. Throws DiagnosticError `unknown-field`, `unknown-component`,
+  /// `wrong-type`.
   void observe(int number, Table& table);
 
-  /// Tells of occurrences that have given no row, and of instants among the `computed` ones of all steps at which none ended.
+  /// Tells of occurrences that have given no row, and of instants among the `computed` ones of all steps at which none
+  /// ended.
   void warn_of_nothing(std::span<const double> computed, interpreter::Diagnostics& diagnostics) const;
 
  private:
@@ -33,8 +34,8 @@ class Observer {
     interpreter::Keywords keywords;
     std::string name;  ///< in the column NOM_OBSERVATION
     std::vector<int> nodes, cells;
-    std::vector<double> instants;  ///< empty: every step
-    InstantTolerance tolerance;    ///< of these
+    std::vector<double> instants;            ///< empty: every step
+    InstantTolerance tolerance;              ///< of these
     bool was_due = false, at_nodes = false;  ///< whether the field has its values there
     std::size_t rows = 0;
   };
@@ -43,9 +44,12 @@ class Observer {
   /// The last step's fields that it does not hold, made when the first is asked for.
   using Computation = std::optional<solver::FieldComputation>;
 
-  void observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation, Table& table) const;
-  /// The field whose components are watched: that of the step, one by names of internal variables, or the values of a formula; `made` holds what the step does not.
-  const solver::Field& watched(const interpreter::Keywords& keywords, const solver::ResultStep& step, Computation& computation, solver::Field& made) const;
+  void observe(Observation& observation, const solver::ResultStep& step, int number, Computation& computation,
+               Table& table) const;
+  /// The field whose components are watched: that of the step, one by names of internal variables, or the values of a
+  /// formula; `made` holds what the step does not.
+  const solver::Field& watched(const interpreter::Keywords& keywords, const solver::ResultStep& step,
+                               Computation& computation, solver::Field& made) const;
 
   const ResultConcept& computed_;
   const solver::Mesh& mesh_;

@@ -8,8 +8,8 @@
 
 namespace comma::commands {
 
-/// The factor PILOTAGE. Throws DiagnosticError `missing-keyword`, `unknown-component`, those of selections, and `unsupported` beside
-/// CONTACT.
+/// The factor PILOTAGE. Throws DiagnosticError `missing-keyword`, `unknown-component`, those of selections, and
+/// `unsupported` beside CONTACT.
 solver::PathControl path_control(const interpreter::Call& call, const solver::Mesh& mesh);
 
 /// From now on the driven loads of a result are loads like others, with the intensities that its steps have found.

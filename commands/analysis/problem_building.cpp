@@ -26,28 +26,44 @@ namespace {
 // On the initial geometry there is no deformed place.
 void require_initial_places(const Keywords& excitation, const solver::Load& load) {
   const bool deformed = std::ranges::any_of(load.pressures, [](const solver::PressureLoad& pressure) {
-    return solver::is_of_deformed_place(pressure.pressure_function) || solver::is_of_deformed_place(pressure.shear_function);
+    return solver::is_of_deformed_place(pressure.pressure_function) ||
+           solver::is_of_deformed_place(pressure.shear_function);
   });
   if (!deformed) return;
-  throw DiagnosticError("fixed-load", excitation.concept_of("CHARGE")->name + " has a pressure that depends on XF, YF or ZF, the place on the deformed body",
-                        excitation.span_of("CHARGE"), "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
+  throw DiagnosticError("fixed-load",
+                        excitation.concept_of("CHARGE")->name +
+                            " has a pressure that depends on XF, YF or ZF, the place on the deformed body",
+                        excitation.span_of("CHARGE"),
+                        "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
 }
 
 // What grows with the distance from an axis or has axes that turn with the body is another force on the deformed body.
 void require_no_others_that_follow(const Keywords& excitation, const solver::Load& load) {
-  const bool turn = std::ranges::any_of(load.beam_forces, [](const solver::BeamForce& each) { return each.axes == solver::BeamAxes::own; }) ||
-                    std::ranges::any_of(load.plate_forces, [](const solver::PlateForce& each) { return each.in_own_axes; });
+  const bool turn =
+      std::ranges::any_of(load.beam_forces,
+                          [](const solver::BeamForce& each) { return each.axes == solver::BeamAxes::own; }) ||
+      std::ranges::any_of(load.plate_forces, [](const solver::PlateForce& each) { return each.in_own_axes; });
   if (load.rotations.empty() && !turn) return;
-  throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + (turn ? " has forces in the axes of beams or plates" : " has centrifugal forces (ROTATION)") + ", which comma does not let follow the body",
-                        excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where displacements are small");
+  throw DiagnosticError(
+      "unsupported",
+      excitation.concept_of("CHARGE")->name +
+          (turn ? " has forces in the axes of beams or plates" : " has centrifugal forces (ROTATION)") +
+          ", which comma does not let follow the body",
+      excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where displacements are small");
 }
 
-// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces and displacements of single nodes are the same on any geometry.
+// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces and displacements of single nodes are the
+// same on any geometry.
 void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
   const solver::Load& load = *applied.load;
-  const auto is_shared = [](const solver::LinearRelation& relation) { return relation.terms.size() > 1 && relation.rigid_link < 0; };
+  const auto is_shared = [](const solver::LinearRelation& relation) {
+    return relation.terms.size() > 1 && relation.rigid_link < 0;
+  };
   if (std::ranges::any_of(load.relations, is_shared)) {
-    throw DiagnosticError("unsupported", excitation.concept_of("CHARGE")->name + " has relations between displacements other than LIAISON_SOLIDE, which comma does not let follow large rotations yet",
+    throw DiagnosticError("unsupported",
+                          excitation.concept_of("CHARGE")->name +
+                              " has relations between displacements other than LIAISON_SOLIDE, which comma does not "
+                              "let follow large rotations yet",
                           excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where rotations are small");
   }
   require_no_others_that_follow(excitation, load);
@@ -68,8 +84,8 @@ std::optional<LinearMethod> linear_method(const std::string& word) {
   return std::nullopt;
 }
 
-// NPREC (U4.50.01): 0 stands for the default; a negative number means no test to MUMPS alone, elsewhere its sign says whether
-// to stop, which comma always does.
+// NPREC (U4.50.01): 0 stands for the default; a negative number means no test to MUMPS alone, elsewhere its sign says
+// whether to stop, which comma always does.
 int singular_digits(const Keywords& solver) {
   constexpr int default_digits = 8;
   const int digits = static_cast<int>(solver.integer("NPREC"));
@@ -77,8 +93,8 @@ int singular_digits(const Keywords& solver) {
   return solver.text("METHODE") == "MUMPS" ? digits : std::abs(digits);
 }
 
-// METHODE="GCPC". With a complete factor as preconditioner the iterations are nothing but the refinement that every direct
-// method does in any case.
+// METHODE="GCPC". With a complete factor as preconditioner the iterations are nothing but the refinement that every
+// direct method does in any case.
 void take_iterations(const Keywords& solver, SolverChoice& choice) {
   choice.method = solver.text("PRE_COND") == "LDLT_INC" ? LinearMethod::conjugate_gradient : LinearMethod::cholmod;
   choice.options.iteration_tolerance = solver.real("RESI_RELA");
@@ -87,7 +103,9 @@ void take_iterations(const Keywords& solver, SolverChoice& choice) {
 
 // Discrete elements alone need no materials (U4.51.01).
 bool needs_materials(const solver::Model& model) {
-  return std::ranges::any_of(model.formulations, [](solver::Formulation each) { return each != solver::Formulation::none && !solver::is_discrete(each); });
+  return std::ranges::any_of(model.formulations, [](solver::Formulation each) {
+    return each != solver::Formulation::none && !solver::is_discrete(each);
+  });
 }
 
 void take_materials(const Call& call, solver::StaticProblem& problem) {
@@ -106,7 +124,8 @@ void take_materials(const Call& call, solver::StaticProblem& problem) {
 void take_properties(const Call& call, solver::StaticProblem& problem) {
   if (!call.has("CARA_ELEM")) return;
   const auto& properties = call.data<PropertiesConcept>("CARA_ELEM");
-  if (problem.model) require_mesh(call, "CARA_ELEM", properties.model ? properties.model->mesh.get() : nullptr, *problem.model->mesh);
+  if (problem.model)
+    require_mesh(call, "CARA_ELEM", properties.model ? properties.model->mesh.get() : nullptr, *problem.model->mesh);
   problem.properties = properties.properties;
 }
 
@@ -120,13 +139,16 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
   for (const Keywords& excitation : keywords.factors("EXCIT")) {
     solver::AppliedLoad applied;
     const auto& load_concept = excitation.data<LoadConcept>("CHARGE");
-    if (problem.model) require_mesh(excitation, "CHARGE", load_concept.model ? load_concept.model->mesh.get() : nullptr, *problem.model->mesh);
+    if (problem.model)
+      require_mesh(excitation, "CHARGE", load_concept.model ? load_concept.model->mesh.get() : nullptr,
+                   *problem.model->mesh);
     applied.load = load_concept.load.get();
     applied.differential = excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "DIDI";
     if (excitation.has("FONC_MULT")) {
       applied.multiplier = time_function(excitation.concept_of("FONC_MULT"), excitation.span_of("FONC_MULT"));
     }
-    if (excitation.has("COEF_MULT")) applied.multiplier = [factor = excitation.real("COEF_MULT")](double) { return factor; };
+    if (excitation.has("COEF_MULT"))
+      applied.multiplier = [factor = excitation.real("COEF_MULT")](double) { return factor; };
     if (excitation.has("TYPE_CHARGE") && excitation.text("TYPE_CHARGE") == "SUIV") {
       add_following(excitation, applied, problem);
       continue;
@@ -149,7 +171,9 @@ void check_multipliers(const Call& call, std::span<const double> instants) {
     try {
       for (const double instant : instants) function->evaluate({&instant, 1});
     } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), fmt::format("{}: the multiplier {} of a load: {}", call.command, handle->name, error.what()), excitation.span_of("FONC_MULT"), error.hint());
+      throw DiagnosticError(
+          error.code(), fmt::format("{}: the multiplier {} of a load: {}", call.command, handle->name, error.what()),
+          excitation.span_of("FONC_MULT"), error.hint());
     }
   }
 }
@@ -158,7 +182,9 @@ solver::StaticProblem static_problem(const Call& call) {
   solver::StaticProblem problem;
   problem.model = call.data<ModelConcept>("MODELE").model;
   take_materials(call, problem);
-  if (!problem.materials) throw DiagnosticError("missing-keyword", call.command + " needs CHAM_MATER", call.span, "give the materials; a model of discrete elements alone needs none");
+  if (!problem.materials)
+    throw DiagnosticError("missing-keyword", call.command + " needs CHAM_MATER", call.span,
+                          "give the materials; a model of discrete elements alone needs none");
   problem.properties = std::make_shared<const solver::ElementProperties>();
   take_properties(call, problem);
   take_loads(call, problem);
@@ -171,7 +197,8 @@ namespace {
 solver::StaticProblem completed(const Call& call, const ResultConcept& source, solver::StaticProblem problem) {
   if (call.has("MODELE")) {
     problem.model = call.data<ModelConcept>("MODELE").model;
-    if (source.result.model || source.result.bare_mesh) require_mesh(call, "MODELE", problem.model->mesh.get(), source.result.mesh());
+    if (source.result.model || source.result.bare_mesh)
+      require_mesh(call, "MODELE", problem.model->mesh.get(), source.result.mesh());
   }
   take_materials(call, problem);
   take_properties(call, problem);
@@ -179,8 +206,10 @@ solver::StaticProblem completed(const Call& call, const ResultConcept& source, s
   if (!problem.properties) problem.properties = std::make_shared<const solver::ElementProperties>();
   if (problem.model && problem.materials) return problem;
   const char* missing = problem.model ? "CHAM_MATER" : "MODELE";
-  throw interpreter::DiagnosticError("missing-keyword", call.command + ": it is not known which " + (problem.model ? "materials" : "model") + " is meant",
-                                     call.span, std::string("give ") + missing);
+  throw interpreter::DiagnosticError(
+      "missing-keyword",
+      call.command + ": it is not known which " + (problem.model ? "materials" : "model") + " is meant", call.span,
+      std::string("give ") + missing);
 }
 
 }  // namespace
@@ -196,20 +225,24 @@ std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int
   if (steps.empty()) return product;
   const int last = steps.back().order;
   std::erase_if(product->earlier, [&](const EarlierPhase& phase) { return phase.last_order > last; });
-  if (product->earlier.empty() || product->earlier.back().last_order < last) product->earlier.push_back({last, product->problem_of(steps.back())});
+  if (product->earlier.empty() || product->earlier.back().last_order < last)
+    product->earlier.push_back({last, product->problem_of(steps.back())});
   return product;
 }
 
 FieldsOfSteps::FieldsOfSteps(const Call& call, const ResultConcept& source) : call_(call), source_(source) {
   const auto& steps = source.result.steps;
   for (const EarlierPhase& phase : source.earlier) {
-    const auto after = std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order > phase.last_order; });
-    phases_.push_back({static_cast<std::size_t>(after - steps.begin()), completed(call, source, phase.problem), nullptr});
+    const auto after =
+        std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order > phase.last_order; });
+    phases_.push_back(
+        {static_cast<std::size_t>(after - steps.begin()), completed(call, source, phase.problem), nullptr});
   }
   phases_.push_back({steps.size(), completed(call, source, source.problem), nullptr});
 }
 
-solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells) {
+solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step,
+                                     std::optional<std::span<const int>> cells) {
   const auto phase = std::ranges::find_if(phases_, [&](const Phase& each) { return step < each.end; });
   Phase& own = phase == phases_.end() ? phases_.back() : *phase;
   if (!own.computation) own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result);
@@ -219,17 +252,20 @@ solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step, st
 void FieldsOfSteps::warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const {
   std::set<std::string> limited;
   for (const Phase& phase : phases_)
-    if (phase.computation) limited.insert(phase.computation->limited_sources().begin(), phase.computation->limited_sources().end());
+    if (phase.computation)
+      limited.insert(phase.computation->limited_sources().begin(), phase.computation->limited_sources().end());
   warn_of_limited_fields(call_, limited, diagnostics);
 }
 
-void warn_of_limited_fields(const Call& call, const std::set<std::string>& fields, interpreter::Diagnostics& diagnostics) {
+void warn_of_limited_fields(const Call& call, const std::set<std::string>& fields,
+                            interpreter::Diagnostics& diagnostics) {
   if (fields.empty()) return;
   const bool many = fields.size() > 1;
-  diagnostics.alarm("limited-field",
-                    fmt::format("{}: CALC_CHAMP computed {} of {} on some cells only, and what follows from {} lacks the others", call.command, fmt::join(fields, ", "),
-                                call.concept_of("RESULTAT")->name, many ? "them" : "it"),
-                    call.span, fmt::format("compute {} on the whole model first", many ? "them" : "it"));
+  diagnostics.alarm(
+      "limited-field",
+      fmt::format("{}: CALC_CHAMP computed {} of {} on some cells only, and what follows from {} lacks the others",
+                  call.command, fmt::join(fields, ", "), call.concept_of("RESULTAT")->name, many ? "them" : "it"),
+      call.span, fmt::format("compute {} on the whole model first", many ? "them" : "it"));
 }
 
 SolverChoice solver_choice(const Call& call) {
@@ -237,11 +273,13 @@ SolverChoice solver_choice(const Call& call) {
   if (!call.has("SOLVEUR")) return choice;
   const Keywords& solver = call.factor("SOLVEUR");
   // PETSc is not there: the choice is comma's, as if none had been made.
-  if (solver.given("METHODE") && solver.text("METHODE") != "PETSC") choice.method = linear_method(solver.text("METHODE"));
+  if (solver.given("METHODE") && solver.text("METHODE") != "PETSC")
+    choice.method = linear_method(solver.text("METHODE"));
   if (solver.text("METHODE") == "GCPC") take_iterations(solver, choice);
   if (solver.has("NPREC")) choice.options.singular_digits = singular_digits(solver);
   constexpr int never_tested = -1;
-  if (solver.has("STOP_SINGULIER") && solver.text("STOP_SINGULIER") == "NON") choice.options.singular_digits = never_tested;
+  if (solver.has("STOP_SINGULIER") && solver.text("STOP_SINGULIER") == "NON")
+    choice.options.singular_digits = never_tested;
   return choice;
 }
 

@@ -22,20 +22,26 @@ solver::StaticProblem static_problem(const interpreter::Call& call);
 /// The loads of EXCIT, in place of those of the problem.
 void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& problem);
 
-/// The problem that a step of a result (null: its last phase) was computed from, but for what MODELE, CHAM_MATER, CARA_ELEM and EXCIT give in its place. Throws
-/// DiagnosticError `missing-keyword` where neither gives a model or materials.
-solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source, const solver::ResultStep* step = nullptr);
+/// The problem that a step of a result (null: its last phase) was computed from, but for what MODELE, CHAM_MATER,
+/// CARA_ELEM and EXCIT give in its place. Throws DiagnosticError `missing-keyword` where neither gives a model or
+/// materials.
+solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source,
+                                        const solver::ResultStep* step = nullptr);
 
-/// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept as an earlier phase.
+/// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept
+/// as an earlier phase.
 std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});
 
 /// Throws DiagnosticError `out-of-function` where a tabulated FONC_MULT has no value at one of the instants.
 void check_multipliers(const interpreter::Call& call, std::span<const double> instants);
 
-/// Raises an alarm where fields of the RESULTAT that CALC_CHAMP computed on some cells only have been taken for those of the whole model.
-void warn_of_limited_fields(const interpreter::Call& call, const std::set<std::string>& fields, interpreter::Diagnostics& diagnostics);
+/// Raises an alarm where fields of the RESULTAT that CALC_CHAMP computed on some cells only have been taken for those
+/// of the whole model.
+void warn_of_limited_fields(const interpreter::Call& call, const std::set<std::string>& fields,
+                            interpreter::Diagnostics& diagnostics);
 
-/// Fields of a result's steps, each computed from what its step was computed from, as problem_of_result() has it. Keeps references to its arguments.
+/// Fields of a result's steps, each computed from what its step was computed from, as problem_of_result() has it. Keeps
+/// references to its arguments.
 class FieldsOfSteps {
  public:
   /// Throws what problem_of_result() does.

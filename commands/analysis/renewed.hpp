@@ -11,15 +11,16 @@
 
 namespace comma::commands {
 
-/// Made at once, and anew whenever one of the sources has been written since: as Code_Aster, which keeps the names of concepts and reads them when it needs
-/// them. Making it may throw.
+/// Made at once, and anew whenever one of the sources has been written since: as Code_Aster, which keeps the names of
+/// concepts and reads them when it needs them. Making it may throw.
 template <class Inside>
 class Renewed {
  public:
   using Make = std::function<std::shared_ptr<const Inside>()>;
 
   Renewed() = default;
-  Renewed(std::vector<interpreter::ConceptPtr> sources, Make make) : sources_(std::move(sources)), make_(std::move(make)), versions_(versions()), inside_(make_()), made_{inside_} {}
+  Renewed(std::vector<interpreter::ConceptPtr> sources, Make make)
+      : sources_(std::move(sources)), make_(std::move(make)), versions_(versions()), inside_(make_()), made_{inside_} {}
 
   const std::shared_ptr<const Inside>& get() const {
     if (auto now = versions(); now != versions_) {

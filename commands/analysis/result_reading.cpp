@@ -23,8 +23,8 @@ namespace {
 
 std::string known_instants(const solver::Result& result) {
   if (result.steps.empty()) return "the result holds no step";
-  return fmt::format("the result holds {} steps, from INST={} to INST={}", result.steps.size(), result.steps.front().instant,
-                     result.steps.back().instant);
+  return fmt::format("the result holds {} steps, from INST={} to INST={}", result.steps.size(),
+                     result.steps.front().instant, result.steps.back().instant);
 }
 
 // Null where no step stands there.
@@ -35,16 +35,17 @@ const ResultStep* find_step(const Keywords& keywords, const solver::Result& resu
 
 const ResultStep& step_at(const Keywords& keywords, const solver::Result& result, double instant) {
   if (const ResultStep* step = find_step(keywords, result, instant)) return *step;
-  throw DiagnosticError("unknown-step", fmt::format("no step of the result stands at INST={}", instant), keywords.span_of("INST"),
-                        known_instants(result));
+  throw DiagnosticError("unknown-step", fmt::format("no step of the result stands at INST={}", instant),
+                        keywords.span_of("INST"), known_instants(result));
 }
 
-const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& result, std::int64_t order, const char* keyword) {
+const ResultStep& step_numbered(const Keywords& keywords, const solver::Result& result, std::int64_t order,
+                                const char* keyword) {
   for (const ResultStep& step : result.steps) {
     if (step.order == order) return step;
   }
-  throw DiagnosticError("unknown-step", fmt::format("no step of the result has NUME_ORDRE={}", order), keywords.span_of(keyword),
-                        known_instants(result));
+  throw DiagnosticError("unknown-step", fmt::format("no step of the result has NUME_ORDRE={}", order),
+                        keywords.span_of(keyword), known_instants(result));
 }
 
 }  // namespace
@@ -64,7 +65,9 @@ std::size_t nearest_step(const solver::Result& result, double instant, const Ins
   std::size_t nearest = result.steps.size();
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const auto distance = [&](std::size_t k) { return std::abs(result.steps[k].instant - instant); };
-    if (tolerance.meets(instant, result.steps[i].instant) && (nearest == result.steps.size() || distance(i) < distance(nearest))) nearest = i;
+    if (tolerance.meets(instant, result.steps[i].instant) &&
+        (nearest == result.steps.size() || distance(i) < distance(nearest)))
+      nearest = i;
   }
   return nearest;
 }
@@ -82,19 +85,24 @@ std::vector<const ResultStep*> selected_steps(const Keywords& keywords, const so
       if (const ResultStep* step = find_step(keywords, result, instant)) steps.push_back(step);
     if (steps.empty() && !wanted.empty()) steps.push_back(&step_at(keywords, result, wanted.front()));
   } else if (keywords.given("NUME_ORDRE")) {
-    for (const auto order : keywords.integers("NUME_ORDRE")) steps.push_back(&step_numbered(keywords, result, order, "NUME_ORDRE"));
+    for (const auto order : keywords.integers("NUME_ORDRE"))
+      steps.push_back(&step_numbered(keywords, result, order, "NUME_ORDRE"));
   } else if (keywords.given("LIST_ORDRE")) {
-    for (const auto order : keywords.data<IntegerListConcept>("LIST_ORDRE").values) steps.push_back(&step_numbered(keywords, result, order, "LIST_ORDRE"));
+    for (const auto order : keywords.data<IntegerListConcept>("LIST_ORDRE").values)
+      steps.push_back(&step_numbered(keywords, result, order, "LIST_ORDRE"));
   } else {
     for (const ResultStep& step : result.steps) steps.push_back(&step);
   }
   return steps;
 }
 
-void warn_of_idle_places(const char* command, const Keywords& keywords, std::span<const char* const> idle, interpreter::Diagnostics& diagnostics) {
+void warn_of_idle_places(const char* command, const Keywords& keywords, std::span<const char* const> idle,
+                         interpreter::Diagnostics& diagnostics) {
   for (const char* keyword : idle)
     if (keywords.given(keyword))
-      diagnostics.alarm("idle-keyword", fmt::format("{}: {} has no effect here: the field has its values at nodes", command, keyword), keywords.span_of(keyword), "leave it out, or name a field on cells");
+      diagnostics.alarm("idle-keyword",
+                        fmt::format("{}: {} has no effect here: the field has its values at nodes", command, keyword),
+                        keywords.span_of(keyword), "leave it out, or name a field on cells");
 }
 
 void warn_of_missing_instants(const char* command, const Keywords& keywords, interpreter::Diagnostics& diagnostics) {
@@ -107,16 +115,19 @@ void warn_of_missing_instants(const char* command, const Keywords& keywords, int
   constexpr std::size_t most_shown = 5;
   const std::span<const double> shown(missing.data(), std::min(missing.size(), most_shown));
   diagnostics.alarm("unknown-step",
-                    fmt::format("{}: {} has no step at {} of the instants of LIST_INST: {}{}", command, keywords.concept_of("RESULTAT")->name, missing.size(), fmt::join(shown, ", "),
+                    fmt::format("{}: {} has no step at {} of the instants of LIST_INST: {}{}", command,
+                                keywords.concept_of("RESULTAT")->name, missing.size(), fmt::join(shown, ", "),
                                 missing.size() > most_shown ? " ..." : ""),
                     keywords.span_of("LIST_INST"), "those that it has are taken");
 }
 
-std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted, std::span<const double> computed) {
+std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span<const double> wanted,
+                                    std::span<const double> computed) {
   std::vector<double> missed;
   for (const double instant : wanted) {
     const bool is_among = !computed.empty() && instant > computed.front() && instant < computed.back();
-    if (is_among && std::ranges::none_of(computed, [&](double each) { return tolerance.meets(instant, each); })) missed.push_back(instant);
+    if (is_among && std::ranges::none_of(computed, [&](double each) { return tolerance.meets(instant, each); }))
+      missed.push_back(instant);
   }
   return missed;
 }
@@ -124,13 +135,14 @@ std::vector<double> missed_instants(const InstantTolerance& tolerance, std::span
 const ResultStep& only_step(const Keywords& keywords, const solver::Result& result, const char* reason) {
   const auto steps = selected_steps(keywords, result);
   if (steps.size() == 1) return *steps.front();
-  throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; {}", steps.size(), reason), keywords.span,
-                        "give INST or NUME_ORDRE");
+  throw DiagnosticError("wrong-count", fmt::format("these keywords name {} steps; {}", steps.size(), reason),
+                        keywords.span, "give INST or NUME_ORDRE");
 }
 
 std::vector<const ResultStep*> steps_with_field(const Keywords& keywords, const solver::Result& result) {
   auto steps = selected_steps(keywords, result);
-  const bool named = std::ranges::any_of(std::array{"INST", "NUME_ORDRE"}, [&](const char* name) { return keywords.given(name); });
+  const bool named =
+      std::ranges::any_of(std::array{"INST", "NUME_ORDRE"}, [&](const char* name) { return keywords.given(name); });
   if (named) return steps;
   const std::string& field = keywords.text("NOM_CHAM");
   const auto lacks = [&](const ResultStep* step) { return !step->fields.contains(field); };
@@ -146,8 +158,10 @@ bool is_layered(const solver::Field& field) {
 
 void require_one_value_a_point(const std::string& name, const solver::Field& field, const interpreter::Span& span) {
   if (!is_layered(field)) return;
-  throw DiagnosticError("layered-field", fmt::format("{} has several values a point on plates, one for each place in their thickness", name), span,
-                        "POST_CHAMP with EXTR_COQUE takes one of them");
+  throw DiagnosticError(
+      "layered-field",
+      fmt::format("{} has several values a point on plates, one for each place in their thickness", name), span,
+      "POST_CHAMP with EXTR_COQUE takes one of them");
 }
 
 const solver::Field& field_of(const Keywords& keywords, const ResultStep& step) {
@@ -171,28 +185,39 @@ int sub_point(const Keywords& keywords, const solver::ElementField& field, int c
   const int count = field.values_a_point(cell);
   if (!keywords.given("SOUS_POINT")) {
     if (count == 1) return 0;
-    throw DiagnosticError("missing-keyword", fmt::format("the field has {} values a point on cell {}, one for each place in its thickness", count, mesh.cell_name(cell)), keywords.span,
-                          "name one by SOUS_POINT: 1 at the lower side, 2 in the middle, 3 at the upper side of the lowest layer, and so on");
+    throw DiagnosticError("missing-keyword",
+                          fmt::format("the field has {} values a point on cell {}, one for each place in its thickness",
+                                      count, mesh.cell_name(cell)),
+                          keywords.span,
+                          "name one by SOUS_POINT: 1 at the lower side, 2 in the middle, 3 at the upper side of the "
+                          "lowest layer, and so on");
   }
   const auto wanted = keywords.integer("SOUS_POINT");
   if (wanted <= count) return static_cast<int>(wanted) - 1;
-  throw DiagnosticError("out-of-bounds", fmt::format("SOUS_POINT: the field has {} a point on cell {}", count == 1 ? "one value" : fmt::format("{} values", count), mesh.cell_name(cell)),
-                        keywords.span_of("SOUS_POINT"), count == 1 ? "give 1, or leave it out" : fmt::format("give 1 to {}", count));
+  throw DiagnosticError("out-of-bounds",
+                        fmt::format("SOUS_POINT: the field has {} a point on cell {}",
+                                    count == 1 ? "one value" : fmt::format("{} values", count), mesh.cell_name(cell)),
+                        keywords.span_of("SOUS_POINT"),
+                        count == 1 ? "give 1, or leave it out" : fmt::format("give 1 to {}", count));
 }
 
 std::vector<double> multipliers_of(const ResultConcept& data, const ResultStep& step) {
   const solver::StaticProblem& problem = data.problem_of(step);
   if (!problem.model || !problem.materials) return {};
   solver::FieldComputation computation(problem, data.result);
-  const solver::Field reactions = computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
-  return solver::relation_multipliers(solver::DofMap(*problem.model), problem.loads, std::get<solver::NodalField>(reactions));
+  const solver::Field reactions =
+      computation.compute("REAC_NODA", static_cast<std::size_t>(&step - data.result.steps.data()));
+  return solver::relation_multipliers(solver::DofMap(*problem.model), problem.loads,
+                                      std::get<solver::NodalField>(reactions));
 }
 
-solver::Field by_variable_names(const Keywords& keywords, const solver::Field& field, const solver::BehaviourOfCells* behaviours) {
+solver::Field by_variable_names(const Keywords& keywords, const solver::Field& field,
+                                const solver::BehaviourOfCells* behaviours) {
   try {
     return solver::by_variable_names(field, behaviours);
   } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), std::string("NOM_VARI: ") + error.what(), keywords.span_of("NOM_CHAM"), "give VARI_ELGA, VARI_ELNO or VARI_NOEU");
+    throw DiagnosticError(error.code(), std::string("NOM_VARI: ") + error.what(), keywords.span_of("NOM_CHAM"),
+                          "give VARI_ELGA, VARI_ELNO or VARI_NOEU");
   }
 }
 

@@ -18,7 +18,9 @@ InstabilitySign sign_named(const std::string& word) {
 
 void take_interval(const Keywords& given, solver::StabilityAnalysis& analysis) {
   const auto bounds = given.reals("CHAR_CRIT");
-  if (!(bounds[0] < bounds[1])) throw DiagnosticError("wrong-order", "STAT_NON_LINE: CHAR_CRIT of CRIT_STAB is no interval", given.span_of("CHAR_CRIT"), "give the smaller bound first");
+  if (!(bounds[0] < bounds[1]))
+    throw DiagnosticError("wrong-order", "STAT_NON_LINE: CHAR_CRIT of CRIT_STAB is no interval",
+                          given.span_of("CHAR_CRIT"), "give the smaller bound first");
   analysis.selection = ModeSelection::band;
   analysis.first = bounds[0];
   analysis.last = bounds[1];
@@ -36,7 +38,10 @@ void take_instants(const Keywords& given, solver::StabilityAnalysis& analysis) {
 void add_rows(const solver::StabilityReport& report, Table& table) {
   std::int64_t number = 0;
   for (const solver::CriticalMode& mode : report.modes)
-    table.add_row({{"INST", report.instant}, {"TYPE_MODE", std::string("MODE_FLAMB")}, {"NUME_MODE", ++number}, {"CHAR_CRIT", mode.value}});
+    table.add_row({{"INST", report.instant},
+                   {"TYPE_MODE", std::string("MODE_FLAMB")},
+                   {"NUME_MODE", ++number},
+                   {"CHAR_CRIT", mode.value}});
 }
 
 }  // namespace
@@ -48,8 +53,10 @@ std::optional<solver::StabilityAnalysis> stability_analysis(const Call& call, Re
   analysis.geometric = given.text("RIGI_GEOM") == "OUI";
   analysis.precision = given.real("PREC_INSTAB");
   analysis.sign = sign_named(given.text("SIGNE"));
-  if (given.text("OPTION") == "BANDE") take_interval(given, analysis);
-  else analysis.count = static_cast<int>(given.integer("NMAX_CHAR_CRIT"));
+  if (given.text("OPTION") == "BANDE")
+    take_interval(given, analysis);
+  else
+    analysis.count = static_cast<int>(given.integer("NMAX_CHAR_CRIT"));
   take_instants(given, analysis);
   if (given.has("DDL_EXCLUS"))
     for (const std::string& name : given.texts("DDL_EXCLUS"))

@@ -24,7 +24,8 @@ int check(const CheckOptions& options) {
   const interpreter::Diagnostics diagnostics = diagnostics_of(options);
   print_diagnostics(diagnostics, true);
   const int status = diagnostics.has_errors() ? the_file_is_wrong : all_verdicts_hold;
-  if (!options.json.empty()) write_report(options.json, {options.file, status_word(status), {}, {}, diagnostics.items(), {}, 0.0});
+  if (!options.json.empty())
+    write_report(options.json, {options.file, status_word(status), {}, {}, diagnostics.items(), {}, 0.0});
   if (status == all_verdicts_hold) fmt::print("{} is sound\n", options.file);
   return status;
 }

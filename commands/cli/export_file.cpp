@@ -27,7 +27,8 @@ std::vector<std::string> words_of(std::string_view line) {
 void read_file_line(const std::vector<std::string>& words, const Span& span, const fs::path& folder,
                     const fs::path& output_folder, Study& study) {
   if (words.size() < 4) {
-    throw DiagnosticError("bad-export", "this line of the .export is too short", span, "write: F type file D|R|DR|RC unit");
+    throw DiagnosticError("bad-export", "this line of the .export is too short", span,
+                          "write: F type file D|R|DR|RC unit");
   }
   const std::string& access = words[3];
   ExportFile file;
@@ -38,7 +39,8 @@ void read_file_line(const std::vector<std::string>& words, const Span& span, con
   if (words.size() > 4) {
     const auto [end, error] = std::from_chars(words[4].data(), words[4].data() + words[4].size(), file.unit);
     if (error != std::errc() || *end != '\0') {
-      throw DiagnosticError("bad-export", "\"" + words[4] + "\" is no unit number", span, "write: F type file D|R|DR|RC unit");
+      throw DiagnosticError("bad-export", "\"" + words[4] + "\" is no unit number", span,
+                            "write: F type file D|R|DR|RC unit");
     }
   }
   if (file.type != "comm") {
@@ -46,7 +48,10 @@ void read_file_line(const std::vector<std::string>& words, const Span& span, con
     return;
   }
   if (!fs::is_regular_file(file.path)) {
-    throw DiagnosticError("missing-file", "the command file " + file.path.string() + (fs::exists(file.path) ? " is not a regular file" : " does not exist"), span);
+    throw DiagnosticError("missing-file",
+                          "the command file " + file.path.string() +
+                              (fs::exists(file.path) ? " is not a regular file" : " does not exist"),
+                          span);
   }
   study.command_files.push_back(file.path);
 }
@@ -65,7 +70,8 @@ Study read_export(const fs::path& path, const fs::path& output_folder) {
     begin = end + 1;
   }
   if (study.command_files.empty()) {
-    throw DiagnosticError("bad-export", path.string() + " names no command file", Span{source, 0, 0}, "add: F comm FILE.comm D 1");
+    throw DiagnosticError("bad-export", path.string() + " names no command file", Span{source, 0, 0},
+                          "add: F comm FILE.comm D 1");
   }
   return study;
 }

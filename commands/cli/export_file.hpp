@@ -13,9 +13,9 @@ struct Study {
   std::vector<ExportFile> files;                     ///< the others
 };
 
-/// Reads an .export: lines `P name value` (times and memory, of no meaning to comma) and `F type file D|R|DR|RC unit`; `#`
-/// starts a comment. Paths are relative to its folder; outputs land in `output_folder` unless their path is absolute.
-/// Throws DiagnosticError `bad-export` with the line, `missing-file` for a command file that is not there.
+/// Reads an .export: lines `P name value` (times and memory, of no meaning to comma) and `F type file D|R|DR|RC unit`;
+/// `#` starts a comment. Paths are relative to its folder; outputs land in `output_folder` unless their path is
+/// absolute. Throws DiagnosticError `bad-export` with the line, `missing-file` for a command file that is not there.
 Study read_export(const std::filesystem::path& path, const std::filesystem::path& output_folder);
 
 }  // namespace comma::commands

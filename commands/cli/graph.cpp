@@ -44,11 +44,13 @@ int write(const interpreter::CommandGraph& graph, const std::string& format, int
 }  // namespace
 
 int graph(const GraphOptions& options) try {
-  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = options.only_tests}, options.limits);
+  StudyRun pass(open_study(options.file), Verbosity::quiet, {.check_only = true, .only_tests = options.only_tests},
+                options.limits);
   pass.run();
   print_diagnostics(pass.diagnostics(), false);
   if (pass.diagnostics().has_errors()) return the_file_is_wrong;
-  return write(pass.graph(), options.format, options.only_tests ? interpreter::Need::output : interpreter::Need::nothing);
+  return write(pass.graph(), options.format,
+               options.only_tests ? interpreter::Need::output : interpreter::Need::nothing);
 } catch (const interpreter::DiagnosticError& error) {
   fmt::print(stderr, "{}\n", interpreter::render(error.diagnostic()));
   return the_file_is_wrong;

@@ -23,8 +23,10 @@ struct Subcommands {
 
 // What a command file may use of the machine before the run is stopped.
 void add_limits(CLI::App& command, comma::interpreter::Limits& limits) {
-  command.add_option("--max-steps", limits.steps, "statements, loop turns and calls of the command file")->capture_default_str();
-  command.add_option("--max-seconds", limits.seconds, "time for the command file itself, without its commands")->capture_default_str();
+  command.add_option("--max-steps", limits.steps, "statements, loop turns and calls of the command file")
+      ->capture_default_str();
+  command.add_option("--max-seconds", limits.seconds, "time for the command file itself, without its commands")
+      ->capture_default_str();
   command.add_option("--max-depth", limits.call_depth, "functions within functions")->capture_default_str();
   command
       .add_option_function<std::uint64_t>(
@@ -55,7 +57,8 @@ void declare(CLI::App& app, Subcommands& given, int& status) {
 
   auto* graph_command = app.add_subcommand("graph", "Draw the command graph of a file on standard output");
   graph_command->add_option("FILE", given.graph.file, "a .comm or .export")->required();
-  graph_command->add_option("--format", given.graph.format, "dot, json or svg")->check(CLI::IsMember({"dot", "json", "svg"}));
+  graph_command->add_option("--format", given.graph.format, "dot, json or svg")
+      ->check(CLI::IsMember({"dot", "json", "svg"}));
   graph_command->add_flag("--only-tests", given.graph.only_tests, "leave out what no verdict and no output needs");
   add_limits(*graph_command, given.graph.limits);
   graph_command->callback([&] { status = graph(given.graph); });
@@ -65,8 +68,8 @@ void declare(CLI::App& app, Subcommands& given, int& status) {
   explain_command->callback([&] { status = explain(given.explained); });
 }
 
-// Freed memory stays with the program: large arrays come and go with each assembly and factorisation, and pages that the system
-// has to clear anew cost a fifth of a large run.
+// Freed memory stays with the program: large arrays come and go with each assembly and factorisation, and pages that
+// the system has to clear anew cost a fifth of a large run.
 void keep_memory() {
   constexpr int most = 1 << 30;
   constexpr int growth = 64 << 20;

@@ -30,7 +30,8 @@ ordered_json json_of(const Verdict& verdict) {
           {"computed", json_of(verdict.computed)},
           {"criterion", verdict.relative ? "RELATIF" : "ABSOLU"},
           {"tolerance", verdict.tolerance},
-          {"order_of_magnitude", verdict.order_of_magnitude ? ordered_json(*verdict.order_of_magnitude) : ordered_json(nullptr)},
+          {"order_of_magnitude",
+           verdict.order_of_magnitude ? ordered_json(*verdict.order_of_magnitude) : ordered_json(nullptr)},
           {"error", verdict.error},
           {"passed", verdict.passed}};
 }
@@ -65,8 +66,8 @@ ordered_json json_of(const interpreter::Diagnostic& diagnostic) {
   return json;
 }
 
-/// The largest resident size. Not getrusage's: Linux keeps that one through exec, so that a program started by a large process
-/// would report the size of the latter.
+/// The largest resident size. Not getrusage's: Linux keeps that one through exec, so that a program started by a large
+/// process would report the size of the latter.
 long peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -88,25 +89,24 @@ ordered_json json_list(const Items& items) {
 
 std::string to_json(const Report& report) {
   const solver::Counters& counters = report.counters;
-  const ordered_json json = {{"version", report_version},
-                             {"file", report.file},
-                             {"status", report.status},
-                             {"tests", json_list(report.tests)},
-                             {"commands", json_list(report.commands)},
-                             {"diagnostics", json_list(report.diagnostics)},
-                             {"counters",
-                              {{"factorisations", counters.factorisations},
-                               {"indefinite_factorisations", counters.indefinite_factorisations},
-                               {"solves", counters.solves},
-                               {"newton_iterations", counters.newton_iterations},
-                               {"contact_iterations", counters.contact_iterations},
-                               {"pairings", counters.pairings}}},
-                             {"phases",
-                              {{"assembling", counters.assembling},
-                               {"factorising", counters.factorising},
-                               {"solving", counters.solving}}},
-                             {"peak_memory_bytes", peak_memory_bytes()},
-                             {"seconds", report.seconds}};
+  const ordered_json json = {
+      {"version", report_version},
+      {"file", report.file},
+      {"status", report.status},
+      {"tests", json_list(report.tests)},
+      {"commands", json_list(report.commands)},
+      {"diagnostics", json_list(report.diagnostics)},
+      {"counters",
+       {{"factorisations", counters.factorisations},
+        {"indefinite_factorisations", counters.indefinite_factorisations},
+        {"solves", counters.solves},
+        {"newton_iterations", counters.newton_iterations},
+        {"contact_iterations", counters.contact_iterations},
+        {"pairings", counters.pairings}}},
+      {"phases",
+       {{"assembling", counters.assembling}, {"factorising", counters.factorising}, {"solving", counters.solving}}},
+      {"peak_memory_bytes", peak_memory_bytes()},
+      {"seconds", report.seconds}};
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -24,13 +24,27 @@ using interpreter::Span;
 
 namespace {
 
-// Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any other
-// error says that the file is wrong.
-constexpr std::array<std::string_view, 17> computation_codes = {
-    "no-convergence",      "singular-matrix",     "contradictory-conditions", "contact-cycling",  "not-finite",      "instability",
-    "integration-failure", "inaccurate-solution", "contact-interpenetration", "contact-too-deep", "contact-changes", "residual-diverges",
-    "residual-too-large",  "increment-too-large", "too-many-steps",           "command-failed",   "exit"};
-constexpr std::array<std::string_view, 4> machine_codes = {"internal-error", "out-of-memory", "unwritable-file", "missing-library"};
+// Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any
+// other error says that the file is wrong.
+constexpr std::array<std::string_view, 17> computation_codes = {"no-convergence",
+                                                                "singular-matrix",
+                                                                "contradictory-conditions",
+                                                                "contact-cycling",
+                                                                "not-finite",
+                                                                "instability",
+                                                                "integration-failure",
+                                                                "inaccurate-solution",
+                                                                "contact-interpenetration",
+                                                                "contact-too-deep",
+                                                                "contact-changes",
+                                                                "residual-diverges",
+                                                                "residual-too-large",
+                                                                "increment-too-large",
+                                                                "too-many-steps",
+                                                                "command-failed",
+                                                                "exit"};
+constexpr std::array<std::string_view, 4> machine_codes = {"internal-error", "out-of-memory", "unwritable-file",
+                                                           "missing-library"};
 
 template <class Codes>
 bool is_one_of(const Codes& codes, const std::string& code) {
@@ -47,7 +61,8 @@ int status_of(const Diagnostic& diagnostic) {
 Study open_study(const fs::path& file) {
   if (file.extension() == ".export") return read_export(file, fs::current_path());
   if (!fs::is_regular_file(file)) {
-    throw interpreter::DiagnosticError("missing-file", fs::exists(file) ? file.string() + " is not a regular file" : "there is no file " + file.string());
+    throw interpreter::DiagnosticError("missing-file", fs::exists(file) ? file.string() + " is not a regular file"
+                                                                        : "there is no file " + file.string());
   }
   return Study{{file}, {}};
 }
@@ -92,14 +107,17 @@ void StudyRun::run() {
 /// A load that was forgotten among those of a computation leaves no other trace.
 void StudyRun::warn_of_unused_loads() {
   const auto& nodes = graph().nodes();
-  if (std::ranges::none_of(nodes, [](const interpreter::CommandNode& node) { return node.cost == interpreter::Cost::solve; })) return;
+  if (std::ranges::none_of(nodes,
+                           [](const interpreter::CommandNode& node) { return node.cost == interpreter::Cost::solve; }))
+    return;
   std::set<int> read;
   for (const interpreter::CommandNode& node : nodes) {
     for (const interpreter::Edge& edge : node.waits_for) read.insert(edge.from);
   }
   for (const interpreter::CommandNode& node : nodes) {
     if (read.contains(node.id) || !node.product || !node.product->type.starts_with("char_")) continue;
-    diagnostics_.alarm("unused-load", fmt::format("{}: no command uses {}", node.call.command, node.product->name), node.call.span, "name it among EXCIT (or as CONTACT), or leave it out");
+    diagnostics_.alarm("unused-load", fmt::format("{}: no command uses {}", node.call.command, node.product->name),
+                       node.call.span, "name it among EXCIT (or as CONTACT), or leave it out");
   }
 }
 
@@ -116,14 +134,16 @@ void StudyRun::include(const interpreter::Call& call) {
   // Deep enough for every sensible nesting; a file that includes itself must end.
   constexpr int deepest = 20;
   if (include_depth_ >= deepest) {
-    throw interpreter::DiagnosticError("include-depth", fmt::format("files include one another more than {} times deep", deepest),
+    throw interpreter::DiagnosticError("include-depth",
+                                       fmt::format("files include one another more than {} times deep", deepest),
                                        call.span, "look for a file that includes itself");
   }
   // Files that include one another twice each are soon millions, whatever the depth.
   constexpr std::size_t most = 1000;
   if (trees_.size() == most) {
-    throw interpreter::LimitReached("limit-files", fmt::format("this includes more than {} files: the run is stopped", most), call.span,
-                                    "look for files that include one another");
+    throw interpreter::LimitReached("limit-files",
+                                    fmt::format("this includes more than {} files: the run is stopped", most),
+                                    call.span, "look for files that include one another");
   }
   const bool by_unit = call.given("UNITE");
   const Span where = call.span_of(by_unit ? "UNITE" : "DONNEE");
@@ -140,13 +160,15 @@ void StudyRun::include(const interpreter::Call& call) {
 
 void StudyRun::go_on(const interpreter::Call& call) const {
   if (files_begun_ > 1) return;
-  throw interpreter::DiagnosticError("nothing-before", "POURSUITE goes on from a file before this one, and there is none", call.span,
-                                     "name the files in their order in an .export; a data base of Code_Aster cannot be read");
+  throw interpreter::DiagnosticError(
+      "nothing-before", "POURSUITE goes on from a file before this one, and there is none", call.span,
+      "name the files in their order in an .export; a data base of Code_Aster cannot be read");
 }
 
 void print_diagnostics(const interpreter::Diagnostics& diagnostics, bool alarms) {
   std::vector<Diagnostic> ordered = diagnostics.items();
-  std::stable_partition(ordered.begin(), ordered.end(), [](const Diagnostic& item) { return item.severity != Severity::error; });
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const Diagnostic& item) { return item.severity != Severity::error; });
   std::fflush(stdout);
   for (const Diagnostic& diagnostic : ordered) {
     if (!alarms && diagnostic.severity != Severity::error) continue;
@@ -171,10 +193,14 @@ int status_of(const interpreter::Diagnostics& diagnostics) {
 
 std::string status_word(int exit_status) {
   switch (exit_status) {
-    case all_verdicts_hold: return "passed";
-    case a_verdict_fails: return "failed";
-    case the_file_is_wrong: return "invalid";
-    default: return "error";
+    case all_verdicts_hold:
+      return "passed";
+    case a_verdict_fails:
+      return "failed";
+    case the_file_is_wrong:
+      return "invalid";
+    default:
+      return "error";
   }
 }
 

@@ -24,7 +24,8 @@ class StudyRun {
  public:
   StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits = {});
 
-  /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in diagnostics().
+  /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in
+  /// diagnostics().
   void run();
 
   const interpreter::CommandGraph& graph() const { return session_.graph(); }

@@ -38,20 +38,28 @@ Row row_of(const FieldSource& source, const Part& part) {
 }
 
 [[noreturn]] void carries_nothing(const Keywords& occurrence, const Part& part) {
-  throw DiagnosticError("no-element", fmt::format("POST_ELEM: no solid, plane or axisymmetric element in {} carries the field", part.name), occurrence.span);
+  throw DiagnosticError(
+      "no-element",
+      fmt::format("POST_ELEM: no solid, plane or axisymmetric element in {} carries the field", part.name),
+      occurrence.span);
 }
 
-// --- norms ------------------------------------------------------------------------------------------------------------------
+// --- norms
+// ------------------------------------------------------------------------------------------------------------------
 
 // The weights of the squares: those of the norm, times COEF_MULT; without a coefficient a component does not count.
 std::vector<double> weights_of(const Keywords& occurrence, const std::vector<std::string>& components) {
-  auto weights = occurrence.text("TYPE_NORM") == "FROBENIUS" ? solver::frobenius_weights(components) : std::vector<double>(components.size(), 1.0);
+  auto weights = occurrence.text("TYPE_NORM") == "FROBENIUS" ? solver::frobenius_weights(components)
+                                                             : std::vector<double>(components.size(), 1.0);
   if (!occurrence.has("COEF_MULT")) return weights;
   const Keywords& factors = occurrence.factor("COEF_MULT");
   const auto names = factors.texts("NOM_CMP");
   const auto values = factors.reals("COEF");
   if (names.size() != values.size()) {
-    throw DiagnosticError("wrong-count", fmt::format("POST_ELEM: {} components stand against {} coefficients", names.size(), values.size()), factors.span_of("COEF"));
+    throw DiagnosticError(
+        "wrong-count",
+        fmt::format("POST_ELEM: {} components stand against {} coefficients", names.size(), values.size()),
+        factors.span_of("COEF"));
   }
   std::vector<double> chosen(components.size(), 0.0);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -61,13 +69,16 @@ std::vector<double> weights_of(const Keywords& occurrence, const std::vector<std
   return chosen;
 }
 
-void add_norms(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+void add_norms(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source,
+               const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const solver::ElementField field = at_gauss_points(source, model);
-  const auto squares = std::get<solver::ElementField>(solver::made_of_rows(field, std::array{solver::sum_of_squares(weights_of(occurrence, field.components))}));
+  const auto squares = std::get<solver::ElementField>(
+      solver::made_of_rows(field, std::array{solver::sum_of_squares(weights_of(occurrence, field.components))}));
   const solver::ElementField integrals = solver::integrate_cells(model, squares);
   for (Part& part : parts_of(call, occurrence, source.mesh)) {
     if (occurrence.has("TYPE_MAILLE")) keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-    if (std::ranges::none_of(part.cells, [&](int cell) { return integrals.points(cell) > 0; })) carries_nothing(occurrence, part);
+    if (std::ranges::none_of(part.cells, [&](int cell) { return integrals.points(cell) > 0; }))
+      carries_nothing(occurrence, part);
     warn_of_cells_left_out("NORME", occurrence, part, model, diagnostics);
     Row row = row_of(source, part);
     row.emplace_back("TYPE_NORM", occurrence.text("TYPE_NORM"));
@@ -76,19 +87,26 @@ void add_norms(Table& table, const Call& call, const Keywords& occurrence, const
   }
 }
 
-// --- distributions ----------------------------------------------------------------------------------------------------------
+// --- distributions
+// ----------------------------------------------------------------------------------------------------------
 
-// The ends of the intervals: as many alike as NB_INTERV between BORNES (the extremes without it), or below and above SEUIL.
+// The ends of the intervals: as many alike as NB_INTERV between BORNES (the extremes without it), or below and above
+// SEUIL.
 std::vector<double> bounds_of(const Keywords& occurrence, std::pair<double, double> extremes) {
-  if (occurrence.has("SEUIL")) return {std::min(extremes.first, occurrence.real("SEUIL")), occurrence.real("SEUIL"), std::max(extremes.second, occurrence.real("SEUIL"))};
+  if (occurrence.has("SEUIL"))
+    return {std::min(extremes.first, occurrence.real("SEUIL")), occurrence.real("SEUIL"),
+            std::max(extremes.second, occurrence.real("SEUIL"))};
   if (occurrence.has("BORNES")) extremes = {occurrence.reals("BORNES").front(), occurrence.reals("BORNES").back()};
   const auto count = occurrence.integer("NB_INTERV");
   std::vector<double> bounds;
-  for (int i = 0; i <= count; ++i) bounds.push_back(extremes.first + (extremes.second - extremes.first) * static_cast<double>(i) / static_cast<double>(count));
+  for (int i = 0; i <= count; ++i)
+    bounds.push_back(extremes.first +
+                     (extremes.second - extremes.first) * static_cast<double>(i) / static_cast<double>(count));
   return bounds;
 }
 
-void add_distribution(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+void add_distribution(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source,
+                      const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const solver::ElementField field = at_gauss_points(source, model);
   const std::string& name = occurrence.text("NOM_CMP");
   const int component = component_of(occurrence, field.components, name);
@@ -119,9 +137,12 @@ void list_norms(Table& table, const Call& call, interpreter::Diagnostics& diagno
   for (const Keywords& occurrence : call.factors("NORME")) {
     warn_of_missing_instants("POST_ELEM", occurrence, diagnostics);
     for (const FieldSource& source : field_sources(occurrence)) {
-      if (source.model == nullptr && !call.has("MODELE")) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
-      if (call.has("MODELE")) require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), source.mesh);
-      add_norms(table, call, occurrence, source, call.has("MODELE") ? *call.data<ModelConcept>("MODELE").model : *source.model, diagnostics);
+      if (source.model == nullptr && !call.has("MODELE"))
+        throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
+      if (call.has("MODELE"))
+        require_mesh(call, "MODELE", call.data<ModelConcept>("MODELE").model->mesh.get(), source.mesh);
+      add_norms(table, call, occurrence, source,
+                call.has("MODELE") ? *call.data<ModelConcept>("MODELE").model : *source.model, diagnostics);
     }
   }
 }
@@ -130,7 +151,8 @@ void list_distributions(Table& table, const Call& call, interpreter::Diagnostics
   const auto model = model_behind(call);
   for (const Keywords& occurrence : call.factors("VOLUMOGRAMME")) {
     warn_of_missing_instants("POST_ELEM", occurrence, diagnostics);
-    for (const FieldSource& source : field_sources(with_field(call, occurrence))) add_distribution(table, call, occurrence, source, *model, diagnostics);
+    for (const FieldSource& source : field_sources(with_field(call, occurrence)))
+      add_distribution(table, call, occurrence, source, *model, diagnostics);
   }
 }
 

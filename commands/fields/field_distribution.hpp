@@ -7,10 +7,12 @@
 
 namespace comma::commands {
 
-/// One row a step and part: TYPE_NORM and VALE_NORM, the root of the integral over the part of the sum of squares. Throws DiagnosticError `no-element`; alarm `cells-left-out`.
+/// One row a step and part: TYPE_NORM and VALE_NORM, the root of the integral over the part of the sum of squares.
+/// Throws DiagnosticError `no-element`; alarm `cells-left-out`.
 void list_norms(Table& table, const interpreter::Call& call, interpreter::Diagnostics& diagnostics);
 
-/// One row an interval of the values: INTERVALLE (its number), BORNE_INF, BORNE_SUP and DISTRIBUTION, the volume or its share. Throws and warns alike.
+/// One row an interval of the values: INTERVALLE (its number), BORNE_INF, BORNE_SUP and DISTRIBUTION, the volume or its
+/// share. Throws and warns alike.
 void list_distributions(Table& table, const interpreter::Call& call, interpreter::Diagnostics& diagnostics);
 
 }  // namespace comma::commands

@@ -21,16 +21,19 @@ using interpreter::Keywords;
 
 namespace {
 
-// --- of a result ------------------------------------------------------------------------------------------------------------
+// --- of a result
+// ------------------------------------------------------------------------------------------------------------
 
 solver::Field extreme_of_steps(const Call& call, const solver::Result& result) {
-  static const std::map<std::string, solver::ExtremeOverTime, std::less<>> kinds = {{"MAXI", solver::ExtremeOverTime::greatest},
-                                                                                    {"MINI", solver::ExtremeOverTime::least},
-                                                                                    {"MAXI_ABS", solver::ExtremeOverTime::greatest_magnitude},
-                                                                                    {"MINI_ABS", solver::ExtremeOverTime::least_magnitude},
-                                                                                    {"NORM_TRAN", solver::ExtremeOverTime::longest_translation}};
+  static const std::map<std::string, solver::ExtremeOverTime, std::less<>> kinds = {
+      {"MAXI", solver::ExtremeOverTime::greatest},
+      {"MINI", solver::ExtremeOverTime::least},
+      {"MAXI_ABS", solver::ExtremeOverTime::greatest_magnitude},
+      {"MINI_ABS", solver::ExtremeOverTime::least_magnitude},
+      {"NORM_TRAN", solver::ExtremeOverTime::longest_translation}};
   std::vector<solver::FieldAtInstant> steps;
-  for (const solver::ResultStep* step : steps_with_field(call, result)) steps.push_back({step->instant, &field_of(call, *step)});
+  for (const solver::ResultStep* step : steps_with_field(call, result))
+    steps.push_back({step->instant, &field_of(call, *step)});
   const auto shown = call.text("TYPE_RESU") == "INST" ? solver::ExtremeShown::instant : solver::ExtremeShown::value;
   return solver::extreme_over_time(steps, kinds.at(call.text("TYPE_MAXI")), shown);
 }
@@ -39,12 +42,15 @@ solver::Field extreme_of_steps(const Call& call, const solver::Result& result) {
 solver::Field interpolated(const Call& call, const solver::Result& result) {
   const double instant = call.reals("INST").front();
   const auto reach = instant_reach(call, instant);
-  const auto later = std::ranges::find_if(result.steps, [&](const auto& step) { return step.instant >= instant - reach; });
-  if (later == result.steps.end() || (later == result.steps.begin() && later->instant > instant + reach) || later->instant <= instant + reach) {
+  const auto later =
+      std::ranges::find_if(result.steps, [&](const auto& step) { return step.instant >= instant - reach; });
+  if (later == result.steps.end() || (later == result.steps.begin() && later->instant > instant + reach) ||
+      later->instant <= instant + reach) {
     return field_of(call, only_step(call, result, "a field is taken of one"));
   }
   const auto& earlier = *std::prev(later);
-  return solver::between_instants({earlier.instant, &field_of(call, earlier)}, {later->instant, &field_of(call, *later)}, instant);
+  return solver::between_instants({earlier.instant, &field_of(call, earlier)},
+                                  {later->instant, &field_of(call, *later)}, instant);
 }
 
 solver::Field read_result(const Call& call, const solver::Result& result) {
@@ -64,7 +70,8 @@ std::shared_ptr<const MultiplierSum> multipliers_beside(const Call& call) {
   });
 }
 
-// --- of a table -------------------------------------------------------------------------------------------------------------
+// --- of a table
+// -------------------------------------------------------------------------------------------------------------
 
 // Names are texts or, where a table was read from a file, numbers.
 std::string name_in(const Cell& cell) {
@@ -99,7 +106,9 @@ class TableReader {
 
   void require(const char* name) const {
     if (column(name) >= 0) return;
-    throw DiagnosticError("unknown-column", fmt::format("CREA_CHAMP: a table of values {} has a column {}", describe(type_.place), name), call_.span_of("TABLE"));
+    throw DiagnosticError("unknown-column",
+                          fmt::format("CREA_CHAMP: a table of values {} has a column {}", describe(type_.place), name),
+                          call_.span_of("TABLE"));
   }
 
   void check_columns() const {
@@ -113,8 +122,9 @@ class TableReader {
     for (std::size_t i = 0; i < table_.columns.size(); ++i)
       if (has_component(type_, table_.columns[i])) columns.push_back(static_cast<int>(i));
     if (!columns.empty()) return columns;
-    throw DiagnosticError("unknown-column", fmt::format("CREA_CHAMP: no column of the table is a component of {}", type_.quantity), call_.span_of("TABLE"),
-                          "rename the columns by CALC_TABLE");
+    throw DiagnosticError("unknown-column",
+                          fmt::format("CREA_CHAMP: no column of the table is a component of {}", type_.quantity),
+                          call_.span_of("TABLE"), "rename the columns by CALC_TABLE");
   }
 
   void make_room(std::vector<std::string> names) {
@@ -125,19 +135,25 @@ class TableReader {
     if (type_.place == FieldPlace::zone) {
       product_.field = solver::empty_cell_field(*product_.mesh, type_.quantity_name(), std::move(names));
     } else if (product_.model) {
-      product_.field = solver::empty_element_field(*product_.model, type_.quantity_name(), support_of(type_.place), std::move(names), lives_on_skin(type_));
+      product_.field = solver::empty_element_field(*product_.model, type_.quantity_name(), support_of(type_.place),
+                                                   std::move(names), lives_on_skin(type_));
     } else {
-      throw DiagnosticError("missing-keyword", fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type_.place)), call_.span, "give MODELE");
+      throw DiagnosticError("missing-keyword",
+                            fmt::format("CREA_CHAMP: a field {} lies on a model", describe(type_.place)), call_.span,
+                            "give MODELE");
     }
   }
 
   double& slot(const std::vector<Cell>& row, std::size_t component) {
-    if (auto* field = std::get_if<solver::NodalField>(&product_.field)) return field->values[static_cast<std::size_t>(node_of(row)) * field->components.size() + component];
+    if (auto* field = std::get_if<solver::NodalField>(&product_.field))
+      return field->values[static_cast<std::size_t>(node_of(row)) * field->components.size() + component];
     auto& field = std::get<solver::ElementField>(product_.field);
     const int cell = cell_of(row);
     const int point = point_of(row, field, cell);
     if (point < 0 || point >= field.points(cell)) {
-      throw DiagnosticError("out-of-bounds", fmt::format("CREA_CHAMP: the table has point {} of cell {}, where the field has {}", point + 1, product_.mesh->cell_name(cell), field.points(cell)),
+      throw DiagnosticError("out-of-bounds",
+                            fmt::format("CREA_CHAMP: the table has point {} of cell {}, where the field has {}",
+                                        point + 1, product_.mesh->cell_name(cell), field.points(cell)),
                             call_.span_of("TABLE"));
     }
     return field.values[static_cast<std::size_t>(field.starts[cell] + point) * field.components.size() + component];
@@ -150,20 +166,23 @@ class TableReader {
       return;
     }
     const std::string& name = name_in(row[static_cast<std::size_t>(column(nodal() ? "NOEUD" : "MAILLE"))]);
-    throw DiagnosticError("repeated-row", fmt::format("CREA_CHAMP: the table has several rows for one place, at {}", name), call_.span_of("TABLE"),
-                          "leave the rows of one instant by CALC_TABLE, OPERATION='FILTRE'");
+    throw DiagnosticError("repeated-row",
+                          fmt::format("CREA_CHAMP: the table has several rows for one place, at {}", name),
+                          call_.span_of("TABLE"), "leave the rows of one instant by CALC_TABLE, OPERATION='FILTRE'");
   }
 
   int node_of(const std::vector<Cell>& row) const {
     const std::string name = name_in(row[static_cast<std::size_t>(column("NOEUD"))]);
     if (const int node = nodes_.find(name); node >= 0) return node;
-    throw DiagnosticError("unknown-node", "CREA_CHAMP: the table names a node that the mesh lacks: " + name, call_.span_of("TABLE"));
+    throw DiagnosticError("unknown-node", "CREA_CHAMP: the table names a node that the mesh lacks: " + name,
+                          call_.span_of("TABLE"));
   }
 
   int cell_of(const std::vector<Cell>& row) const {
     const std::string name = name_in(row[static_cast<std::size_t>(column("MAILLE"))]);
     if (const int cell = cells_.find(name); cell >= 0) return cell;
-    throw DiagnosticError("unknown-cell", "CREA_CHAMP: the table names a cell that the mesh lacks: " + name, call_.span_of("TABLE"));
+    throw DiagnosticError("unknown-cell", "CREA_CHAMP: the table names a cell that the mesh lacks: " + name,
+                          call_.span_of("TABLE"));
   }
 
   int point_of(const std::vector<Cell>& row, const solver::ElementField& field, int cell) const {
@@ -181,7 +200,8 @@ class TableReader {
   const FieldType& type_;
   FieldConcept& product_;
   const Table& table_;
-  mutable solver::NameFinder nodes_{*product_.mesh, solver::NameFinder::Kind::nodes}, cells_{*product_.mesh, solver::NameFinder::Kind::cells};
+  mutable solver::NameFinder nodes_{*product_.mesh, solver::NameFinder::Kind::nodes},
+      cells_{*product_.mesh, solver::NameFinder::Kind::cells};
 };
 
 }  // namespace
@@ -196,9 +216,11 @@ std::shared_ptr<FieldConcept> field_of_result(const Call& call) {
     product->multipliers = multipliers_beside(call);
     const auto& data = call.data<ResultConcept>("RESULTAT");
     const bool of_one_step = !call.has("TYPE_MAXI") && call.text("INTERPOL") != "LIN";
-    product->behaviours = of_one_step ? data.problem_of(only_step(call, result, "a field is taken of one")).behaviours : data.problem.behaviours;
+    product->behaviours = of_one_step ? data.problem_of(only_step(call, result, "a field is taken of one")).behaviours
+                                      : data.problem.behaviours;
   } catch (const solver::Error& error) {
-    throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("NOM_CHAM"), error.hint());
+    throw DiagnosticError(error.code(), std::string("CREA_CHAMP: ") + error.what(), call.span_of("NOM_CHAM"),
+                          error.hint());
   }
   return product;
 }
@@ -211,7 +233,8 @@ std::shared_ptr<FieldConcept> field_of_table(const Call& call, const FieldType& 
   } else if (call.has("MAILLAGE")) {
     product->mesh = call.data<MeshConcept>("MAILLAGE").mesh;
   } else {
-    throw DiagnosticError("missing-keyword", "CREA_CHAMP: a table says nothing of the mesh", call.span, "give MAILLAGE or MODELE");
+    throw DiagnosticError("missing-keyword", "CREA_CHAMP: a table says nothing of the mesh", call.span,
+                          "give MAILLAGE or MODELE");
   }
   TableReader(call, type, *product).read();
   return product;

@@ -25,8 +25,12 @@ std::vector<FieldSource> field_sources(const Keywords& keywords, ValuesAPoint wa
   std::vector<FieldSource> sources;
   const bool by_name = keywords.given("NOM_VARI");
   for (const solver::ResultStep* step : steps_with_field(keywords, result)) {
-    const solver::Field& held = wanted == ValuesAPoint::any ? layered_field_of(keywords, *step, keywords.text("NOM_CHAM")) : field_of(keywords, *step);
-    auto made = by_name ? std::make_shared<const solver::Field>(by_variable_names(keywords, held, data.problem_of(*step).behaviours.get())) : nullptr;
+    const solver::Field& held = wanted == ValuesAPoint::any
+                                    ? layered_field_of(keywords, *step, keywords.text("NOM_CHAM"))
+                                    : field_of(keywords, *step);
+    auto made = by_name ? std::make_shared<const solver::Field>(
+                              by_variable_names(keywords, held, data.problem_of(*step).behaviours.get()))
+                        : nullptr;
     sources.push_back({made ? *made : held,
                        result.mesh(),
                        result.model.get(),
@@ -47,8 +51,11 @@ solver::NodalField at_nodes(const Keywords& keywords, const FieldSource& source,
     return solver::nodal_means(source.mesh, element);
   }
   const char* keyword = keywords.has("CHAM_GD") ? "CHAM_GD" : "NOM_CHAM";
-  throw DiagnosticError("unsupported", fmt::format("{}: the field has its values {}, and values at nodes are needed", keyword, describe(place_of(source.field))),
-                        keywords.span_of(keyword), "give a field at nodes (..._NOEU, DEPL, FORC_NODA ...) or at the nodes of cells (..._ELNO)");
+  throw DiagnosticError("unsupported",
+                        fmt::format("{}: the field has its values {}, and values at nodes are needed", keyword,
+                                    describe(place_of(source.field))),
+                        keywords.span_of(keyword),
+                        "give a field at nodes (..._NOEU, DEPL, FORC_NODA ...) or at the nodes of cells (..._ELNO)");
 }
 
 std::string table_node(const solver::Mesh& mesh, int node) {
@@ -62,7 +69,8 @@ std::string table_cell(const solver::Mesh& mesh, int cell) {
 std::vector<int> chosen_components(const Keywords& keywords, const std::vector<std::string>& components) {
   std::vector<int> chosen;
   for (const char* keyword : {"NOM_CMP", "NOM_VARI"}) {
-    for (const std::string& name : keywords.texts(keyword)) chosen.push_back(component_of(keywords, components, name, keyword));
+    for (const std::string& name : keywords.texts(keyword))
+      chosen.push_back(component_of(keywords, components, name, keyword));
   }
   if (!chosen.empty()) return chosen;
   chosen.resize(components.size());
@@ -70,16 +78,21 @@ std::vector<int> chosen_components(const Keywords& keywords, const std::vector<s
   return chosen;
 }
 
-std::vector<std::string> known_components(const Keywords& keywords, const std::vector<std::string>& components, interpreter::Diagnostics& diagnostics) {
-  const auto is_variable = [](const std::string& name) { return name.size() > 1 && name[0] == 'V' && std::ranges::all_of(name.substr(1), [](char c) { return c >= '0' && c <= '9'; }); };
+std::vector<std::string> known_components(const Keywords& keywords, const std::vector<std::string>& components,
+                                          interpreter::Diagnostics& diagnostics) {
+  const auto is_variable = [](const std::string& name) {
+    return name.size() > 1 && name[0] == 'V' &&
+           std::ranges::all_of(name.substr(1), [](char c) { return c >= '0' && c <= '9'; });
+  };
   const bool of_variables = std::ranges::all_of(components, is_variable);
   std::vector<std::string> known, missing;
-  for (const std::string& name : keywords.texts("NOM_CMP")) (std::ranges::count(components, name) != 0 ? known : missing).push_back(name);
+  for (const std::string& name : keywords.texts("NOM_CMP"))
+    (std::ranges::count(components, name) != 0 ? known : missing).push_back(name);
   for (const std::string& name : missing)
     if (known.empty() || !of_variables || !is_variable(name)) component_of(keywords, components, name);
   if (!missing.empty())
-    diagnostics.alarm("unknown-component", fmt::format("no law there has {}: left out", fmt::join(missing, ", ")), keywords.span_of("NOM_CMP"),
-                      fmt::format("the field has {}", fmt::join(components, ", ")));
+    diagnostics.alarm("unknown-component", fmt::format("no law there has {}: left out", fmt::join(missing, ", ")),
+                      keywords.span_of("NOM_CMP"), fmt::format("the field has {}", fmt::join(components, ", ")));
   return known;
 }
 

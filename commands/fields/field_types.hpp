@@ -25,9 +25,10 @@ struct FieldType {
 /// "NOEU_TEMP_F": functions that are temperatures at nodes.
 FieldType field_type(const std::string& word);
 
-/// Throws DiagnosticError `unknown-component` at `keyword` for a component that the quantity does not have, with the nearest
-/// name.
-void check_component(const interpreter::Keywords& keywords, const std::string& keyword, const FieldType& type, const std::string& name);
+/// Throws DiagnosticError `unknown-component` at `keyword` for a component that the quantity does not have, with the
+/// nearest name.
+void check_component(const interpreter::Keywords& keywords, const std::string& keyword, const FieldType& type,
+                     const std::string& name);
 
 /// Whether the quantity has such a component.
 bool has_component(const FieldType& type, const std::string& name);
@@ -44,11 +45,15 @@ FieldPlace place_of(const solver::Field& field);
 /// Whether elements of skin carry the quantity too: those that live inside elements are theirs alone.
 bool lives_on_skin(const FieldType& type);
 
-/// The field behind a concept, which must hold numbers. Throws DiagnosticError `wrong-type` at `keyword` for one of functions.
-const FieldConcept& number_field(const interpreter::ConceptPtr& handle, const interpreter::Keywords& keywords, const char* keyword);
+/// The field behind a concept, which must hold numbers. Throws DiagnosticError `wrong-type` at `keyword` for one of
+/// functions.
+const FieldConcept& number_field(const interpreter::ConceptPtr& handle, const interpreter::Keywords& keywords,
+                                 const char* keyword);
 
-/// What a command makes of values must be numbers. Throws DiagnosticError `not-finite` at `span`, naming the first place where one is not; `maker` names the command.
-void require_finite(const solver::Field& field, const solver::Mesh& mesh, const std::string& maker, const interpreter::Span& span);
+/// What a command makes of values must be numbers. Throws DiagnosticError `not-finite` at `span`, naming the first
+/// place where one is not; `maker` names the command.
+void require_finite(const solver::Field& field, const solver::Mesh& mesh, const std::string& maker,
+                    const interpreter::Span& span);
 
 /// The functions of a field of functions, for solver::evaluate.
 std::vector<solver::ValueFunction> value_functions(const FieldConcept& data);

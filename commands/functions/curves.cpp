@@ -19,14 +19,16 @@ std::string quoted(const std::string& text) {
 
 std::string points(const Curve& curve) {
   std::string text;
-  for (std::size_t i = 0; i < curve.x.size(); ++i) text += fmt::format("{} {}\n", format_real(curve.x[i], real_format), format_real(curve.y[i], real_format));
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    text += fmt::format("{} {}\n", format_real(curve.x[i], real_format), format_real(curve.y[i], real_format));
   return text;
 }
 
 std::string grace_axis(const Axis& axis, char name) {
   std::string text;
   if (!axis.label.empty()) text += fmt::format("@{}axis label {}\n", name, quoted(axis.label));
-  if (axis.bounds) text += fmt::format("@world {0}min {1:g}\n@world {0}max {2:g}\n", name, (*axis.bounds)[0], (*axis.bounds)[1]);
+  if (axis.bounds)
+    text += fmt::format("@world {0}min {1:g}\n@world {0}max {2:g}\n", name, (*axis.bounds)[0], (*axis.bounds)[1]);
   if (axis.logarithmic) text += fmt::format("@{}axes scale logarithmic\n", name);
   if (axis.grid) text += fmt::format("@{0}axis tick major {1:g}\n@{0}axis tick major grid on\n", name, *axis.grid);
   return text;
@@ -56,7 +58,8 @@ std::string grace_file(const Drawing& drawing) {
   if (!drawing.subtitle.empty()) text += fmt::format("@subtitle {}\n", quoted(drawing.subtitle));
   text += grace_axis(drawing.x, 'x') + grace_axis(drawing.y, 'y');
   for (std::size_t i = 0; i < drawing.curves.size(); ++i) text += grace_looks(drawing.curves[i], i);
-  for (std::size_t i = 0; i < drawing.curves.size(); ++i) text += fmt::format("@target G0.S{}\n@type xy\n{}&\n", i, points(drawing.curves[i]));
+  for (std::size_t i = 0; i < drawing.curves.size(); ++i)
+    text += fmt::format("@target G0.S{}\n@type xy\n{}&\n", i, points(drawing.curves[i]));
   return text;
 }
 
@@ -70,7 +73,8 @@ std::string drawing_description(const Drawing& drawing) {
   std::string text = drawing.title + "\n";
   if (!drawing.subtitle.empty()) text += drawing.subtitle + "\n";
   text += described_axis(drawing.x, 'X') + described_axis(drawing.y, 'Y');
-  for (std::size_t i = 0; i < drawing.curves.size(); ++i) text += fmt::format("curve {}: {}\n", i + 1, drawing.curves[i].label);
+  for (std::size_t i = 0; i < drawing.curves.size(); ++i)
+    text += fmt::format("curve {}: {}\n", i + 1, drawing.curves[i].label);
   return text;
 }
 

@@ -12,7 +12,9 @@ solver::Extension extension_named(const std::string& word) {
   return solver::Extension::excluded;
 }
 
-solver::Scale scale_named(const std::string& word) { return word == "LOG" ? solver::Scale::logarithmic : solver::Scale::linear; }
+solver::Scale scale_named(const std::string& word) {
+  return word == "LOG" ? solver::Scale::logarithmic : solver::Scale::linear;
+}
 
 const char* word_of(solver::Extension extension) {
   if (extension == solver::Extension::excluded) return "EXCLU";
@@ -34,8 +36,9 @@ void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction
 void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction& function) {
   const auto values = keywords.reals("VALE");
   if (values.size() % 2 != 0) {
-    throw interpreter::DiagnosticError("wrong-count", fmt::format("DEFI_FONCTION: VALE holds pairs x, y; it has {} values", values.size()), keywords.span_of("VALE"),
-                                       "give an even number of values");
+    throw interpreter::DiagnosticError(
+        "wrong-count", fmt::format("DEFI_FONCTION: VALE holds pairs x, y; it has {} values", values.size()),
+        keywords.span_of("VALE"), "give an even number of values");
   }
   for (std::size_t i = 0; i < values.size(); i += 2) {
     function.x.push_back(values[i]);
@@ -43,10 +46,12 @@ void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction
   }
 }
 
-void check_rising(const interpreter::Keywords& keywords, const std::string& keyword, const std::vector<double>& values) {
+void check_rising(const interpreter::Keywords& keywords, const std::string& keyword,
+                  const std::vector<double>& values) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] > values[i - 1]) continue;
-    throw interpreter::DiagnosticError("wrong-order", fmt::format("{}: {} does not lie beyond {}", keyword, values[i], values[i - 1]),
+    throw interpreter::DiagnosticError("wrong-order",
+                                       fmt::format("{}: {} does not lie beyond {}", keyword, values[i], values[i - 1]),
                                        keywords.span_of(keyword), "values must rise");
   }
 }

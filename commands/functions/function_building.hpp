@@ -13,8 +13,10 @@ solver::Scale scale_named(const std::string& word);          ///< LIN, LOG
 const char* word_of(solver::Extension extension);
 const char* word_of(solver::Scale scale);
 
-/// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function; with a suffix INTERPOL_FONC ...
-void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function, const std::string& suffix = "");
+/// Reads INTERPOL, PROL_GAUCHE and PROL_DROITE, where they are given or have defaults, into a function; with a suffix
+/// INTERPOL_FONC ...
+void read_shape(const interpreter::Keywords& keywords, solver::TabulatedFunction& function,
+                const std::string& suffix = "");
 
 /// VALE: x1, y1, x2, y2 ... Throws DiagnosticError `wrong-count` for an odd number of values.
 void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction& function);

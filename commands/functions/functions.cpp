@@ -37,11 +37,15 @@ std::vector<std::size_t> places_of(const FunctionConcept& function, const std::s
   for (const std::string& parameter : function.parameters()) {
     const auto found = std::find(known.begin(), known.end(), parameter);
     if (found == known.end() && is_deformed(parameter)) {
-      throw DiagnosticError("unsupported", fmt::format("{} depends on {}, a place on the deformed body, which pressures alone know (PRES_REP)", name, parameter), span,
-                            "let it depend on the initial place: X, Y, Z");
+      throw DiagnosticError(
+          "unsupported",
+          fmt::format("{} depends on {}, a place on the deformed body, which pressures alone know (PRES_REP)", name,
+                      parameter),
+          span, "let it depend on the initial place: X, Y, Z");
     }
     if (found == known.end()) {
-      throw DiagnosticError("unknown-parameter", fmt::format("{} depends on {}, which has no value here", name, parameter), span,
+      throw DiagnosticError("unknown-parameter",
+                            fmt::format("{} depends on {}, which has no value here", name, parameter), span,
                             fmt::format("here a function may depend on {}", fmt::join(known, ", ")));
     }
     places.push_back(static_cast<std::size_t>(found - known.begin()));
@@ -58,7 +62,9 @@ const std::vector<std::string>& place_and_time() {
 double weight(solver::Scale scale, double lower, double upper, double at) {
   if (scale == solver::Scale::linear) return (at - lower) / (upper - lower);
   if (!(lower > 0.0 && at > 0.0)) {
-    throw solver::Error("out-of-function", fmt::format("a function is interpolated on a logarithmic scale at {}, which is not positive", at));
+    throw solver::Error(
+        "out-of-function",
+        fmt::format("a function is interpolated on a logarithmic scale at {}, which is not positive", at));
   }
   return std::log(at / lower) / std::log(upper / lower);
 }
@@ -67,7 +73,10 @@ double weight(solver::Scale scale, double lower, double upper, double at) {
 double between(solver::Scale scale, double low, double high, double share) {
   if (scale == solver::Scale::linear) return low + share * (high - low);
   if (!(low > 0.0 && high > 0.0)) {
-    throw solver::Error("out-of-function", fmt::format("values are interpolated on a logarithmic scale between {} and {}, which are not both positive", low, high));
+    throw solver::Error(
+        "out-of-function",
+        fmt::format("values are interpolated on a logarithmic scale between {} and {}, which are not both positive",
+                    low, high));
   }
   return low * std::pow(high / low, share);
 }
@@ -83,7 +92,8 @@ using Items = std::vector<std::pair<std::string, Value>>;
 Value points_of(const solver::TabulatedFunction& table) { return Value::list({list_of(table.x), list_of(table.y)}); }
 
 Items shape_of(const solver::TabulatedFunction& table, const std::string& suffix = "") {
-  return {{"INTERPOL" + suffix, Value::list({Value(std::string(word_of(table.x_scale))), Value(std::string(word_of(table.y_scale)))})},
+  return {{"INTERPOL" + suffix,
+           Value::list({Value(std::string(word_of(table.x_scale))), Value(std::string(word_of(table.y_scale)))})},
           {"PROL_DROITE" + suffix, Value(std::string(word_of(table.right)))},
           {"PROL_GAUCHE" + suffix, Value(std::string(word_of(table.left)))}};
 }
@@ -102,7 +112,8 @@ std::vector<std::string> FunctionConcept::method_names() const {
   return {"Absc", "Ordo", "Parametres", "Valeurs", "getValues", "size"};
 }
 
-Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                              const std::map<std::string, Value>& keywords) const {
   if (table() != nullptr && arguments.empty() && keywords.empty()) {
     if (name == "Absc") return list_of(table()->x);
     if (name == "Ordo") return list_of(table()->y);
@@ -125,12 +136,14 @@ Value FunctionConcept::call(const std::vector<Value>& arguments) const {
 TabulatedConcept::TabulatedConcept(solver::TabulatedFunction function)
     : function_(std::move(function)), parameters_{function_.parameter} {}
 
-FormulaConcept::FormulaConcept(interpreter::Formula formula, Span span) : formula_(std::move(formula)), span_(std::move(span)) {}
+FormulaConcept::FormulaConcept(interpreter::Formula formula, Span span)
+    : formula_(std::move(formula)), span_(std::move(span)) {}
 
 void FormulaConcept::fail(const DiagnosticError& error, const std::string& arguments) const {
   Diagnostic found = error.diagnostic();
   // Of formulas that call each other the innermost one says it.
-  if (!found.message.starts_with("the formula ")) found.message = fmt::format("the formula {} at {}: {}", formula_.text(), arguments, found.message);
+  if (!found.message.starts_with("the formula "))
+    found.message = fmt::format("the formula {} at {}: {}", formula_.text(), arguments, found.message);
   found.span = span_;
   throw DiagnosticError(std::move(found));
 }
@@ -140,21 +153,25 @@ double FormulaConcept::evaluate(std::span<const double> at) const {
     return formula_.evaluate(at);
   } catch (const DiagnosticError& error) {
     std::vector<std::string> shown;
-    for (std::size_t i = 0; i < at.size(); ++i) shown.push_back(fmt::format("{}={:g}", formula_.parameters()[i], at[i]));
+    for (std::size_t i = 0; i < at.size(); ++i)
+      shown.push_back(fmt::format("{}={:g}", formula_.parameters()[i], at[i]));
     fail(error, fmt::format("{}", fmt::join(shown, ", ")));
   }
 }
 
 std::vector<std::string> FormulaConcept::method_names() const { return {"getVariables", "getExpression"}; }
 
-Value FormulaConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
-  if (arguments.empty() && keywords.empty() && name == "getVariables") return Value::list({parameters().begin(), parameters().end()});
+Value FormulaConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                             const std::map<std::string, Value>& keywords) const {
+  if (arguments.empty() && keywords.empty() && name == "getVariables")
+    return Value::list({parameters().begin(), parameters().end()});
   if (arguments.empty() && keywords.empty() && name == "getExpression") return Value(formula_.text());
   return FunctionConcept::method(name, arguments, keywords);
 }
 
 Value FormulaConcept::call(const std::vector<Value>& arguments) const {
-  const bool numbers = std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
+  const bool numbers =
+      std::ranges::all_of(arguments, [](const Value& value) { return value.is_number() || value.is_bool(); });
   if (numbers || arguments.size() != parameters().size()) return FunctionConcept::call(arguments);
   try {
     return formula_.evaluate_values(arguments);
@@ -163,19 +180,20 @@ Value FormulaConcept::call(const std::vector<Value>& arguments) const {
   }
 }
 
-SurfaceConcept::SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows)
+SurfaceConcept::SurfaceConcept(solver::TabulatedFunction edges,
+                               std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows)
     : edges_(std::move(edges)), rows_(std::move(rows)), parameters_{edges_.parameter, rows_.front()->parameter} {}
 
 double SurfaceConcept::evaluate(std::span<const double> at) const {
   const auto& values = edges_.x;
-  const bool left = at[0] < values.front(), right = at[0] > values.back();
+  const bool left = at[0]<values.front(), right = at[0]> values.back();
   if (left || right) {
     const solver::Extension extension = left ? edges_.left : edges_.right;
     if (extension == solver::Extension::excluded || values.size() < 2) {
       if (extension == solver::Extension::constant) return (*rows_.front())(at[1]);
       throw solver::Error("out-of-function",
-                          fmt::format("{} = {} lies outside the function, which is defined from {} to {}", edges_.parameter, at[0],
-                                      values.front(), values.back()),
+                          fmt::format("{} = {} lies outside the function, which is defined from {} to {}",
+                                      edges_.parameter, at[0], values.front(), values.back()),
                           fmt::format("extend the function on the {}", left ? "left" : "right"));
     }
     if (extension == solver::Extension::constant) return (*(left ? rows_.front() : rows_.back()))(at[1]);
@@ -190,7 +208,8 @@ double SurfaceConcept::evaluate(std::span<const double> at) const {
   return between(edges_.y_scale, low, high, share);
 }
 
-Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                             const std::map<std::string, Value>& keywords) const {
   const bool plain = arguments.empty() && keywords.empty();
   std::vector<Value> of_rows;
   if (plain && name == "Valeurs") {
@@ -208,8 +227,10 @@ Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& ar
 
 const solver::TabulatedFunction& SurfaceConcept::row_near(double value, double reach, const Span& span) const {
   const auto found = std::ranges::min_element(edges_.x, {}, [&](double each) { return std::abs(each - value); });
-  if (found != edges_.x.end() && std::abs(*found - value) <= reach) return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
-  throw DiagnosticError("unknown-step", fmt::format("the function of two parameters has none for {}", value), span, fmt::format("it has them for {}", fmt::join(edges_.x, ", ")));
+  if (found != edges_.x.end() && std::abs(*found - value) <= reach)
+    return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
+  throw DiagnosticError("unknown-step", fmt::format("the function of two parameters has none for {}", value), span,
+                        fmt::format("it has them for {}", fmt::join(edges_.x, ", ")));
 }
 
 solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {
@@ -237,20 +258,25 @@ solver::FieldFunction function_of(const ConceptPtr& handle, const std::vector<st
 
 }  // namespace
 
-solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) { return function_of(handle, place_and_time(), span); }
+solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) {
+  return function_of(handle, place_and_time(), span);
+}
 
 solver::FieldFunction following_function(const ConceptPtr& handle, const Span& span) {
   const auto& parameters = function_behind(handle)->parameters();
   if (std::ranges::none_of(parameters, is_deformed)) return field_function(handle, span);
-  if (std::ranges::any_of(parameters, [](const std::string& name) { return name == "X" || name == "Y" || name == "Z"; })) {
-    throw DiagnosticError("unsupported", handle->name + " depends on the initial and on the deformed place, of which comma gives a function one", span,
-                          "write it with X, Y, Z or with XF, YF, ZF alone");
+  if (std::ranges::any_of(parameters,
+                          [](const std::string& name) { return name == "X" || name == "Y" || name == "Z"; })) {
+    throw DiagnosticError(
+        "unsupported",
+        handle->name + " depends on the initial and on the deformed place, of which comma gives a function one", span,
+        "write it with X, Y, Z or with XF, YF, ZF alone");
   }
   return solver::DeformedPlaceFunction{function_of(handle, {"XF", "YF", "ZF", "INST"}, span)};
 }
 
-double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names, std::span<const double> values,
-                      const Span& span) {
+double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names,
+                      std::span<const double> values, const Span& span) {
   std::vector<double> arguments;
   for (const std::size_t place : places_of(function, "the function", names, span)) arguments.push_back(values[place]);
   return function.evaluate(arguments);

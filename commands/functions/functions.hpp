@@ -1,5 +1,5 @@
-// Functions as concepts: tables, constants, formulas, functions of two parameters, all behind one interface; and how the
-// solver sees them.
+// Functions as concepts: tables, constants, formulas, functions of two parameters, all behind one interface; and how
+// the solver sees them.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,15 @@
 
 namespace comma::commands {
 
-/// A real function of named parameters: what every keyword of type fonction_any takes. `evaluate` throws solver::Error or
-/// DiagnosticError where the function is not defined.
+/// A real function of named parameters: what every keyword of type fonction_any takes. `evaluate` throws solver::Error
+/// or DiagnosticError where the function is not defined.
 struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
-  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues(): both in one list, abscissas first; size(): how many;
-  /// Parametres(): NOM_PARA, NOM_RESU, INTERPOL, PROL_DROITE and PROL_GAUCHE, as DEFI_FONCTION takes them.
+  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues():
+  /// both in one list, abscissas first; size(): how many; Parametres(): NOM_PARA, NOM_RESU, INTERPOL, PROL_DROITE and
+  /// PROL_GAUCHE, as DEFI_FONCTION takes them.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
@@ -81,14 +82,16 @@ class SurfaceConcept : public FunctionConcept {
   SurfaceConcept(solver::TabulatedFunction edges, std::vector<std::shared_ptr<const solver::TabulatedFunction>> rows);
   const std::vector<std::string>& parameters() const override { return parameters_; }
   double evaluate(std::span<const double> at) const override;
-  /// Valeurs(): the values of the first parameter, and for each the abscissas and values of its table; Parametres(): how the function goes on between and beyond
-  /// them, and for each table INTERPOL_FONC, PROL_DROITE_FONC and PROL_GAUCHE_FONC (U1.03.02).
+  /// Valeurs(): the values of the first parameter, and for each the abscissas and values of its table; Parametres():
+  /// how the function goes on between and beyond them, and for each table INTERPOL_FONC, PROL_DROITE_FONC and
+  /// PROL_GAUCHE_FONC (U1.03.02).
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   std::vector<std::string> method_names() const override { return {"Parametres", "Valeurs"}; }
   const solver::TabulatedFunction& edges() const { return edges_; }
   const std::vector<std::shared_ptr<const solver::TabulatedFunction>>& rows() const { return rows_; }
-  /// The table that belongs to the value of the first parameter which lies within `reach`. Throws DiagnosticError `unknown-step` at `span`, listing the values there are.
+  /// The table that belongs to the value of the first parameter which lies within `reach`. Throws DiagnosticError
+  /// `unknown-step` at `span`, listing the values there are.
   const solver::TabulatedFunction& row_near(double value, double reach, const interpreter::Span& span) const;
 
  private:
@@ -100,16 +103,17 @@ class SurfaceConcept : public FunctionConcept {
 /// Numbers as a list of the language.
 interpreter::Value list_of(std::span<const double> values);
 
-/// The function of time behind a concept. Throws DiagnosticError `unknown-parameter` at `span` when it depends on anything
-/// but INST, naming it. The function keeps the concept's data alive.
+/// The function of time behind a concept. Throws DiagnosticError `unknown-parameter` at `span` when it depends on
+/// anything but INST, naming it. The function keeps the concept's data alive.
 solver::TimeFunction time_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
 /// The same for place and time: X, Y, Z and INST.
 solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
-/// Of a load that may follow the body: besides X, Y, Z the function may depend on XF, YF, ZF, the place on the deformed body, and is then
-/// a solver::DeformedPlaceFunction. Throws DiagnosticError `unsupported` for one that depends on both.
+/// Of a load that may follow the body: besides X, Y, Z the function may depend on XF, YF, ZF, the place on the deformed
+/// body, and is then a solver::DeformedPlaceFunction. Throws DiagnosticError `unsupported` for one that depends on
+/// both.
 solver::FieldFunction following_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
 /// The values of parameters by name. Throws DiagnosticError `unknown-parameter` when one is missing.
-double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names, std::span<const double> values,
-                      const interpreter::Span& span);
+double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names,
+                      std::span<const double> values, const interpreter::Span& span);
 
 }  // namespace comma::commands

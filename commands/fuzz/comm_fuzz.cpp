@@ -1,5 +1,6 @@
-// Fuzz target: any text goes through lexer, parser, evaluator, and the catalogue's checks as `comma check` does it, save that no
-// command acts. It must end in diagnostics that can be shown, of which none says that comma itself is at fault.
+// Fuzz target: any text goes through lexer, parser, evaluator, and the catalogue's checks as `comma check` does it,
+// save that no command acts. It must end in diagnostics that can be shown, of which none says that comma itself is at
+// fault.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +42,8 @@ void check(const std::string& text, Diagnostics& diagnostics) {
   static const CommandTable no_commands;
   Session session(catalogue, no_commands, diagnostics, {.check_only = true, .only_tests = false});
   for (const char* command : {"INCLUDE", "POURSUITE"}) session.act_at_once(command, [](const Call&) {});
-  Evaluator evaluator(session, diagnostics, [](std::string_view) {}, tight_limits());
+  Evaluator evaluator(
+      session, diagnostics, [](std::string_view) {}, tight_limits());
   const Ast tree = parse(std::make_shared<const SourceFile>("fuzz.comm", text), diagnostics);
   if (diagnostics.has_errors()) return;
   evaluator.run(tree);

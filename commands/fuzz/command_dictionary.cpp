@@ -1,5 +1,5 @@
-// Writes libFuzzer's dictionary for command files: the words of the language, and the commands, keywords and allowed words of
-// the catalogue.
+// Writes libFuzzer's dictionary for command files: the words of the language, and the commands, keywords and allowed
+// words of the catalogue.
 #include <cctype>
 #include <cstdio>
 #include <set>
@@ -45,11 +45,13 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 int main() {
-  Words words = {"and ",    "as ",      "assert ", "break",    "class ",  "continue", "def f(x):", "del ",   "elif ",  "else:", "except:",
-                 "f'{x}'",  "finally:", "for ",    "from ",    "global ", "if ",      "import ",   " in ",   " is ",   "lambda ", "None",
-                 "nonlocal ", "not ",   " or ",    "pass",     "raise ",  "return ",  "True",      "try:",   "while ", "with ", "yield ",
-                 "**",      "//",       "<<",      ">>",       "!=",      "<=",       ">=",        "+=",     "'''",    "_F(",   "range(",
-                 "numpy",   "math",     ".format(", "%",       "{:>10.3e}", "1e308",  "-1",        "[::-1]", "\n    ", "\n",    "j"};
+  Words words = {"and ",      "as ",     "assert ", "break",   "class ",   "continue", "def f(x):", "del ",
+                 "elif ",     "else:",   "except:", "f'{x}'",  "finally:", "for ",     "from ",     "global ",
+                 "if ",       "import ", " in ",    " is ",    "lambda ",  "None",     "nonlocal ", "not ",
+                 " or ",      "pass",    "raise ",  "return ", "True",     "try:",     "while ",    "with ",
+                 "yield ",    "**",      "//",      "<<",      ">>",       "!=",       "<=",        ">=",
+                 "+=",        "'''",     "_F(",     "range(",  "numpy",    "math",     ".format(",  "%",
+                 "{:>10.3e}", "1e308",   "-1",      "[::-1]",  "\n    ",   "\n",       "j"};
   const Catalogue catalogue(comma::commands::catalogue_blobs());
   for (const std::string& name : catalogue.names()) {
     words.insert(name + "(");

@@ -26,13 +26,15 @@ struct ForceField {
   int body;
   bool inside;
 };
-constexpr ForceField force_fields[] = {{"FSUR_2D", 2, false}, {"FSUR_3D", 3, false}, {"FVOL_2D", 2, true}, {"FVOL_3D", 3, true}};
+constexpr ForceField force_fields[] = {
+    {"FSUR_2D", 2, false}, {"FSUR_3D", 3, false}, {"FVOL_2D", 2, true}, {"FVOL_3D", 3, true}};
 constexpr const char* pressure_field = "PRES";
 constexpr const char* nodal_field = "FORC_NODA";
 constexpr std::array<const char*, 3> force_names = {"FX", "FY", "FZ"};
 
 bool is_known(const std::string& name) {
-  return name == pressure_field || name == nodal_field || std::ranges::any_of(force_fields, [&](const ForceField& each) { return name == each.name; });
+  return name == pressure_field || name == nodal_field ||
+         std::ranges::any_of(force_fields, [&](const ForceField& each) { return name == each.name; });
 }
 
 bool fits(const solver::Field& field) {
@@ -59,8 +61,13 @@ void check_components(const Keywords& call, const std::string& name, const solve
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string& component = given[k % given.size()];
     if (!(std::abs(values[k]) > 0.0) || std::ranges::find(known, component) != known.end()) continue;
-    throw DiagnosticError("unsupported", fmt::format("EVOL_CHAR: the field {} of the result has {}, which comma does not know as a load", name, component), call.span_of("EVOL_CHAR"),
-                          name == nodal_field ? "forces on nodes have the names of the displacements that they work on: DX, DY ..." : fmt::format("give {} alone", fmt::join(known, ", ")));
+    throw DiagnosticError(
+        "unsupported",
+        fmt::format("EVOL_CHAR: the field {} of the result has {}, which comma does not know as a load", name,
+                    component),
+        call.span_of("EVOL_CHAR"),
+        name == nodal_field ? "forces on nodes have the names of the displacements that they work on: DX, DY ..."
+                            : fmt::format("give {} alone", fmt::join(known, ", ")));
   }
 }
 
@@ -71,8 +78,13 @@ void check(const Keywords& call, const solver::Result& result) {
         check_components(call, name, field);
         continue;
       }
-      throw DiagnosticError("unsupported", fmt::format("EVOL_CHAR: the result holds {}{}", name, is_known(name) ? " where comma does not know such loads" : ", which comma does not know as a load"),
-                            call.span_of("EVOL_CHAR"), "comma knows PRES, FSUR_2D, FSUR_3D, FVOL_2D and FVOL_3D at nodes and on cells, FORC_NODA at nodes");
+      throw DiagnosticError(
+          "unsupported",
+          fmt::format(
+              "EVOL_CHAR: the result holds {}{}", name,
+              is_known(name) ? " where comma does not know such loads" : ", which comma does not know as a load"),
+          call.span_of("EVOL_CHAR"),
+          "comma knows PRES, FSUR_2D, FSUR_3D, FVOL_2D and FVOL_3D at nodes and on cells, FORC_NODA at nodes");
     }
   }
 }
@@ -108,11 +120,14 @@ struct Reading {
   const solver::Result& result;
   const LoadedModel& target;
 
-  /// Whether a place bears the load at all instants. Where it has a value at some of them alone nothing says what is there at the others.
+  /// Whether a place bears the load at all instants. Where it has a value at some of them alone nothing says what is
+  /// there at the others.
   bool is_borne(solver::Coverage coverage, std::string_view field, const std::string& place) const {
     if (coverage != solver::Coverage::partial) return coverage == solver::Coverage::whole;
-    throw DiagnosticError("incomplete-load", fmt::format("EVOL_CHAR: {} has values on {} at some instants and none at others", field, place), call.span_of("EVOL_CHAR"),
-                          "give them at all instants, 0 where nothing acts");
+    throw DiagnosticError(
+        "incomplete-load",
+        fmt::format("EVOL_CHAR: {} has values on {} at some instants and none at others", field, place),
+        call.span_of("EVOL_CHAR"), "give them at all instants, 0 where nothing acts");
   }
   bool is_borne(const solver::LoadHistory& history, std::string_view field, int cell) const {
     return is_borne(history.coverage(cell, target.mesh.cell(cell)), field, target.mesh.cell_name(cell));
@@ -163,7 +178,9 @@ int add_forces_at_nodes(const Reading& reading, solver::Load& load) {
     const History history = history_of(reading.result, nodal_field, named.keyword);
     for (int node = 0; history && node < reading.target.mesh.node_count(); ++node) {
       if (!reading.is_borne(history->coverage(node), nodal_field, reading.target.mesh.node_name(node))) continue;
-      load.nodal_forces.push_back({node, named.component, 0.0, [history, node](const solver::Point&, double time) { return history->at(node, time); }});
+      load.nodal_forces.push_back({node, named.component, 0.0, [history, node](const solver::Point&, double time) {
+                                     return history->at(node, time);
+                                   }});
       ++loaded;
     }
   }
@@ -175,14 +192,19 @@ int add_forces_at_nodes(const Reading& reading, solver::Load& load) {
 void add_evolving_loads(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   if (!call.has("EVOL_CHAR")) return;
   const solver::Result& result = call.data<ResultConcept>("EVOL_CHAR").result;
-  if (&result.mesh() != &target.mesh) throw DiagnosticError("incompatible-field", "EVOL_CHAR: the result lies on another mesh than the model", call.span_of("EVOL_CHAR"));
+  if (&result.mesh() != &target.mesh)
+    throw DiagnosticError("incompatible-field", "EVOL_CHAR: the result lies on another mesh than the model",
+                          call.span_of("EVOL_CHAR"));
   check(call, result);
   const Reading reading{call, result, target};
   const auto require_reached = [&](const char* name, int loaded) {
     const auto holds = [&](const solver::ResultStep& step) { return step.fields.contains(name); };
     if (loaded > 0 || std::ranges::none_of(result.steps, holds)) return;
-    throw DiagnosticError("no-skin", fmt::format("EVOL_CHAR: no cell or node of the model has the load {} that the result holds", name), call.span_of("EVOL_CHAR"),
-                          "PRES and FSUR act on cells of the boundary, FVOL inside, wherever all nodes of a cell, or the cell, have a value");
+    throw DiagnosticError(
+        "no-skin", fmt::format("EVOL_CHAR: no cell or node of the model has the load {} that the result holds", name),
+        call.span_of("EVOL_CHAR"),
+        "PRES and FSUR act on cells of the boundary, FVOL inside, wherever all nodes of a cell, or the cell, have a "
+        "value");
   };
   require_reached(pressure_field, add_pressures(reading, load));
   require_reached(nodal_field, add_forces_at_nodes(reading, load));

@@ -58,7 +58,8 @@ std::optional<Amount> following_amount(const Keywords& keywords, const char* nam
 }
 
 template <std::size_t N>
-void override_given(const Amounts<N>& amounts, std::array<double, N>& values, std::array<solver::FieldFunction, N>& functions) {
+void override_given(const Amounts<N>& amounts, std::array<double, N>& values,
+                    std::array<solver::FieldFunction, N>& functions) {
   for (std::size_t i = 0; i < N; ++i) {
     if (!amounts[i]) continue;
     values[i] = amounts[i]->value;
@@ -68,8 +69,8 @@ void override_given(const Amounts<N>& amounts, std::array<double, N>& values, st
 
 /// The cells named that a load can act on. Throws DiagnosticError `no-element` when there is none.
 template <class Predicate>
-std::vector<int> loadable_cells(const Keywords& keywords, const LoadedModel& target, const std::string& name, const std::string& what,
-                                Predicate can_bear) {
+std::vector<int> loadable_cells(const Keywords& keywords, const LoadedModel& target, const std::string& name,
+                                const std::string& what, Predicate can_bear) {
   auto cells = selected_cells(keywords, target.mesh);
   std::erase_if(cells, [&](int cell) { return !can_bear(cell); });
   if (cells.empty()) {
@@ -83,14 +84,15 @@ std::vector<int> loadable_cells(const Keywords& keywords, const LoadedModel& tar
 struct DistributedKeyword {
   const char* name;
   const char* what;
-  int cell_dimension;  ///< 0: that of the body
+  int cell_dimension;    ///< 0: that of the body
   int foreign_body = 0;  ///< the dimension of continua on whose skin it does not act
 };
 
-constexpr DistributedKeyword distributed_keywords[] = {{"FORCE_FACE", "a face on the skin of a solid", 2},
-                                                       {"FORCE_ARETE", "an edge of a solid or of a plate", 1, 2},
-                                                       {"FORCE_CONTOUR", "an edge on the boundary of a plane body or of a plate", 1, 3},
-                                                       {"FORCE_INTERNE", "a cell of a solid or plane body", 0}};
+constexpr DistributedKeyword distributed_keywords[] = {
+    {"FORCE_FACE", "a face on the skin of a solid", 2},
+    {"FORCE_ARETE", "an edge of a solid or of a plate", 1, 2},
+    {"FORCE_CONTOUR", "an edge on the boundary of a plane body or of a plate", 1, 3},
+    {"FORCE_INTERNE", "a cell of a solid or plane body", 0}};
 
 bool bears(const LoadedModel& target, const DistributedKeyword& keyword, int cell) {
   const int body = solver::continuum_dimension(target.model.formulations[cell]);
@@ -101,17 +103,22 @@ bool bears(const LoadedModel& target, const DistributedKeyword& keyword, int cel
 
 void append_moments(const LoadedModel& target, const ByCell<solver::PlateMoment>& moments, solver::Load& load) {
   for (const auto& [cell, moment] : moments) {
-    for (solver::NodalForce& force : solver::plate_moment_forces(target.mesh, moment)) load.nodal_forces.push_back(std::move(force));
+    for (solver::NodalForce& force : solver::plate_moment_forces(target.mesh, moment))
+      load.nodal_forces.push_back(std::move(force));
   }
 }
 
 // Of an edge, which must have rotations to turn.
-void take_moment(const Keywords& occurrence, const LoadedModel& target, const DistributedKeyword& keyword, int cell, ByCell<solver::PlateMoment>& moments) {
+void take_moment(const Keywords& occurrence, const LoadedModel& target, const DistributedKeyword& keyword, int cell,
+                 ByCell<solver::PlateMoment>& moments) {
   const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
-  if (keyword.cell_dimension != 1 || std::ranges::none_of(turning, [](const auto& each) { return each.has_value(); })) return;
+  if (keyword.cell_dimension != 1 || std::ranges::none_of(turning, [](const auto& each) { return each.has_value(); }))
+    return;
   if (target.dofs.dof(target.mesh.cell(cell)[0], solver::Component::drx) < 0) {
-    throw DiagnosticError("unknown-component", fmt::format("{}: a moment acts on {}, whose nodes have no rotations", keyword.name, target.mesh.cell_name(cell)), occurrence.span,
-                          "moments are for the edges of plates");
+    throw DiagnosticError("unknown-component",
+                          fmt::format("{}: a moment acts on {}, whose nodes have no rotations", keyword.name,
+                                      target.mesh.cell_name(cell)),
+                          occurrence.span, "moments are for the edges of plates");
   }
   moments[cell].cell = cell;
   override_given(turning, moments[cell].moment, moments[cell].functions);
@@ -166,13 +173,15 @@ constexpr std::array<const char*, 6> own_plate_forces = {"F1", "F2", "F3", "MF1"
 // Whether the section of the plate says what the force is: its axes, or its thickness.
 bool asks_for_section(const Keywords& occurrence) {
   if (occurrence.given("PRES")) return false;
-  const bool along = std::ranges::any_of(std::array{"F1", "F2", "MF1", "MF2"}, [&](const char* name) { return occurrence.given(name); });
+  const bool along = std::ranges::any_of(std::array{"F1", "F2", "MF1", "MF2"},
+                                         [&](const char* name) { return occurrence.given(name); });
   return along || (level_of(occurrence) != solver::PlateLevel::mesh && !occurrence.given("F3"));
 }
 
 // Forces given in other axes or at another level than before replace those entirely.
 void take_plate_force(const Keywords& occurrence, int cell, ByCell<solver::PlateForce>& forces) {
-  const bool own = std::ranges::any_of(own_plate_forces, [&](const char* name) { return *name != '\0' && occurrence.given(name); });
+  const bool own =
+      std::ranges::any_of(own_plate_forces, [&](const char* name) { return *name != '\0' && occurrence.given(name); });
   const solver::PlateLevel level = level_of(occurrence);
   solver::PlateForce& force = forces[cell];
   if (force.in_own_axes != own || force.level != level) force = {};
@@ -182,7 +191,8 @@ void take_plate_force(const Keywords& occurrence, int cell, ByCell<solver::Plate
   override_given(given_amounts(occurrence, own ? own_plate_forces : global_plate_forces), force.force, force.functions);
 }
 
-// FORCE_COQUE: tractions and moments along the axes of the mesh, those of the plate, or across it. PRES acts against the normal, F3 along it (U4.44.01).
+// FORCE_COQUE: tractions and moments along the axes of the mesh, those of the plate, or across it. PRES acts against
+// the normal, F3 along it (U4.44.01).
 void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::DistributedForce> forces;
   ByCell<solver::PlateMoment> moments;
@@ -192,8 +202,10 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
     const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
     const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
     const bool pressed = occurrence.given("PRES"), pulled = occurrence.given("F3");
-    const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX()) : amount_of(occurrence, "PRES");
-    for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate", [&](int each) { return is_plate(target, each); })) {
+    const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX())
+                                 : amount_of(occurrence, "PRES");
+    for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate",
+                                         [&](int each) { return is_plate(target, each); })) {
       if (asks_for_section(occurrence)) {
         take_plate_force(occurrence, cell, of_sections);
         const solver::PlateForce& taken = of_sections[cell];
@@ -203,7 +215,8 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
         continue;
       }
       const auto section = of_sections.find(cell);
-      const bool joins = section != of_sections.end() && (pressed || pulled) && section->second.in_own_axes && section->second.level == solver::PlateLevel::mesh;
+      const bool joins = section != of_sections.end() && (pressed || pulled) && section->second.in_own_axes &&
+                         section->second.level == solver::PlateLevel::mesh;
       if (joins) {  // the same axes and level: F3 takes the place of F3
         const Amount along = component_of_turned({across}, -Eigen::Vector3d::UnitX());
         std::tie(section->second.force[2], section->second.functions[2]) = std::pair(along.value, along.function);
@@ -214,7 +227,8 @@ void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::L
         forces.erase(cell);
         moments.erase(cell);
         pressures[cell].cell = cell;
-        std::tie(pressures[cell].pressure, pressures[cell].pressure_function) = std::pair(across.value, across.function);
+        std::tie(pressures[cell].pressure, pressures[cell].pressure_function) =
+            std::pair(across.value, across.function);
         continue;
       }
       pressures.erase(cell);
@@ -239,13 +253,17 @@ void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load
       if (!is_surface(target, cell)) continue;
       auto& pressure = pressures[cell];
       pressure.cell = cell;
-      if (amounts[0]) std::tie(pressure.pressure, pressure.pressure_function) = std::pair(amounts[0]->value, amounts[0]->function);
-      if (amounts[1]) std::tie(pressure.shear, pressure.shear_function) = std::pair(amounts[1]->value, amounts[1]->function);
+      if (amounts[0])
+        std::tie(pressure.pressure, pressure.pressure_function) = std::pair(amounts[0]->value, amounts[0]->function);
+      if (amounts[1])
+        std::tie(pressure.shear, pressure.shear_function) = std::pair(amounts[1]->value, amounts[1]->function);
       ++loaded;
     }
     if (loaded == 0) {
-      throw DiagnosticError("no-skin", "PRES_REP: none of these cells is on the skin of the model or a plate", occurrence.span,
-                            "a pressure acts on edges of a plane model, faces of a solid one, or plates, and AFFE_MODELE must cover them");
+      throw DiagnosticError("no-skin", "PRES_REP: none of these cells is on the skin of the model or a plate",
+                            occurrence.span,
+                            "a pressure acts on edges of a plane model, faces of a solid one, or plates, and "
+                            "AFFE_MODELE must cover them");
     }
   }
   append(load.pressures, std::move(pressures));
@@ -254,9 +272,11 @@ void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load
 void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::PressureLoad> pressures;
   for (const Keywords& occurrence : call.factors("EFFE_FOND")) {
-    const auto rim = needed(selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""}), occurrence, "cell of the rim");
+    const auto rim = needed(selected_cells(occurrence, target.mesh, {"", "", "", "GROUP_MA_INT", ""}), occurrence,
+                            "cell of the rim");
     const Amount amount = amount_of(occurrence, "PRES");
-    for (auto& pressure : solver::end_effect(target.mesh, selected_cells(occurrence, target.mesh), rim, amount.value, amount.function)) {
+    for (auto& pressure :
+         solver::end_effect(target.mesh, selected_cells(occurrence, target.mesh), rim, amount.value, amount.function)) {
       pressures[pressure.cell] = std::move(pressure);
     }
   }
@@ -270,7 +290,8 @@ std::vector<Amount> angles_of(const Keywords& force) {
   std::vector<Amount> angles;
   const interpreter::Value& given = force.at("ANGL_NAUT").value;
   if (given.is_sequence() && !given.items().empty() && given.items().front().is_concept())
-    for (const auto& handle : force.concepts("ANGL_NAUT")) angles.push_back({0.0, field_function(handle, force.span_of("ANGL_NAUT"))});
+    for (const auto& handle : force.concepts("ANGL_NAUT"))
+      angles.push_back({0.0, field_function(handle, force.span_of("ANGL_NAUT"))});
   else
     for (const double angle : force.reals("ANGL_NAUT")) angles.push_back({angle, {}});
   return angles;
@@ -283,16 +304,20 @@ Eigen::Matrix3d axes_at(const std::vector<Amount>& angles, const solver::Point& 
 }
 
 // A component of a force that is given in axes that turn from place to place.
-Amount component_of_turning(const std::array<Amount, 3>& given, const std::vector<Amount>& angles, Eigen::Index component) {
+Amount component_of_turning(const std::array<Amount, 3>& given, const std::vector<Amount>& angles,
+                            Eigen::Index component) {
   if (std::ranges::none_of(angles, [](const Amount& angle) { return static_cast<bool>(angle.function); }))
     return component_of_turned(given, axes_at(angles, {}, 0.0).col(component));
-  return {0.0, [given, angles, component](const solver::Point& at, double time) { return component_of_turned(given, axes_at(angles, at, time).col(component)).at(at, time); }};
+  return {0.0, [given, angles, component](const solver::Point& at, double time) {
+            return component_of_turned(given, axes_at(angles, at, time).col(component)).at(at, time);
+          }};
 }
 
 /// Cosines of angles are known to this.
 constexpr double rounding_of_axes = 1e-12;
 
-void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, const LoadedModel& target, NodeForces& forces) {
+void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, const LoadedModel& target,
+                       NodeForces& forces) {
   const std::vector<Amount> angles = angles_of(force);
   for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
     std::array<Amount, 3> given;
@@ -310,9 +335,12 @@ void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, con
         if (carried(node)) forces[{node, component}] = amount;
       const double largest = std::max({std::abs(given[0].value), std::abs(given[1].value), std::abs(given[2].value)});
       if (std::abs(amount.value) > rounding_of_axes * largest && std::ranges::none_of(nodes, carried)) {
-        throw DiagnosticError("unknown-component",
-                              fmt::format("FORCE_NODALE: turned by ANGL_NAUT the force has {:.3g} along {}, which none of these nodes carries", amount.value, solver::name_of(component)),
-                              force.span, "the elements of the model around them have no such component");
+        throw DiagnosticError(
+            "unknown-component",
+            fmt::format(
+                "FORCE_NODALE: turned by ANGL_NAUT the force has {:.3g} along {}, which none of these nodes carries",
+                amount.value, solver::name_of(component)),
+            force.span, "the elements of the model around them have no such component");
       }
     }
   }
@@ -332,7 +360,8 @@ void add_nodal_forces(const Keywords& call, const LoadedModel& target, solver::L
       for (const int node : carriers(force, named, nodes, target.dofs)) forces[{node, named.component}] = amount;
     }
   }
-  for (const auto& [place, amount] : forces) load.nodal_forces.push_back({place.first, place.second, amount.value, amount.function});
+  for (const auto& [place, amount] : forces)
+    load.nodal_forces.push_back({place.first, place.second, amount.value, amount.function});
 }
 
 // VECT_ASSE: a vector of forces that a field on nodes holds.
@@ -350,7 +379,8 @@ void add_force_vector(const Keywords& call, const LoadedModel& target, solver::L
       if (std::isnan(value) || value == 0.0) continue;
       if (target.dofs.dof(node, component) < 0) {
         throw DiagnosticError("unknown-component",
-                              fmt::format("VECT_ASSE: {} does not carry {} in the model", target.mesh.node_name(node), field->components[c]),
+                              fmt::format("VECT_ASSE: {} does not carry {} in the model", target.mesh.node_name(node),
+                                          field->components[c]),
                               call.span_of("VECT_ASSE"));
       }
       load.nodal_forces.push_back({node, component, value, {}});
@@ -399,7 +429,8 @@ void add_inertia_loads(const Keywords& call, const LoadedModel& target, solver::
     const Keywords& weight = weights[k];
     auto acceleration = point_of(weight, "DIRECTION");
     const double length = std::hypot(acceleration[0], acceleration[1], acceleration[2]);
-    if (length == 0.0) throw DiagnosticError("zero-vector", "PESANTEUR/DIRECTION has no length", weight.span_of("DIRECTION"));
+    if (length == 0.0)
+      throw DiagnosticError("zero-vector", "PESANTEUR/DIRECTION has no length", weight.span_of("DIRECTION"));
     for (double& component : acceleration) component *= weight.real("GRAVITE") / length;
     load.gravities.push_back({weighed[k], acceleration});
   }
@@ -407,16 +438,21 @@ void add_inertia_loads(const Keywords& call, const LoadedModel& target, solver::
   const auto turned = own_cells(rotations, target.mesh);
   for (std::size_t k = 0; k < rotations.size(); ++k) {
     const Keywords& rotation = rotations[k];
-    load.rotations.push_back({turned[k], rotation.real("VITESSE"), point_of(rotation, "AXE"),
-                              point_of(rotation, "CENTRE")});
+    load.rotations.push_back(
+        {turned[k], rotation.real("VITESSE"), point_of(rotation, "AXE"), point_of(rotation, "CENTRE")});
   }
 }
 
 // A field at the integration points of the model, of the chosen cells where some are named.
-std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occurrence, const char* keyword, const LoadedModel& target) {
+std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occurrence, const char* keyword,
+                                                            const LoadedModel& target) {
   const auto& given = occurrence.data<FieldConcept>(keyword);
-  if (given.mesh.get() != &target.mesh) throw DiagnosticError("incompatible-field", std::string(keyword) + ": the field lies on another mesh than the model", occurrence.span_of(keyword));
-  auto field = std::make_shared<solver::ElementField>(solver::brought_to(target.model, given.field, solver::Support::gauss_point, false));
+  if (given.mesh.get() != &target.mesh)
+    throw DiagnosticError("incompatible-field",
+                          std::string(keyword) + ": the field lies on another mesh than the model",
+                          occurrence.span_of(keyword));
+  auto field = std::make_shared<solver::ElementField>(
+      solver::brought_to(target.model, given.field, solver::Support::gauss_point, false));
   if (!names_a_place(occurrence)) return field;
   std::vector<bool> chosen(target.mesh.cell_types.size(), false);
   for (const int cell : selected_cells(occurrence, target.mesh)) chosen[static_cast<std::size_t>(cell)] = true;
@@ -424,13 +460,15 @@ std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occu
     if (chosen[static_cast<std::size_t>(cell)]) continue;
     const std::size_t first = static_cast<std::size_t>(field->starts[cell]) * field->components.size();
     const std::size_t last = static_cast<std::size_t>(field->starts[cell + 1]) * field->components.size();
-    std::fill(field->values.begin() + static_cast<std::ptrdiff_t>(first), field->values.begin() + static_cast<std::ptrdiff_t>(last), solver::absent);
+    std::fill(field->values.begin() + static_cast<std::ptrdiff_t>(first),
+              field->values.begin() + static_cast<std::ptrdiff_t>(last), solver::absent);
   }
   return field;
 }
 
 void add_initial_stresses(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  for (const Keywords& occurrence : call.factors("PRE_SIGM")) load.initial_stress_fields.push_back(field_at_points(occurrence, "SIGM", target));
+  for (const Keywords& occurrence : call.factors("PRE_SIGM"))
+    load.initial_stress_fields.push_back(field_at_points(occurrence, "SIGM", target));
 }
 
 // The initial strains of an occurrence, by the kind of cell that has such ones.
@@ -463,13 +501,16 @@ void take_strains(const Keywords& occurrence, const LoadedModel& target, Initial
     if (is_solid) take_strain(amounts, cell, strains.continuum);
     if (solver::is_beam(formulation) || solver::is_bar(formulation)) take_strain(slender, cell, strains.slender);
     // A bar has its elongation under the name that solids have (U4.44.01, PRE_EPSI).
-    if (amounts[0] && solver::is_bar(formulation)) take_strain<3>({amounts[0], std::nullopt, std::nullopt}, cell, strains.slender);
+    if (amounts[0] && solver::is_bar(formulation))
+      take_strain<3>({amounts[0], std::nullopt, std::nullopt}, cell, strains.slender);
   }
   const auto require = [&](bool can_have, std::initializer_list<const char*> names) {
     for (const char* name : names)
       if (!can_have && occurrence.given(name))
-        throw DiagnosticError("no-element", fmt::format("PRE_EPSI: none of these cells can have the strain {}", name), occurrence.at(name).name_span,
-                              "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams, EXX ... KXY for plates");
+        throw DiagnosticError(
+            "no-element", fmt::format("PRE_EPSI: none of these cells can have the strain {}", name),
+            occurrence.at(name).name_span,
+            "EPXX ... are for solids and plane bodies, EPXX for bars, EPX, KY, KZ for beams, EXX ... KXY for plates");
   };
   require(solids || bars, {"EPXX"});
   require(solids, {"EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"});
@@ -480,7 +521,8 @@ void take_strains(const Keywords& occurrence, const LoadedModel& target, Initial
 
 /// The components of a field of initial strains that a cell has.
 std::span<const std::string_view> strains_of(const LoadedModel& target, int cell) {
-  static constexpr std::array<std::string_view, 6> of_continua = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"}, of_plates = {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"};
+  static constexpr std::array<std::string_view, 6> of_continua = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"},
+                                                   of_plates = {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"};
   static constexpr std::array<std::string_view, 3> of_beams = {"EPXX", "KY", "KZ"};
   const auto formulation = target.model.formulations[cell];
   if (is_plate(target, cell)) return of_plates;
@@ -503,8 +545,12 @@ void require_taken(const Keywords& occurrence, const solver::ElementField& field
       }
     }
     if (!is_given || is_taken) continue;
-    throw DiagnosticError("no-element", fmt::format("PRE_EPSI: none of these cells can have the strain {} of the field", field.components[c]), occurrence.span_of("EPSI"),
-                          "EPXX ... are for solids and plane bodies, EPXX for bars and beams, KY and KZ for beams, EXX ... KXY for plates");
+    throw DiagnosticError(
+        "no-element",
+        fmt::format("PRE_EPSI: none of these cells can have the strain {} of the field", field.components[c]),
+        occurrence.span_of("EPSI"),
+        "EPXX ... are for solids and plane bodies, EPXX for bars and beams, KY and KZ for beams, EXX ... KXY for "
+        "plates");
   }
 }
 
@@ -527,7 +573,8 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
 
 bool is_in_own_axes(const Keywords& occurrence) {
   const auto is_given = [&](const char* name) { return *name != '\0' && occurrence.given(name); };
-  return std::ranges::any_of(own_beam_forces, is_given) || std::ranges::any_of(own_plate_forces, is_given) || occurrence.given("PRES");
+  return std::ranges::any_of(own_beam_forces, is_given) || std::ranges::any_of(own_plate_forces, is_given) ||
+         occurrence.given("PRES");
 }
 
 void add_forces_of_fields(const Keywords& call, const LoadedModel& target, solver::Load& load) {

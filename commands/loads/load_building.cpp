@@ -18,22 +18,23 @@ using interpreter::Keywords;
 using solver::Component;
 
 const std::array<NamedComponent, 6> displacement_keywords = {{{"DX", Component::dx},
-                                                               {"DY", Component::dy},
-                                                               {"DZ", Component::dz},
-                                                               {"DRX", Component::drx},
-                                                               {"DRY", Component::dry},
-                                                               {"DRZ", Component::drz}}};
+                                                              {"DY", Component::dy},
+                                                              {"DZ", Component::dz},
+                                                              {"DRX", Component::drx},
+                                                              {"DRY", Component::dry},
+                                                              {"DRZ", Component::drz}}};
 const std::array<NamedComponent, 6> force_keywords = {{{"FX", Component::dx},
-                                                        {"FY", Component::dy},
-                                                        {"FZ", Component::dz},
-                                                        {"MX", Component::drx},
-                                                        {"MY", Component::dry},
-                                                        {"MZ", Component::drz}}};
+                                                       {"FY", Component::dy},
+                                                       {"FZ", Component::dz},
+                                                       {"MX", Component::drx},
+                                                       {"MY", Component::dry},
+                                                       {"MZ", Component::drz}}};
 
 solver::Origin origin_of(const Keywords& keywords, const std::string& keyword) {
   if (!keywords.span) return std::make_shared<const std::string>(keyword);
   const auto& file = *keywords.span.file;
-  return std::make_shared<const std::string>(fmt::format("{}:{}, {}", std::filesystem::path(file.path()).filename().string(),
+  return std::make_shared<const std::string>(fmt::format("{}:{}, {}",
+                                                         std::filesystem::path(file.path()).filename().string(),
                                                          file.position(keywords.span.begin).line, keyword));
 }
 
@@ -49,11 +50,14 @@ Component component_named(const Keywords& keywords, const std::string& keyword, 
                         "a displacement has DX, DY, DZ, DRX, DRY, DRZ, and PRES, GONF where the volume hardly changes");
 }
 
-bool is_plate(const LoadedModel& target, int cell) { return solver::is_plate(target.model.formulations[cell]) && !target.model.is_skin(cell); }
+bool is_plate(const LoadedModel& target, int cell) {
+  return solver::is_plate(target.model.formulations[cell]) && !target.model.is_skin(cell);
+}
 
 bool is_surface(const LoadedModel& target, int cell) {
   if (solver::is_plate(target.model.formulations[cell])) return is_plate(target, cell);
-  return target.model.is_skin(cell) && solver::dimension(target.mesh.cell_types[cell]) == solver::continuum_dimension(target.model.formulations[cell]) - 1;
+  return target.model.is_skin(cell) && solver::dimension(target.mesh.cell_types[cell]) ==
+                                           solver::continuum_dimension(target.model.formulations[cell]) - 1;
 }
 
 std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named, const std::vector<int>& nodes,
@@ -63,9 +67,10 @@ std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named,
     if (dofs.dof(node, named.component) >= 0) found.push_back(node);
   }
   if (found.empty()) {
-    throw DiagnosticError("unknown-component",
-                          fmt::format("{}: none of these nodes carries {}", named.keyword, solver::name_of(named.component)),
-                          keywords.at(named.keyword).name_span, "the elements of the model around them have no such component");
+    throw DiagnosticError(
+        "unknown-component",
+        fmt::format("{}: none of these nodes carries {}", named.keyword, solver::name_of(named.component)),
+        keywords.at(named.keyword).name_span, "the elements of the model around them have no such component");
   }
   return found;
 }
@@ -73,8 +78,11 @@ std::vector<int> carriers(const Keywords& keywords, const NamedComponent& named,
 std::vector<solver::LinearRelation::Term> terms_of_field(const Keywords& keywords, const LoadedModel& target) {
   const auto& given = keywords.data<FieldConcept>("CHAM_NO");
   const auto* field = std::get_if<solver::NodalField>(&given.field);
-  if (field == nullptr) throw DiagnosticError("wrong-concept-type", "CHAM_NO wants a field on nodes", keywords.span_of("CHAM_NO"));
-  if (given.mesh.get() != &target.mesh) throw DiagnosticError("incompatible-field", "CHAM_NO: the field lies on another mesh than the model", keywords.span_of("CHAM_NO"));
+  if (field == nullptr)
+    throw DiagnosticError("wrong-concept-type", "CHAM_NO wants a field on nodes", keywords.span_of("CHAM_NO"));
+  if (given.mesh.get() != &target.mesh)
+    throw DiagnosticError("incompatible-field", "CHAM_NO: the field lies on another mesh than the model",
+                          keywords.span_of("CHAM_NO"));
   std::vector<solver::LinearRelation::Term> terms;
   for (std::size_t c = 0; c < field->components.size(); ++c) {
     const Component component = component_named(keywords, "CHAM_NO", field->components[c]);

@@ -40,7 +40,8 @@ MultiplierSum::Values MultiplierSum::values() const {
     open.pop_back();
     if (known.contains(sum)) continue;
     Values total = sum->source_ ? sum->source_() : Values();
-    for (std::size_t i = 0; i < sum->terms_.size(); ++i) add_multiple(total, sum->terms_[i].first, known.at(sum->terms_[i].second.get()), i == 0);
+    for (std::size_t i = 0; i < sum->terms_.size(); ++i)
+      add_multiple(total, sum->terms_[i].first, known.at(sum->terms_[i].second.get()), i == 0);
     known.emplace(sum, std::move(total));
   }
   return known.at(this);

@@ -8,14 +8,16 @@
 
 namespace comma::commands {
 
-/// Immutable, and computed when asked for. Sums may be long chains, each of the one before: nothing here follows them by recursion.
+/// Immutable, and computed when asked for. Sums may be long chains, each of the one before: nothing here follows them
+/// by recursion.
 class MultiplierSum {
  public:
   using Values = std::vector<double>;
 
   explicit MultiplierSum(std::function<Values()> source) : source_(std::move(source)) {}
   /// Factors and what they multiply, none of them null.
-  explicit MultiplierSum(std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>> terms) : terms_(std::move(terms)) {}
+  explicit MultiplierSum(std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>> terms)
+      : terms_(std::move(terms)) {}
   MultiplierSum(const MultiplierSum&) = delete;
   MultiplierSum& operator=(const MultiplierSum&) = delete;
   ~MultiplierSum();
@@ -25,7 +27,8 @@ class MultiplierSum {
 
  private:
   std::function<Values()> source_;
-  mutable std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>> terms_;  ///< taken apart when it is let go of
+  mutable std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>>
+      terms_;  ///< taken apart when it is let go of
 };
 
 }  // namespace comma::commands

@@ -32,14 +32,17 @@ using Relations = std::vector<solver::LinearRelation>;
 
 void append(Relations& to, Relations relations) { std::ranges::move(relations, std::back_inserter(to)); }
 
-void require_same_count(const Keywords& keywords, const std::string& keyword, std::size_t count, std::size_t wanted, const char* what) {
+void require_same_count(const Keywords& keywords, const std::string& keyword, std::size_t count, std::size_t wanted,
+                        const char* what) {
   if (count == wanted) return;
-  throw DiagnosticError("wrong-count", fmt::format("{} has {} values for {} {}", keyword, count, wanted, what), keywords.span_of(keyword),
-                        "each term of the relation takes one");
+  throw DiagnosticError("wrong-count", fmt::format("{} has {} values for {} {}", keyword, count, wanted, what),
+                        keywords.span_of(keyword), "each term of the relation takes one");
 }
 
-// COEF_MULT, or the functions COEF_MULT_FONC at the node of each term: relations do not change with time, so these may not either.
-std::vector<double> factors_of_terms(const Keywords& keywords, const solver::Mesh& mesh, const std::vector<int>& nodes) {
+// COEF_MULT, or the functions COEF_MULT_FONC at the node of each term: relations do not change with time, so these may
+// not either.
+std::vector<double> factors_of_terms(const Keywords& keywords, const solver::Mesh& mesh,
+                                     const std::vector<int>& nodes) {
   const char* name = keywords.given("COEF_MULT_FONC") ? "COEF_MULT_FONC" : "COEF_MULT";
   if (keywords.given("COEF_MULT")) {
     const auto factors = keywords.reals(name);
@@ -52,10 +55,13 @@ std::vector<double> factors_of_terms(const Keywords& keywords, const solver::Mes
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto& parameters = interpreter::data_of<FunctionConcept>(functions[i], name).parameters();
     if (std::ranges::find(parameters, "INST") != parameters.end()) {
-      throw DiagnosticError("unsupported", "COEF_MULT_FONC: " + functions[i]->name + " depends on INST, and relations do not change with time", keywords.span_of(name),
-                            "let it depend on X, Y, Z");
+      throw DiagnosticError(
+          "unsupported",
+          "COEF_MULT_FONC: " + functions[i]->name + " depends on INST, and relations do not change with time",
+          keywords.span_of(name), "let it depend on X, Y, Z");
     }
-    factors.push_back(field_function(functions[i], keywords.span_of(name))(mesh.nodes[static_cast<std::size_t>(nodes[i])], 0.0));
+    factors.push_back(
+        field_function(functions[i], keywords.span_of(name))(mesh.nodes[static_cast<std::size_t>(nodes[i])], 0.0));
   }
   return factors;
 }
@@ -71,8 +77,10 @@ Relations between_terms(const Keywords& keywords, const LoadedModel& target, con
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Component component = component_named(keywords, "DDL", components[i]);
     if (target.dofs.dof(nodes[i], component) < 0) {
-      throw DiagnosticError("unknown-component", fmt::format("LIAISON_DDL: {} does not carry {}", target.mesh.node_name(nodes[i]), components[i]),
-                            keywords.span_of("DDL"));
+      throw DiagnosticError(
+          "unknown-component",
+          fmt::format("LIAISON_DDL: {} does not carry {}", target.mesh.node_name(nodes[i]), components[i]),
+          keywords.span_of("DDL"));
     }
     relation.terms.push_back({nodes[i], component, factors[i]});
   }
@@ -104,7 +112,8 @@ Side side_of(const Keywords& keywords, const LoadedModel& target, const std::str
   require_same_count(keywords, "COEF_MULT_" + number, factors.size(), components.size(), "components");
   for (std::size_t i = 0; i < components.size(); ++i) {
     const bool normal = components[i] == "DNOR";
-    side.terms.push_back({normal ? std::nullopt : std::optional(component_named(keywords, "DDL_" + number, components[i])), factors[i]});
+    side.terms.push_back(
+        {normal ? std::nullopt : std::optional(component_named(keywords, "DDL_" + number, components[i])), factors[i]});
     if (normal && side.normals.empty()) side.normals = solver::mean_normals(target.mesh, side.cells);
   }
   return side;
@@ -125,16 +134,20 @@ solver::Placement placement(const Keywords& keywords) {
   return placement;
 }
 
-// What is left out (SANS_GROUP_NO ...) takes whole pairs with it (U4.44.01). Where it alone makes the sides match, it is left out before nodes are paired.
-std::vector<solver::NodePair> pairs_left(const Keywords& keywords, const solver::Mesh& mesh, std::vector<int> first, std::vector<int> second) {
-  const double farthest = keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
+// What is left out (SANS_GROUP_NO ...) takes whole pairs with it (U4.44.01). Where it alone makes the sides match, it
+// is left out before nodes are paired.
+std::vector<solver::NodePair> pairs_left(const Keywords& keywords, const solver::Mesh& mesh, std::vector<int> first,
+                                         std::vector<int> second) {
+  const double farthest =
+      keywords.has("DIST_MAX") ? keywords.real("DIST_MAX") : std::numeric_limits<double>::infinity();
   const auto is_left_out = [left_out = excluded_nodes(keywords, mesh)](int node) { return left_out.contains(node); };
   if (first.size() != second.size()) {
     std::erase_if(first, is_left_out);
     std::erase_if(second, is_left_out);
   }
   auto pairs = solver::facing_nodes(mesh, first, second, placement(keywords), farthest);
-  std::erase_if(pairs, [&](const solver::NodePair& pair) { return is_left_out(pair.first) || is_left_out(pair.second); });
+  std::erase_if(pairs,
+                [&](const solver::NodePair& pair) { return is_left_out(pair.first) || is_left_out(pair.second); });
   return pairs;
 }
 
@@ -142,14 +155,15 @@ Relations between_facing_nodes(const Keywords& keywords, const LoadedModel& targ
   const Side first = side_of(keywords, target, "1"), second = side_of(keywords, target, "2");
   const auto pairs = pairs_left(keywords, target.mesh, first.nodes, second.nodes);
   const Amount amount = amount_of(keywords, "COEF_IMPO");
-  return solver::facing_relations(target.mesh, pairs, first.terms, second.terms, first.normals, second.normals, amount.value,
-                                  amount.function, origin);
+  return solver::facing_relations(target.mesh, pairs, first.terms, second.terms, first.normals, second.normals,
+                                  amount.value, amount.function, origin);
 }
 
 Relations uniform_displacement(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes = needed(remaining_nodes(keywords, target.mesh), keywords, "node");
   Relations relations;
-  for (const std::string& name : keywords.texts("DDL")) append(relations, solver::uniform(nodes, component_named(keywords, "DDL", name), origin));
+  for (const std::string& name : keywords.texts("DDL"))
+    append(relations, solver::uniform(nodes, component_named(keywords, "DDL", name), origin));
   return relations;
 }
 
@@ -159,19 +173,28 @@ Relations moved_body(const Keywords& keywords, const LoadedModel& target, const 
   const solver::Placement motion = placement(keywords);
   Relations relations;
   for (const int node : needed(remaining_nodes(keywords, target.mesh), keywords, "node")) {
-    const Eigen::Vector3d arm = Eigen::Vector3d(target.mesh.nodes[static_cast<std::size_t>(node)].data()) - motion.centre;
+    const Eigen::Vector3d arm =
+        Eigen::Vector3d(target.mesh.nodes[static_cast<std::size_t>(node)].data()) - motion.centre;
     const Eigen::Vector3d moved = motion.translation + motion.rotation * arm - arm;
     if (target.dofs.dof(node, Component::drz) >= 0) {
-      throw DiagnosticError("unsupported", fmt::format("LIAISON_SOLIDE: {} has rotations, and a given motion is known of nodes without them", target.mesh.node_name(node)), keywords.span,
-                            "impose DX ... DRZ by DDL_IMPO");
+      throw DiagnosticError(
+          "unsupported",
+          fmt::format("LIAISON_SOLIDE: {} has rotations, and a given motion is known of nodes without them",
+                      target.mesh.node_name(node)),
+          keywords.span, "impose DX ... DRZ by DDL_IMPO");
     }
     for (int c = 0; c < 3; ++c) {
       const auto component = static_cast<Component>(c);
       if (target.dofs.dof(node, component) >= 0) {
         relations.push_back({{{node, component, 1.0}}, moved[c], {}, origin});
-      } else if (target.dofs.dof(node, Component::dx) >= 0 && std::abs(moved[c]) > rounding * (motion.translation.norm() + arm.norm())) {
-        throw DiagnosticError("unknown-component", fmt::format("LIAISON_SOLIDE: the motion takes {} by {:.6g} along {}, which it does not carry", target.mesh.node_name(node), moved[c], solver::name_of(component)),
-                              keywords.span_of(keywords.given("ANGL_NAUT") ? "ANGL_NAUT" : "TRAN"), "keep the motion in the plane of the model: the first angle of ANGL_NAUT alone turns about Z");
+      } else if (target.dofs.dof(node, Component::dx) >= 0 &&
+                 std::abs(moved[c]) > rounding * (motion.translation.norm() + arm.norm())) {
+        throw DiagnosticError(
+            "unknown-component",
+            fmt::format("LIAISON_SOLIDE: the motion takes {} by {:.6g} along {}, which it does not carry",
+                        target.mesh.node_name(node), moved[c], solver::name_of(component)),
+            keywords.span_of(keywords.given("ANGL_NAUT") ? "ANGL_NAUT" : "TRAN"),
+            "keep the motion in the plane of the model: the first angle of ANGL_NAUT alone turns about Z");
       }
     }
   }
@@ -180,25 +203,32 @@ Relations moved_body(const Keywords& keywords, const LoadedModel& target, const 
 
 void add_rigid_body(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const solver::Origin origin = origin_of(keywords, "LIAISON_SOLIDE");
-  if (keywords.given("TRAN") || keywords.given("ANGL_NAUT")) return append(load.relations, moved_body(keywords, target, origin));
-  const double coincidence = keywords.has("DIST_MIN") ? keywords.real("DIST_MIN") : solver::default_coincidence(target.mesh);
-  const solver::RigidLink& link = load.rigid_links.emplace_back(needed(remaining_nodes(keywords, target.mesh), keywords, "node"), coincidence, origin);
+  if (keywords.given("TRAN") || keywords.given("ANGL_NAUT"))
+    return append(load.relations, moved_body(keywords, target, origin));
+  const double coincidence =
+      keywords.has("DIST_MIN") ? keywords.real("DIST_MIN") : solver::default_coincidence(target.mesh);
+  const solver::RigidLink& link = load.rigid_links.emplace_back(
+      needed(remaining_nodes(keywords, target.mesh), keywords, "node"), coincidence, origin);
   Relations relations = solver::rigid_link(target.mesh, target.dofs, link.nodes, coincidence, origin);
-  for (solver::LinearRelation& relation : relations) relation.rigid_link = static_cast<int>(load.rigid_links.size()) - 1;
+  for (solver::LinearRelation& relation : relations)
+    relation.rigid_link = static_cast<int>(load.rigid_links.size()) - 1;
   append(load.relations, std::move(relations));
 }
 
 // LIAISON_ELEM, 3D_POU and 2D_POU.
 Relations beam_on_section(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
-  const auto section = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"}), keywords, "cell of the section");
+  const auto section = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"}), keywords,
+                              "cell of the section");
   const int node = single_node(keywords, "NOEUD_2", "GROUP_NO_2", target.mesh);
   solver::SectionLink link = solver::section_link(target.mesh, section, node, origin);
   // U4.44.01, LIAISON_ELEM: the beam must end at the centroid of the section.
   constexpr double allowed_offset = 0.05;
   if (keywords.text("VERIF_EXCENT") == "OUI" && link.offset > allowed_offset * link.size) {
     throw DiagnosticError("offset-beam",
-                          fmt::format("LIAISON_ELEM: {} lies {:.4g} from the centroid ({:.6g}, {:.6g}, {:.6g}) of the section, whose size is {:.4g}",
-                                      target.mesh.node_name(node), link.offset, link.centroid[0], link.centroid[1], link.centroid[2], link.size),
+                          fmt::format("LIAISON_ELEM: {} lies {:.4g} from the centroid ({:.6g}, {:.6g}, {:.6g}) of the "
+                                      "section, whose size is {:.4g}",
+                                      target.mesh.node_name(node), link.offset, link.centroid[0], link.centroid[1],
+                                      link.centroid[2], link.size),
                           keywords.span, "end the beam at the centroid, or write VERIF_EXCENT=\"NON\"");
   }
   return std::move(link.relations);
@@ -218,7 +248,8 @@ solver::ComponentMask component_mask(const Keywords& keywords, const std::string
 Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const int follower = single_node(keywords, "NOEUD_MAIT", "GROUP_NO_MAIT", target.mesh);
   solver::ComponentMask following = 0;
-  for (const std::string& name : keywords.texts("DDL_MAIT")) following |= solver::mask_of(component_named(keywords, "DDL_MAIT", name));
+  for (const std::string& name : keywords.texts("DDL_MAIT"))
+    following |= solver::mask_of(component_named(keywords, "DDL_MAIT", name));
   const auto nodes = needed(listed_nodes(keywords, target.mesh, "GROUP_NO_ESCL", "NOEUD_ESCL"), keywords, "slave node");
   const auto components = keywords.texts("DDL_ESCL");
   const auto weights = keywords.given("COEF_ESCL") ? keywords.reals("COEF_ESCL") : std::vector<double>{1.0};
@@ -227,7 +258,8 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
   if (weights.size() != 1) require_same_count(keywords, "COEF_ESCL", weights.size(), nodes.size(), "nodes");
   std::vector<solver::AverageNode> leaders;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    leaders.push_back({nodes[i], component_mask(keywords, components[components.size() == 1 ? 0 : i]), weights[weights.size() == 1 ? 0 : i]});
+    leaders.push_back({nodes[i], component_mask(keywords, components[components.size() == 1 ? 0 : i]),
+                       weights[weights.size() == 1 ? 0 : i]});
   }
   return solver::weighted_average(target.mesh, target.dofs, follower, following, leaders, origin);
 }
@@ -235,7 +267,11 @@ Relations mean_motion(const Keywords& keywords, const LoadedModel& target, const
 // LIAISON_COQUE: nodes that face each other move as one rigid body.
 Relations joined_shells(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto nodes_of = [&](const std::string& number) {
-    return needed(remaining_nodes(keywords, target.mesh, {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number}, "_" + number), keywords, "node on one of its sides");
+    return needed(
+        remaining_nodes(keywords, target.mesh,
+                        {"", "GROUP_NO_" + number, "NOEUD_" + number, "GROUP_MA_" + number, "MAILLE_" + number},
+                        "_" + number),
+        keywords, "node on one of its sides");
   };
   Relations relations;
   for (const solver::NodePair& pair : solver::facing_nodes(target.mesh, nodes_of("1"), nodes_of("2"))) {
@@ -252,21 +288,29 @@ Relations weighted_by_field(const Keywords& keywords, const LoadedModel& target,
   return {std::move(relation)};
 }
 
-Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued, const solver::Origin& origin) {
-  const auto hosts = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""}), keywords, "master cell");
-  auto nodes = needed(selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""}), keywords, "slave node");
+Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued,
+                      const solver::Origin& origin) {
+  const auto hosts =
+      needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_MAIT", ""}), keywords, "master cell");
+  auto nodes = needed(selected_nodes(keywords, target.mesh, {"", "GROUP_NO_ESCL", "", "GROUP_MA_ESCL", ""}), keywords,
+                      "slave node");
   std::erase_if(nodes, [&](int node) { return glued.contains(node); });
-  const double farthest = keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
+  const double farthest =
+      keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
   const auto embeddings = solver::embed(target.mesh, nodes, hosts, farthest);
-  if (keywords.text("TYPE_RACCORD") == "MASSIF") return solver::embedding_relations(target.mesh, target.dofs, embeddings, origin);
+  if (keywords.text("TYPE_RACCORD") == "MASSIF")
+    return solver::embedding_relations(target.mesh, target.dofs, embeddings, origin);
   return solver::shell_embedding_relations(target.mesh, target.dofs, embeddings, origin);
 }
 
-// A node that an earlier occurrence has glued stays as it is, unless ELIM_MULT='OUI' lets it be eliminated several times.
+// A node that an earlier occurrence has glued stays as it is, unless ELIM_MULT='OUI' lets it be eliminated several
+// times.
 void add_glued_nodes(const Keywords& call, const LoadedModel& target, Relations& relations) {
   std::set<int> glued;
   for (const Keywords& occurrence : call.factors("LIAISON_MAIL")) {
-    const Relations found = glued_nodes(occurrence, target, occurrence.text("ELIM_MULT") == "OUI" ? std::set<int>() : glued, origin_of(occurrence, "LIAISON_MAIL"));
+    const Relations found =
+        glued_nodes(occurrence, target, occurrence.text("ELIM_MULT") == "OUI" ? std::set<int>() : glued,
+                    origin_of(occurrence, "LIAISON_MAIL"));
     for (const auto& relation : found) glued.insert(relation.terms.front().node);
     append(relations, found);
   }
@@ -278,9 +322,10 @@ struct RelationKeyword {
 };
 
 constexpr RelationKeyword relation_keywords[] = {
-    {"LIAISON_DDL", between_terms},   {"LIAISON_GROUP", between_facing_nodes}, {"LIAISON_UNIF", uniform_displacement},
-    {"LIAISON_ELEM", beam_on_section},       {"LIAISON_RBE3", mean_motion},
-    {"LIAISON_COQUE", joined_shells}, {"LIAISON_CHAMNO", weighted_by_field}};
+    {"LIAISON_DDL", between_terms},         {"LIAISON_GROUP", between_facing_nodes},
+    {"LIAISON_UNIF", uniform_displacement}, {"LIAISON_ELEM", beam_on_section},
+    {"LIAISON_RBE3", mean_motion},          {"LIAISON_COQUE", joined_shells},
+    {"LIAISON_CHAMNO", weighted_by_field}};
 
 }  // namespace
 

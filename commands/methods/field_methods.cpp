@@ -18,16 +18,16 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-using interpreter::Operator;
 using interpreter::HostObject;
 using interpreter::Object;
+using interpreter::Operator;
 
 /// Values of a field with the places where they lie.
 struct Extract {
   std::vector<double> values;
   std::vector<std::string> components;
-  std::vector<int> nodes;   ///< of a field at nodes
-  std::vector<int> cells;   ///< of a field on cells, with points from 0
+  std::vector<int> nodes;  ///< of a field at nodes
+  std::vector<int> cells;  ///< of a field on cells, with points from 0
   std::vector<int> points;
 };
 
@@ -40,7 +40,9 @@ std::vector<int> field_columns(const std::vector<std::string>& known, const std:
   }
   for (const std::string& name : wanted) {
     const auto found = std::ranges::find(known, name);
-    if (found == known.end()) throw DiagnosticError("unknown-component", "the field has no component " + name, {}, "take one of its own: " + Value::list({known.begin(), known.end()}).repr());
+    if (found == known.end())
+      throw DiagnosticError("unknown-component", "the field has no component " + name, {},
+                            "take one of its own: " + Value::list({known.begin(), known.end()}).repr());
     columns.push_back(static_cast<int>(found - known.begin()));
   }
   return columns;
@@ -57,7 +59,9 @@ std::vector<int> nodes_of(const solver::Mesh& mesh, const std::vector<std::strin
   if (groups.empty()) return every_place(mesh.node_count());
   OrderedSet nodes(mesh.node_count());
   for (const std::string& group : groups)
-    nodes.add_all(mesh.node_groups.contains(group) || !mesh.cell_groups.contains(group) ? mesh.node_group(group) : mesh.nodes_of_cells(mesh.cell_group(group)));
+    nodes.add_all(mesh.node_groups.contains(group) || !mesh.cell_groups.contains(group)
+                      ? mesh.node_group(group)
+                      : mesh.nodes_of_cells(mesh.cell_group(group)));
   return nodes.take();
 }
 
@@ -68,7 +72,8 @@ std::vector<int> cells_of(const solver::Mesh& mesh, const std::vector<std::strin
   return cells.take();
 }
 
-Extract extract_of(const FieldConcept& data, const std::vector<std::string>& components, const std::vector<std::string>& groups) {
+Extract extract_of(const FieldConcept& data, const std::vector<std::string>& components,
+                   const std::vector<std::string>& groups) {
   if (!data.functions.empty()) throw DiagnosticError("wrong-type", "the field holds functions, not numbers");
   const std::vector<std::string>& known = solver::components_of(data.field);
   const std::vector<int> columns = field_columns(known, components);
@@ -104,14 +109,16 @@ Value numbers_from(const std::vector<int>& values, int first) {
 
 /// EXTR_COMP(): valeurs, and where they lie if the file asks for it, by numbers from 1.
 struct ExtractObject : HostObject {
-  ExtractObject(Extract of, bool with_places, bool at_nodes) : extract(std::move(of)), places(with_places), nodal(at_nodes) {}
+  ExtractObject(Extract of, bool with_places, bool at_nodes)
+      : extract(std::move(of)), places(with_places), nodal(at_nodes) {}
   Extract extract;
   bool places;
   bool nodal;
 
   std::string type_name() const override { return nodal ? "post_comp_cham_no" : "post_comp_cham_el"; }
   std::optional<Value> attribute(std::string_view name) const override {
-    if (name == "valeurs") return interpreter::make_value({extract.values, {extract.values.size()}, interpreter::NumberType::real});
+    if (name == "valeurs")
+      return interpreter::make_value({extract.values, {extract.values.size()}, interpreter::NumberType::real});
     const auto known = attribute_names();
     if (std::ranges::find(known, name) == known.end()) return std::nullopt;
     if (!places) return Value();
@@ -129,17 +136,21 @@ struct ExtractObject : HostObject {
 Value extracted_components(const FieldConcept& data, const MethodArguments& given) {
   std::vector<std::string> components = given.texts("comp");
   std::erase_if(components, [](const std::string& name) { return name.find_first_not_of(' ') == std::string::npos; });
-  std::shared_ptr<Object> object = std::make_shared<ExtractObject>(extract_of(data, components, given.texts("lgma")), given.integer("topo") > 0, std::holds_alternative<solver::NodalField>(data.field));
+  std::shared_ptr<Object> object =
+      std::make_shared<ExtractObject>(extract_of(data, components, given.texts("lgma")), given.integer("topo") > 0,
+                                      std::holds_alternative<solver::NodalField>(data.field));
   return Value(std::move(object));
 }
 
-/// The values, and where they lie by numbers from 0: nodes and components, or cells, components, points and points of the thickness.
+/// The values, and where they lie by numbers from 0: nodes and components, or cells, components, points and points of
+/// the thickness.
 Value values_with_description(const FieldConcept& data, const MethodArguments& given) {
   const Extract found = extract_of(data, given.texts("components"), given.texts("groups"));
   const Value components = Value::list({found.components.begin(), found.components.end()});
   const Value description = std::holds_alternative<solver::NodalField>(data.field)
                                 ? Value::tuple({numbers_from(found.nodes, 0), components})
-                                : Value::tuple({numbers_from(found.cells, 0), components, numbers_from(found.points, 0), numbers_from(std::vector<int>(found.points.size(), 0), 0)});
+                                : Value::tuple({numbers_from(found.cells, 0), components, numbers_from(found.points, 0),
+                                                numbers_from(std::vector<int>(found.points.size(), 0), 0)});
   return Value::tuple({list_of(found.values), description});
 }
 
@@ -180,12 +191,13 @@ struct FieldMethod {
 };
 
 const std::map<std::string, FieldMethod, std::less<>>& field_methods() {
-  static const std::map<std::string, FieldMethod, std::less<>> table = {{"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
-                                                                        {"norm", {{"normType", "list_cmp"}, norm}},
-                                                                        {"copy", {{}, copied}},
-                                                                        {"getValues", {{}, all_values}},
-                                                                        {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
-                                                                        {"getComponents", {{}, own_components}}};
+  static const std::map<std::string, FieldMethod, std::less<>> table = {
+      {"EXTR_COMP", {{"comp", "lgma", "topo"}, extracted_components}},
+      {"norm", {{"normType", "list_cmp"}, norm}},
+      {"copy", {{}, copied}},
+      {"getValues", {{}, all_values}},
+      {"getValuesWithDescription", {{"components", "groups"}, values_with_description}},
+      {"getComponents", {{}, own_components}}};
   return table;
 }
 
@@ -196,11 +208,13 @@ std::shared_ptr<ConceptData> FieldConcept::combined(Operator op, const Value& ot
   if (other.is_number()) {
     const double number = other.as_real();
     if (op != Operator::multiply && (op != Operator::divide || reversed)) return nullptr;
-    if (op == Operator::divide && number == 0.0) interpreter::raise(interpreter::ErrorKind::zero_division, "a field is divided by zero");
+    if (op == Operator::divide && number == 0.0)
+      interpreter::raise(interpreter::ErrorKind::zero_division, "a field is divided by zero");
     terms = {{&field, op == Operator::divide ? 1.0 / number : number}};
   } else {
     const auto* right = dynamic_cast<const FieldConcept*>(other.as_concept()->data.get());
-    if (right == nullptr || !right->functions.empty() || (op != Operator::add && op != Operator::subtract)) return nullptr;
+    if (right == nullptr || !right->functions.empty() || (op != Operator::add && op != Operator::subtract))
+      return nullptr;
     if (right->mesh != mesh) throw DiagnosticError("incompatible-field", "the two fields lie on different meshes");
     terms = {{&field, 1.0}, {&right->field, op == Operator::add ? 1.0 : -1.0}};
   }
@@ -215,10 +229,12 @@ std::shared_ptr<ConceptData> FieldConcept::combined(Operator op, const Value& ot
 
 std::vector<std::string> FieldConcept::method_names() const { return names_of_methods(field_methods()); }
 
-Value FieldConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value FieldConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                           const std::map<std::string, Value>& keywords) const {
   const auto found = field_methods().find(name);
   if (found == field_methods().end()) return ConceptData::method(name, arguments, keywords);
-  return diagnosed([&] { return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters)); });
+  return diagnosed(
+      [&] { return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 
 }  // namespace comma::commands

@@ -44,7 +44,8 @@ Value described_groups(const Groups& groups, const Further& further) {
 }
 
 /// The members of the groups named, each once, or all of `count` without names.
-Value members_of_groups(const std::vector<std::string>& groups, int count, const std::vector<int>& (Mesh::*group)(std::string_view) const, const Mesh& mesh) {
+Value members_of_groups(const std::vector<std::string>& groups, int count,
+                        const std::vector<int>& (Mesh::*group)(std::string_view) const, const Mesh& mesh) {
   OrderedSet chosen(count);
   if (groups.empty()) chosen.add_all(std::views::iota(0, count));
   for (const std::string& name : groups) chosen.add_all((mesh.*group)(name));
@@ -59,7 +60,10 @@ struct CoordinatesObject : HostObject {
   std::string type_name() const override { return "MeshCoordinatesField"; }
   std::optional<Value> attribute(std::string_view name) const override {
     if (name == "getValues") return method("getValues", [values = flat] { return list_of(values); });
-    if (name == "toNumpy") return method("toNumpy", [values = flat] { return interpreter::make_value({values, {values.size() / 3, 3}, interpreter::NumberType::real}); });
+    if (name == "toNumpy")
+      return method("toNumpy", [values = flat] {
+        return interpreter::make_value({values, {values.size() / 3, 3}, interpreter::NumberType::real});
+      });
     return std::nullopt;
   }
   std::vector<std::string> attribute_names() const override { return {"getValues", "toNumpy"}; }
@@ -67,10 +71,11 @@ struct CoordinatesObject : HostObject {
  private:
   template <class Code>
   static Value method(const char* name, Code&& code) {
-    std::shared_ptr<Object> made = std::make_shared<HostFunction>(name, [name, code](const std::vector<Value>& arguments) {
-      MethodArguments(name, arguments, {}, {});
-      return code();
-    });
+    std::shared_ptr<Object> made =
+        std::make_shared<HostFunction>(name, [name, code](const std::vector<Value>& arguments) {
+          MethodArguments(name, arguments, {}, {});
+          return code();
+        });
     return Value(std::move(made));
   }
 };
@@ -90,31 +95,55 @@ struct MeshMethod {
 const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
   using Arguments = MethodArguments;
   static const std::map<std::string, MeshMethod, std::less<>> table = {
-      {"LIST_GROUP_NO", {{}, [](const Mesh& mesh, const Arguments&) { return described_groups(mesh.node_groups, [](const auto&, auto&) {}); }}},
-      {"LIST_GROUP_MA", {{}, [](const Mesh& mesh, const Arguments&) {
-         return described_groups(mesh.cell_groups, [&](const std::vector<int>& cells, std::vector<Value>& facts) {
-           int largest = 0;
-           for (const int cell : cells) largest = std::max(largest, dimension(mesh.cell_types[cell]));
-           facts.emplace_back(largest);
-         });
-       }}},
+      {"LIST_GROUP_NO",
+       {{},
+        [](const Mesh& mesh, const Arguments&) {
+          return described_groups(mesh.node_groups, [](const auto&, auto&) {});
+        }}},
+      {"LIST_GROUP_MA",
+       {{},
+        [](const Mesh& mesh, const Arguments&) {
+          return described_groups(mesh.cell_groups, [&](const std::vector<int>& cells, std::vector<Value>& facts) {
+            int largest = 0;
+            for (const int cell : cells) largest = std::max(largest, dimension(mesh.cell_types[cell]));
+            facts.emplace_back(largest);
+          });
+        }}},
       {"getGroupsOfNodes", {{}, [](const Mesh& mesh, const Arguments&) { return group_names(mesh.node_groups); }}},
       {"getGroupsOfCells", {{}, [](const Mesh& mesh, const Arguments&) { return group_names(mesh.cell_groups); }}},
-      {"hasGroupOfNodes", {{"group_name"}, [](const Mesh& mesh, const Arguments& given) { return Value(mesh.node_groups.contains(given.needed_text("group_name"))); }}},
-      {"hasGroupOfCells", {{"group_name"}, [](const Mesh& mesh, const Arguments& given) { return Value(mesh.cell_groups.contains(given.needed_text("group_name"))); }}},
-      {"getNodes", {{"group_name"}, [](const Mesh& mesh, const Arguments& given) { return members_of_groups(given.texts("group_name"), mesh.node_count(), &Mesh::node_group, mesh); }}},
-      {"getCells", {{"group_name"}, [](const Mesh& mesh, const Arguments& given) { return members_of_groups(given.texts("group_name"), mesh.cell_count(), &Mesh::cell_group, mesh); }}},
+      {"hasGroupOfNodes",
+       {{"group_name"},
+        [](const Mesh& mesh, const Arguments& given) {
+          return Value(mesh.node_groups.contains(given.needed_text("group_name")));
+        }}},
+      {"hasGroupOfCells",
+       {{"group_name"},
+        [](const Mesh& mesh, const Arguments& given) {
+          return Value(mesh.cell_groups.contains(given.needed_text("group_name")));
+        }}},
+      {"getNodes",
+       {{"group_name"},
+        [](const Mesh& mesh, const Arguments& given) {
+          return members_of_groups(given.texts("group_name"), mesh.node_count(), &Mesh::node_group, mesh);
+        }}},
+      {"getCells",
+       {{"group_name"},
+        [](const Mesh& mesh, const Arguments& given) {
+          return members_of_groups(given.texts("group_name"), mesh.cell_count(), &Mesh::cell_group, mesh);
+        }}},
       {"getNumberOfNodes", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.node_count()); }}},
       {"getNumberOfCells", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.cell_count()); }}},
       {"getDimension", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.dimension); }}},
-      {"getConnectivity", {{}, [](const Mesh& mesh, const Arguments&) {
-         std::vector<Value> cells;
-         for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-           const auto nodes = mesh.cell(cell);
-           cells.push_back(index_list({nodes.begin(), nodes.end()}));
-         }
-         return Value::list(std::move(cells));
-       }}},
+      {"getConnectivity",
+       {{},
+        [](const Mesh& mesh, const Arguments&) {
+          std::vector<Value> cells;
+          for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+            const auto nodes = mesh.cell(cell);
+            cells.push_back(index_list({nodes.begin(), nodes.end()}));
+          }
+          return Value::list(std::move(cells));
+        }}},
       {"getCoordinates", {{}, [](const Mesh& mesh, const Arguments&) { return coordinates_of(mesh); }}},
   };
   return table;
@@ -124,10 +153,12 @@ const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
 
 std::vector<std::string> MeshConcept::method_names() const { return names_of_methods(mesh_methods()); }
 
-Value MeshConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value MeshConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                          const std::map<std::string, Value>& keywords) const {
   const auto found = mesh_methods().find(name);
   if (found == mesh_methods().end()) return ConceptData::method(name, arguments, keywords);
-  return diagnosed([&] { return found->second.code(*mesh, MethodArguments(name, arguments, keywords, found->second.parameters)); });
+  return diagnosed(
+      [&] { return found->second.code(*mesh, MethodArguments(name, arguments, keywords, found->second.parameters)); });
 }
 
 }  // namespace comma::commands

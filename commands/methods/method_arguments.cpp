@@ -11,15 +11,22 @@ namespace comma::commands {
 using interpreter::DiagnosticError;
 using interpreter::Value;
 
-MethodArguments::MethodArguments(std::string_view method, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords,
+MethodArguments::MethodArguments(std::string_view method, const std::vector<Value>& arguments,
+                                 const std::map<std::string, Value>& keywords,
                                  const std::vector<std::string>& parameters)
     : method_(method) {
   if (arguments.size() > parameters.size())
-    throw DiagnosticError("type-error", fmt::format("{}() takes {}, not {}", method_, parameters.empty() ? "no arguments" : fmt::format("at most {} arguments", parameters.size()), arguments.size()));
+    throw DiagnosticError(
+        "type-error",
+        fmt::format("{}() takes {}, not {}", method_,
+                    parameters.empty() ? "no arguments" : fmt::format("at most {} arguments", parameters.size()),
+                    arguments.size()));
   for (std::size_t i = 0; i < arguments.size(); ++i) given_.emplace(parameters[i], arguments[i]);
   for (const auto& [name, value] : keywords) {
-    if (std::ranges::find(parameters, name) == parameters.end()) throw DiagnosticError("type-error", fmt::format("{}() has no argument {}", method_, name));
-    if (!given_.emplace(name, value).second) throw DiagnosticError("type-error", fmt::format("{}() is given {} twice", method_, name));
+    if (std::ranges::find(parameters, name) == parameters.end())
+      throw DiagnosticError("type-error", fmt::format("{}() has no argument {}", method_, name));
+    if (!given_.emplace(name, value).second)
+      throw DiagnosticError("type-error", fmt::format("{}() is given {} twice", method_, name));
   }
 }
 
@@ -29,11 +36,13 @@ bool MethodArguments::has(const std::string& name) const {
 }
 
 void MethodArguments::refuse(const std::string& name, const char* wanted) const {
-  throw DiagnosticError("type-error", fmt::format("{}(): {} is {}, not {}", method_, name, wanted, given_.at(name).repr()));
+  throw DiagnosticError("type-error",
+                        fmt::format("{}(): {} is {}, not {}", method_, name, wanted, given_.at(name).repr()));
 }
 
 std::string MethodArguments::needed_text(const std::string& name) const {
-  if (!given_.contains(name)) throw DiagnosticError("type-error", fmt::format("{}() is not given its argument {}", method_, name));
+  if (!given_.contains(name))
+    throw DiagnosticError("type-error", fmt::format("{}() is not given its argument {}", method_, name));
   if (!given_.at(name).is_text()) refuse(name, "a text");
   return given_.at(name).as_text();
 }

@@ -21,7 +21,8 @@ std::vector<std::string> names_of_methods(const Methods& methods) {
 class MethodArguments {
  public:
   /// Throws DiagnosticError `type-error` for arguments that are too many, or of another name.
-  MethodArguments(std::string_view method, const std::vector<interpreter::Value>& arguments, const std::map<std::string, interpreter::Value>& keywords,
+  MethodArguments(std::string_view method, const std::vector<interpreter::Value>& arguments,
+                  const std::map<std::string, interpreter::Value>& keywords,
                   const std::vector<std::string>& parameters);
 
   /// Whether it was given, and not as None.
@@ -33,7 +34,8 @@ class MethodArguments {
   /// Throws DiagnosticError `type-error` where it is absent.
   std::string needed_text(const std::string& name) const;
 
-  /// Each gives `otherwise` where the argument is absent, and throws DiagnosticError `type-error` where it is of another type.
+  /// Each gives `otherwise` where the argument is absent, and throws DiagnosticError `type-error` where it is of
+  /// another type.
   std::string text(const std::string& name, const std::string& otherwise = "") const;
   std::int64_t integer(const std::string& name, std::int64_t otherwise = 0) const;
   double real(const std::string& name, double otherwise = 0.0) const;

@@ -16,8 +16,8 @@ namespace comma::commands {
 
 namespace {
 
-using interpreter::Dict;
 using interpreter::DiagnosticError;
+using interpreter::Dict;
 
 Value table_handle(const ResultConcept& data, const std::string& name) {
   std::optional<Table> found = table_of_result(data, name);
@@ -41,7 +41,8 @@ Value of_steps(const solver::Result& result, const std::function<Value(const sol
 
 std::shared_ptr<Dict> access_variables(const solver::Result& result) {
   auto lists = std::make_shared<Dict>();
-  lists->set(Value("NUME_ORDRE"), of_steps(result, [](const auto& step) { return Value(static_cast<std::int64_t>(step.order)); }));
+  lists->set(Value("NUME_ORDRE"),
+             of_steps(result, [](const auto& step) { return Value(static_cast<std::int64_t>(step.order)); }));
   lists->set(Value("INST"), of_steps(result, [](const auto& step) { return Value(step.instant); }));
   return lists;
 }
@@ -74,10 +75,17 @@ std::shared_ptr<Dict> fields(const solver::Result& result) {
 /// The step of an order number, or of an instant.
 const solver::ResultStep& step_at(const solver::Result& result, const MethodArguments& given) {
   const std::string parameter = given.text("para", "NUME_ORDRE");
-  if (!given.has("value") || (parameter != "NUME_ORDRE" && parameter != "INST")) throw DiagnosticError("type-error", "a step is named by its number or its instant", {}, "write RESULT.getField(\"DEPL\", 1), or value=1.0, para=\"INST\"");
+  if (!given.has("value") || (parameter != "NUME_ORDRE" && parameter != "INST"))
+    throw DiagnosticError("type-error", "a step is named by its number or its instant", {},
+                          "write RESULT.getField(\"DEPL\", 1), or value=1.0, para=\"INST\"");
   const double value = given.real("value");
   const InstantTolerance tolerance{given.real("prec", 1e-6), given.text("crit", "RELATIF") != "ABSOLU"};
-  const auto numbered = [&] { return static_cast<std::size_t>(std::ranges::find(result.steps, value, [](const solver::ResultStep& step) { return static_cast<double>(step.order); }) - result.steps.begin()); };
+  const auto numbered = [&] {
+    return static_cast<std::size_t>(
+        std::ranges::find(result.steps, value,
+                          [](const solver::ResultStep& step) { return static_cast<double>(step.order); }) -
+        result.steps.begin());
+  };
   const std::size_t step = parameter == "INST" ? nearest_step(result, value, tolerance) : numbered();
   if (step < result.steps.size()) return result.steps[step];
   throw DiagnosticError("unknown-step", fmt::format("the result has no step {}={}", parameter, value));
@@ -87,7 +95,10 @@ Value field_handle(const ResultConcept& data, const MethodArguments& given) {
   const std::string name = given.needed_text("name");
   const solver::ResultStep& step = step_at(data.result, given);
   const auto found = step.fields.find(name);
-  if (found == step.fields.end()) throw DiagnosticError("unknown-field", fmt::format("the step INST={} of the result holds no {}", step.instant, name), {}, "compute it by CALC_CHAMP before");
+  if (found == step.fields.end())
+    throw DiagnosticError("unknown-field",
+                          fmt::format("the step INST={} of the result holds no {}", step.instant, name), {},
+                          "compute it by CALC_CHAMP before");
   require_one_value_a_point(name, found->second, {});
   auto field = std::make_shared<FieldConcept>();
   field->field = found->second;
@@ -117,12 +128,22 @@ const std::map<std::string, ResultMethod, std::less<>>& step_methods() {
   static const auto order = [](const solver::ResultStep& step) { return Value(static_cast<std::int64_t>(step.order)); };
   static const std::map<std::string, ResultMethod, std::less<>> table = {
       {"getIndexes", {{}, [](const ResultConcept& data, const Arguments&) { return of_steps(data.result, order); }}},
-      {"getNumberOfIndexes", {{}, [](const ResultConcept& data, const Arguments&) { return Value(static_cast<std::int64_t>(data.result.steps.size())); }}},
-      {"getFirstIndex", {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, false)); }}},
-      {"getLastIndex", {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, true)); }}},
-      {"getLastTime", {{}, [](const ResultConcept& data, const Arguments&) { return Value(end_of(data.result, true).instant); }}},
-      {"getTime", {{"value"}, [](const ResultConcept& data, const Arguments& given) { return Value(step_at(data.result, given).instant); }}},
-      {"getFieldsNames", {{}, [](const ResultConcept& data, const Arguments&) { return Value::list(fields(data.result)->keys()); }}},
+      {"getNumberOfIndexes",
+       {{},
+        [](const ResultConcept& data, const Arguments&) {
+          return Value(static_cast<std::int64_t>(data.result.steps.size()));
+        }}},
+      {"getFirstIndex",
+       {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, false)); }}},
+      {"getLastIndex",
+       {{}, [](const ResultConcept& data, const Arguments&) { return order(end_of(data.result, true)); }}},
+      {"getLastTime",
+       {{}, [](const ResultConcept& data, const Arguments&) { return Value(end_of(data.result, true).instant); }}},
+      {"getTime",
+       {{"value"},
+        [](const ResultConcept& data, const Arguments& given) { return Value(step_at(data.result, given).instant); }}},
+      {"getFieldsNames",
+       {{}, [](const ResultConcept& data, const Arguments&) { return Value::list(fields(data.result)->keys()); }}},
       {"getField", {{"name", "value", "para", "crit", "prec"}, field_handle}}};
   return table;
 }
@@ -130,15 +151,18 @@ const std::map<std::string, ResultMethod, std::less<>>& step_methods() {
 using ResultLists = std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)>;
 
 const ResultLists& list_methods() {
-  static const ResultLists table = {
-      {"LIST_VARI_ACCES", access_variables}, {"getAccessParameters", access_variables}, {"LIST_PARA", access_parameters}, {"LIST_CHAMPS", fields}};
+  static const ResultLists table = {{"LIST_VARI_ACCES", access_variables},
+                                    {"getAccessParameters", access_variables},
+                                    {"LIST_PARA", access_parameters},
+                                    {"LIST_CHAMPS", fields}};
   return table;
 }
 
 }  // namespace
 
 const solver::StaticProblem& ResultConcept::problem_of(const solver::ResultStep& step) const {
-  const auto phase = std::ranges::find_if(earlier, [&](const EarlierPhase& each) { return step.order <= each.last_order; });
+  const auto phase =
+      std::ranges::find_if(earlier, [&](const EarlierPhase& each) { return step.order <= each.last_order; });
   return phase == earlier.end() ? problem : phase->problem;
 }
 
@@ -149,16 +173,21 @@ std::vector<std::string> ResultConcept::method_names() const {
   return names;
 }
 
-Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const {
+Value ResultConcept::method(std::string_view name, const std::vector<Value>& arguments,
+                            const std::map<std::string, Value>& keywords) const {
   if (name == "getTable") {
-    if (arguments.size() == 1 && arguments.front().is_text() && keywords.empty()) return table_handle(*this, arguments.front().as_text());
-    throw DiagnosticError("type-error", "getTable() takes the name of a table", {}, "write RESULT.getTable(\"PARA_CALC\")");
+    if (arguments.size() == 1 && arguments.front().is_text() && keywords.empty())
+      return table_handle(*this, arguments.front().as_text());
+    throw DiagnosticError("type-error", "getTable() takes the name of a table", {},
+                          "write RESULT.getTable(\"PARA_CALC\")");
   }
-  if (const auto found = step_methods().find(name); found != step_methods().end()) return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
+  if (const auto found = step_methods().find(name); found != step_methods().end())
+    return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
   const auto list = list_methods().find(name);
   if (list == list_methods().end()) return ConceptData::method(name, arguments, keywords);
   if (arguments.empty() && keywords.empty()) return Value(list->second(result));
-  throw DiagnosticError("type-error", std::string(name) + "() takes no arguments", {}, "write RESULT." + std::string(name) + "()");
+  throw DiagnosticError("type-error", std::string(name) + "() takes no arguments", {},
+                        "write RESULT." + std::string(name) + "()");
 }
 
 }  // namespace comma::commands

@@ -37,8 +37,11 @@ const char* modelisation(bool plane, bool rotations) {
 // CARA reads MATRIX_COMPONENTS[_D]_SUPPORT (U4.42.01): K_TR_D_L is a diagonal stiffness with rotations on a segment.
 struct Characteristic {
   explicit Characteristic(const std::string& word)
-      : name(word), stiffness(word.front() == 'K'), rotations(word.starts_with("K_TR") || word.starts_with("M_TR")),
-        diagonal(word.find("_D_") != std::string::npos), segment(word.back() == 'L') {}
+      : name(word),
+        stiffness(word.front() == 'K'),
+        rotations(word.starts_with("K_TR") || word.starts_with("M_TR")),
+        diagonal(word.find("_D_") != std::string::npos),
+        segment(word.back() == 'L') {}
   std::string name;
   bool stiffness;
   bool rotations;
@@ -46,28 +49,34 @@ struct Characteristic {
   bool segment;
 };
 
-void check_element(const Keywords& assignment, const std::string& name, const Characteristic& wanted, const solver::Model& model, int cell) {
+void check_element(const Keywords& assignment, const std::string& name, const Characteristic& wanted,
+                   const solver::Model& model, int cell) {
   const Formulation formulation = model.formulations[cell];
   const bool plane = name == "DISCRET_2D";
   const char* needed = modelisation(plane, wanted.rotations);
   if (!is_discrete(formulation) || is_plane(formulation) != plane || turns(formulation) != wanted.rotations) {
-    throw DiagnosticError("not-discrete", fmt::format("{}: {} belongs to elements {}, and cell {} carries none", name, wanted.name, needed,
-                                                      model.mesh->cell_name(cell)),
+    throw DiagnosticError("not-discrete",
+                          fmt::format("{}: {} belongs to elements {}, and cell {} carries none", name, wanted.name,
+                                      needed, model.mesh->cell_name(cell)),
                           assignment.span,
-                          is_discrete(formulation) && is_plane(formulation) != plane ? fmt::format("the cell lies in a {} model: take {}", plane ? "spatial" : "plane", plane ? "DISCRET" : "DISCRET_2D")
-                                                                                     : fmt::format("give it MODELISATION=\"{}\" in AFFE_MODELE", needed));
+                          is_discrete(formulation) && is_plane(formulation) != plane
+                              ? fmt::format("the cell lies in a {} model: take {}", plane ? "spatial" : "plane",
+                                            plane ? "DISCRET" : "DISCRET_2D")
+                              : fmt::format("give it MODELISATION=\"{}\" in AFFE_MODELE", needed));
   }
   const bool on_segment = model.mesh->cell_types[cell] == solver::CellType::seg2;
   if (wanted.segment == on_segment) return;
-  throw DiagnosticError("wrong-support",
-                        fmt::format("{}: {} stands on a {}, but cell {} is a {}", name, wanted.name, wanted.segment ? "segment" : "point",
-                                    model.mesh->cell_name(cell), solver::name_of(model.mesh->cell_types[cell])),
-                        assignment.span_of("CARA"), "the last letter of CARA is L on segments, N on points");
+  throw DiagnosticError(
+      "wrong-support",
+      fmt::format("{}: {} stands on a {}, but cell {} is a {}", name, wanted.name, wanted.segment ? "segment" : "point",
+                  model.mesh->cell_name(cell), solver::name_of(model.mesh->cell_types[cell])),
+      assignment.span_of("CARA"), "the last letter of CARA is L on segments, N on points");
 }
 
 void check_symmetry(const Keywords& assignment, const std::string& name, const Characteristic& wanted) {
   if (!wanted.diagonal || assignment.text("SYME") == "OUI") return;
-  throw DiagnosticError("wrong-combination", fmt::format("{}: {} is diagonal, so SYME=\"NON\" has no meaning", name, wanted.name),
+  throw DiagnosticError("wrong-combination",
+                        fmt::format("{}: {} is diagonal, so SYME=\"NON\" has no meaning", name, wanted.name),
                         assignment.span_of("SYME"), "leave out SYME, or give all terms of a full matrix");
 }
 
@@ -77,7 +86,8 @@ solver::DiscreteInertia inertia_of(const Keywords& assignment, const Characteris
   const std::size_t inertias = !wanted.rotations ? 0 : plane ? 1 : wanted.segment ? 3 : 6;
   const std::size_t offsets = !wanted.rotations || wanted.segment ? 0 : plane ? 2 : 3;
   if (values.size() != 1 + inertias + offsets) {
-    throw DiagnosticError("wrong-size", fmt::format("{} takes {} values, not {}", wanted.name, 1 + inertias + offsets, values.size()),
+    throw DiagnosticError("wrong-size",
+                          fmt::format("{} takes {} values, not {}", wanted.name, 1 + inertias + offsets, values.size()),
                           assignment.span_of("VALE"));
   }
   solver::DiscreteInertia inertia;
@@ -101,10 +111,13 @@ void assign(const Keywords& assignment, const Characteristic& wanted, const solv
   const auto values = assignment.reals("VALE");
   const bool all_terms = assignment.text("SYME") == "NON";
   if (wanted.stiffness) {
-    const auto make = wanted.diagonal ? solver::diagonal_stiffness : all_terms ? solver::unsymmetric_stiffness : solver::symmetric_stiffness;
+    const auto make = wanted.diagonal ? solver::diagonal_stiffness
+                      : all_terms     ? solver::unsymmetric_stiffness
+                                      : solver::symmetric_stiffness;
     properties.discrete[cell] = make(mesh, cell, formulation, values, frame, orientation);
   } else if (wanted.diagonal) {
-    properties.masses[cell] = solver::rigid_mass(mesh, cell, formulation, inertia_of(assignment, wanted, is_plane(formulation)), frame, orientation);
+    properties.masses[cell] = solver::rigid_mass(
+        mesh, cell, formulation, inertia_of(assignment, wanted, is_plane(formulation)), frame, orientation);
   } else {
     const auto make = all_terms ? solver::unsymmetric_mass : solver::symmetric_mass;
     properties.masses[cell] = make(mesh, cell, formulation, values, frame, orientation);
@@ -119,13 +132,15 @@ void check_count(const Keywords& assignment, std::size_t least, std::size_t most
   const std::size_t given = assignment.reals("VALE").size();
   if (given >= least && given <= most) return;
   const std::string wanted = least == most ? std::to_string(most) : fmt::format("{} to {}", least, most);
-  throw DiagnosticError("wrong-count", fmt::format("ORIENTATION: {} takes {} values, not {}", assignment.text("CARA"), wanted, given),
+  throw DiagnosticError("wrong-count",
+                        fmt::format("ORIENTATION: {} takes {} values, not {}", assignment.text("CARA"), wanted, given),
                         assignment.span_of("VALE"));
 }
 
 Eigen::Vector3d vector_at(const std::vector<double>& values, std::size_t first) {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < 3 && first + i < values.size(); ++i) vector[static_cast<Eigen::Index>(i)] = values[first + i];
+  for (std::size_t i = 0; i < 3 && first + i < values.size(); ++i)
+    vector[static_cast<Eigen::Index>(i)] = values[first + i];
   return vector;
 }
 
@@ -135,10 +150,11 @@ void orient(const Keywords& assignment, const solver::Mesh& mesh, int cell, solv
   const bool of_segments = kind == "ANGL_VRIL" || kind == "VECT_Y";
   if (assignment.has("PRECISION")) orientation.no_length = assignment.real("PRECISION");
   if (of_segments != solver::has_direction(mesh, cell, orientation.no_length)) {
-    throw DiagnosticError("wrong-support",
-                          fmt::format("ORIENTATION: {} turns {}, and cell {} is {}", kind, of_segments ? "segments" : "points",
-                                      mesh.cell_name(cell), of_segments ? "none that has a length" : "a segment"),
-                          assignment.span_of("CARA"), of_segments ? "use ANGL_NAUT or VECT_X_Y" : "use ANGL_VRIL or VECT_Y");
+    throw DiagnosticError(
+        "wrong-support",
+        fmt::format("ORIENTATION: {} turns {}, and cell {} is {}", kind, of_segments ? "segments" : "points",
+                    mesh.cell_name(cell), of_segments ? "none that has a length" : "a segment"),
+        assignment.span_of("CARA"), of_segments ? "use ANGL_NAUT or VECT_X_Y" : "use ANGL_VRIL or VECT_Y");
   }
   const auto values = assignment.reals("VALE");
   if (kind == "ANGL_VRIL") {
@@ -167,12 +183,13 @@ void add_orientations(const Keywords& assignment, const solver::Model& model, Or
     try {
       orient(assignment, *model.mesh, cell, orientations[cell]);
     } catch (const solver::Error& error) {
-      throw DiagnosticError(error.code(), std::string("ORIENTATION: ") + error.what(), assignment.span_of("VALE"), error.hint());
+      throw DiagnosticError(error.code(), std::string("ORIENTATION: ") + error.what(), assignment.span_of("VALE"),
+                            error.hint());
     }
   }
   if (any) return;
-  throw DiagnosticError("no-element", "ORIENTATION: none of these cells is a beam or a discrete element", assignment.span,
-                        "only their axes are turned here; those of solids are by MASSIF");
+  throw DiagnosticError("no-element", "ORIENTATION: none of these cells is a beam or a discrete element",
+                        assignment.span, "only their axes are turned here; those of solids are by MASSIF");
 }
 
 void add_discrete_matrices(const Keywords& assignment, const std::string& name, const solver::Model& model,
@@ -183,7 +200,8 @@ void add_discrete_matrices(const Keywords& assignment, const std::string& name, 
     check_element(assignment, name, wanted, model, cell);
     const auto turned = orientations.find(cell);
     try {
-      assign(assignment, wanted, model, cell, turned == orientations.end() ? solver::Orientation() : turned->second, properties);
+      assign(assignment, wanted, model, cell, turned == orientations.end() ? solver::Orientation() : turned->second,
+             properties);
     } catch (const solver::Error& error) {
       throw DiagnosticError(error.code(), name + ": " + error.what(), assignment.span_of("VALE"), error.hint());
     }

@@ -42,7 +42,8 @@ std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const s
     parts.push_back({name_of_all(call), "TOUT", selected_cells(occurrence, mesh, {"TOUT", "", "", "", ""})});
   }
   selected_cells(occurrence, mesh);  // says which names do not exist
-  for (const std::string& name : occurrence.texts("GROUP_MA")) parts.push_back({name, "GROUP_MA", mesh.cell_group(name)});
+  for (const std::string& name : occurrence.texts("GROUP_MA"))
+    parts.push_back({name, "GROUP_MA", mesh.cell_group(name)});
   for (const std::string& name : occurrence.texts("MAILLE")) parts.push_back({name, "MAILLE", {mesh.find_cell(name)}});
   return parts;
 }
@@ -50,7 +51,8 @@ std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const s
 Row place_columns(const Part& part) { return {{"LIEU", part.name}, {"ENTITE", part.kind}}; }
 
 void keep_dimension(Part& part, const solver::Mesh& mesh, const std::string& dimension) {
-  std::erase_if(part.cells, [&](int cell) { return solver::dimension(mesh.cell_types[cell]) != dimension.front() - '0'; });
+  std::erase_if(part.cells,
+                [&](int cell) { return solver::dimension(mesh.cell_types[cell]) != dimension.front() - '0'; });
 }
 
 std::shared_ptr<const solver::Model> model_behind(const Call& call) {
@@ -69,12 +71,14 @@ std::shared_ptr<const solver::Model> model_behind(const Call& call) {
     model = call.data<ModelConcept>("MODELE").model;
     if (own) require_mesh(call, "MODELE", model->mesh.get(), *own);
   }
-  if (!model) throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
+  if (!model)
+    throw DiagnosticError("missing-keyword", "POST_ELEM: the field lies on no model", call.span, "give MODELE");
   return model;
 }
 
 solver::ElementField on_elements(const FieldSource& source, const solver::Model& model) {
-  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field)) return solver::to_element_nodes(model, *nodal);
+  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field))
+    return solver::to_element_nodes(model, *nodal);
   return std::get<solver::ElementField>(source.field);
 }
 
@@ -84,14 +88,19 @@ Keywords with_field(const Call& call, const Keywords& occurrence) {
   return merged;
 }
 
-void warn_of_cells_left_out(const char* keyword, const Keywords& occurrence, const Part& part, const solver::Model& model, interpreter::Diagnostics& diagnostics) {
+void warn_of_cells_left_out(const char* keyword, const Keywords& occurrence, const Part& part,
+                            const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const auto is_left_out = [&](int cell) {
-    return model.components_of(cell) != 0 && !model.is_skin(cell) && solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0;
+    return model.components_of(cell) != 0 && !model.is_skin(cell) &&
+           solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) == 0;
   };
   const auto count = std::ranges::count_if(part.cells, is_left_out);
   if (count == 0) return;
-  diagnostics.alarm("cells-left-out", fmt::format("POST_ELEM/{}: {} of the cells of {} are beams, plates or discrete elements, {} for one, which are not integrated over", keyword, count, part.kind == "TOUT" ? "the model" : part.name,
-                                                  model.mesh->cell_name(*std::ranges::find_if(part.cells, is_left_out))),
+  diagnostics.alarm("cells-left-out",
+                    fmt::format("POST_ELEM/{}: {} of the cells of {} are beams, plates or discrete elements, {} for "
+                                "one, which are not integrated over",
+                                keyword, count, part.kind == "TOUT" ? "the model" : part.name,
+                                model.mesh->cell_name(*std::ranges::find_if(part.cells, is_left_out))),
                     occurrence.span, "name the other cells by GROUP_MA");
 }
 

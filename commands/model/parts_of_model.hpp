@@ -22,7 +22,8 @@ struct Part {
 };
 
 /// TOUT, then one part a group, then one a cell.
-std::vector<Part> parts_of(const interpreter::Call& call, const interpreter::Keywords& occurrence, const solver::Mesh& mesh);
+std::vector<Part> parts_of(const interpreter::Call& call, const interpreter::Keywords& occurrence,
+                           const solver::Mesh& mesh);
 
 /// LIEU and ENTITE.
 Row place_columns(const Part& part);
@@ -30,8 +31,10 @@ Row place_columns(const Part& part);
 /// Takes away the cells of another dimension than "1D", "2D" or "3D" says.
 void keep_dimension(Part& part, const solver::Mesh& mesh, const std::string& dimension);
 
-/// Alarm `cells-left-out`: elements of the part that have no volume to integrate over, beams, plates and discrete elements.
-void warn_of_cells_left_out(const char* keyword, const interpreter::Keywords& occurrence, const Part& part, const solver::Model& model, interpreter::Diagnostics& diagnostics);
+/// Alarm `cells-left-out`: elements of the part that have no volume to integrate over, beams, plates and discrete
+/// elements.
+void warn_of_cells_left_out(const char* keyword, const interpreter::Keywords& occurrence, const Part& part,
+                            const solver::Model& model, interpreter::Diagnostics& diagnostics);
 
 /// MODELE, else the model of RESULTAT or CHAM_GD. Throws DiagnosticError `missing-keyword` where there is none.
 std::shared_ptr<const solver::Model> model_behind(const interpreter::Call& call);

@@ -24,7 +24,8 @@ Eigen::Vector3d direction_of(const Keywords& assignment) {
   if (assignment.given("VECTEUR")) {
     const auto values = assignment.reals("VECTEUR");
     const Eigen::Vector3d direction(values[0], values[1], values[2]);
-    if (direction.isZero(0.0)) throw DiagnosticError("zero-vector", "COQUE/VECTEUR has no length", assignment.span_of("VECTEUR"));
+    if (direction.isZero(0.0))
+      throw DiagnosticError("zero-vector", "COQUE/VECTEUR has no length", assignment.span_of("VECTEUR"));
     return direction;
   }
   if (!assignment.given("ANGL_REP")) return Eigen::Vector3d::UnitX();
@@ -38,7 +39,10 @@ void require_place_alone(const Keywords& assignment, const char* keyword) {
   const interpreter::ConceptPtr& handle = assignment.concept_of(keyword);
   const auto parameters = interpreter::data_of<FunctionConcept>(handle, keyword).parameters();
   if (std::ranges::find(parameters, "INST") == parameters.end()) return;
-  throw DiagnosticError("unknown-parameter", fmt::format("COQUE/{}: {} depends on INST, and a section does not change in time", keyword, handle->name), assignment.span_of(keyword), "let it depend on the place: X, Y, Z");
+  throw DiagnosticError(
+      "unknown-parameter",
+      fmt::format("COQUE/{}: {} depends on INST, and a section does not change in time", keyword, handle->name),
+      assignment.span_of(keyword), "let it depend on the place: X, Y, Z");
 }
 
 }  // namespace

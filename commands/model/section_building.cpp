@@ -34,27 +34,31 @@ class Characteristics {
     const auto names = assignment.texts("CARA");
     const auto values = assignment.reals("VALE");
     if (names.size() != values.size()) {
-      throw DiagnosticError("wrong-count", fmt::format("VALE gives {} values to the {} names of CARA", values.size(), names.size()),
+      throw DiagnosticError("wrong-count",
+                            fmt::format("VALE gives {} values to the {} names of CARA", values.size(), names.size()),
                             assignment.span_of("VALE"), "give one value a name");
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (values_.emplace(names[i], values[i]).second) continue;
-      throw DiagnosticError("duplicate-characteristic", "CARA names " + names[i] + " twice", assignment.span_of("CARA"));
+      throw DiagnosticError("duplicate-characteristic", "CARA names " + names[i] + " twice",
+                            assignment.span_of("CARA"));
     }
   }
 
   bool has(const std::string& name) const { return values_.contains(name); }
   double get(const std::string& name, double otherwise) const { return has(name) ? values_.at(name) : otherwise; }
 
-  // One end of a beam whose section varies: names without the suffix of that end; those without any suffix belong to both. Names of
-  // the other end are left out.
+  // One end of a beam whose section varies: names without the suffix of that end; those without any suffix belong to
+  // both. Names of the other end are left out.
   Characteristics at_end(const std::string& suffix, const std::string& other) const {
     Characteristics result = *this;
     result.values_.clear();
     result.suffix_ = suffix;
     for (const auto& [name, value] : values_) {
-      if (name.ends_with(suffix)) result.values_[name.substr(0, name.size() - suffix.size())] = value;
-      else if (!name.ends_with(other)) result.values_[name] = value;
+      if (name.ends_with(suffix))
+        result.values_[name.substr(0, name.size() - suffix.size())] = value;
+      else if (!name.ends_with(other))
+        result.values_[name] = value;
     }
     return result;
   }
@@ -67,20 +71,23 @@ class Characteristics {
     }
     if (missing.empty()) return;
     throw DiagnosticError("missing-characteristic", fmt::format("the section lacks {}", fmt::join(missing, ", ")),
-                          assignment_.span_of("CARA"), fmt::format("name {} in CARA and give the value in VALE", missing.front()));
+                          assignment_.span_of("CARA"),
+                          fmt::format("name {} in CARA and give the value in VALE", missing.front()));
   }
 
   void exclude(const std::string& name, std::initializer_list<const char*> others) const {
     if (!has(name)) return;
     for (const char* other : others) {
       if (!has(other)) continue;
-      throw DiagnosticError("excluded-characteristic", fmt::format("CARA names both {0}{2} and {1}{2}", name, other, suffix_), assignment_.span_of("CARA"),
-                            fmt::format("{}{} stands for the sizes along y and z alike", name, suffix_));
+      throw DiagnosticError(
+          "excluded-characteristic", fmt::format("CARA names both {0}{2} and {1}{2}", name, other, suffix_),
+          assignment_.span_of("CARA"), fmt::format("{}{} stands for the sizes along y and z alike", name, suffix_));
     }
   }
 
  private:
-  // The row of TABLE_CARA whose LIEU (or first column) is NOM_SEC, the only one without (U4.42.01): its numbers by the names of their columns.
+  // The row of TABLE_CARA whose LIEU (or first column) is NOM_SEC, the only one without (U4.42.01): its numbers by the
+  // names of their columns.
   void take_row() {
     const Table& table = assignment_.data<TableConcept>("TABLE_CARA").table;
     const int names = std::max(0, table.column("LIEU"));
@@ -90,12 +97,16 @@ class Characteristics {
     };
     const auto found = std::ranges::find_if(table.rows, is_meant);
     if (found == table.rows.end() || std::find_if(found + 1, table.rows.end(), is_meant) != table.rows.end()) {
-      throw DiagnosticError("unknown-section", fmt::format("TABLE_CARA has {} row for the section", found == table.rows.end() ? "no" : "more than one"),
-                            assignment_.span_of(assignment_.given("NOM_SEC") ? "NOM_SEC" : "TABLE_CARA"), "name the row by NOM_SEC, as its column LIEU has it");
+      throw DiagnosticError(
+          "unknown-section",
+          fmt::format("TABLE_CARA has {} row for the section", found == table.rows.end() ? "no" : "more than one"),
+          assignment_.span_of(assignment_.given("NOM_SEC") ? "NOM_SEC" : "TABLE_CARA"),
+          "name the row by NOM_SEC, as its column LIEU has it");
     }
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       if (const auto* real = std::get_if<double>(&(*found)[c])) values_[table.columns[c]] = *real;
-      if (const auto* count = std::get_if<std::int64_t>(&(*found)[c])) values_[table.columns[c]] = static_cast<double>(*count);
+      if (const auto* count = std::get_if<std::int64_t>(&(*found)[c]))
+        values_[table.columns[c]] = static_cast<double>(*count);
     }
   }
 
@@ -128,7 +139,8 @@ BeamSection rectangle_of(const Characteristics& given) {
   if (!given.has("H")) given.require({"HY", "HZ"});
   const double side = given.get("H", 0.0);
   const double wall = given.get("EP", 0.0);
-  return solver::rectangular_section({given.get("HY", side), given.get("HZ", side), given.get("EPY", wall), given.get("EPZ", wall)});
+  return solver::rectangular_section(
+      {given.get("HY", side), given.get("HZ", side), given.get("EPY", wall), given.get("EPZ", wall)});
 }
 
 BeamSection circle_of(const Characteristics& given) {
@@ -138,7 +150,9 @@ BeamSection circle_of(const Characteristics& given) {
 }
 
 BeamSection shaped_section(const std::string& shape, const Characteristics& given, bool bends) {
-  return shape == "GENERALE" ? general_section(given, bends) : shape == "RECTANGLE" ? rectangle_of(given) : circle_of(given);
+  return shape == "GENERALE"    ? general_section(given, bends)
+         : shape == "RECTANGLE" ? rectangle_of(given)
+                                : circle_of(given);
 }
 
 // VARI_SECT="AFFINE": the sizes along y stay, those along z change (U4.42.01).
@@ -146,8 +160,10 @@ void check_affine(const Keywords& assignment, const Characteristics& given) {
   given.require({"HY", "HZ1", "HZ2"});
   for (const char* name : {"H1", "H2", "HY1", "HY2", "EP1", "EP2", "EPY1", "EPY2"}) {
     if (!given.has(name)) continue;
-    throw DiagnosticError("excluded-characteristic", fmt::format("CARA names {}, but with VARI_SECT=\"AFFINE\" only sizes along z change", name),
-                          assignment.span_of("CARA"), "name HY, HZ1, HZ2 and, for walls, EPY, EPZ1, EPZ2; or use VARI_SECT=\"HOMOTHETIQUE\"");
+    throw DiagnosticError("excluded-characteristic",
+                          fmt::format("CARA names {}, but with VARI_SECT=\"AFFINE\" only sizes along z change", name),
+                          assignment.span_of("CARA"),
+                          "name HY, HZ1, HZ2 and, for walls, EPY, EPZ1, EPZ2; or use VARI_SECT=\"HOMOTHETIQUE\"");
   }
 }
 
@@ -160,7 +176,8 @@ BeamSection section_of(const Keywords& assignment, bool bends) {
     if (variation == "AFFINE") check_affine(assignment, given);
     const auto [first, last] = shape == "CERCLE" ? std::pair("_DEBUT", "_FIN") : std::pair("1", "2");
     return solver::varying_section(shaped_section(shape, given.at_end(first, last), bends),
-                                   shaped_section(shape, given.at_end(last, first), bends), variation == "AFFINE" ? solver::one_size_varies : solver::all_sizes_vary);
+                                   shaped_section(shape, given.at_end(last, first), bends),
+                                   variation == "AFFINE" ? solver::one_size_varies : solver::all_sizes_vary);
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), error.what(), assignment.span_of("VALE"), error.hint());
   }
@@ -173,13 +190,14 @@ void check_shear(const Keywords& assignment, const BeamSection& section) {
     return section.end ? given.require({"AY1", "AZ1", "AY2", "AZ2"}) : given.require({"AY", "AZ"});
   }
   if (section.shear_y > 0.0) return;
-  throw DiagnosticError("unsupported", "a hollow rectangle has no shear factors that comma knows, and POU_D_T needs them", assignment.span,
-                        "give the section as SECTION=\"GENERALE\" with AY and AZ, or use POU_D_E");
+  throw DiagnosticError("unsupported",
+                        "a hollow rectangle has no shear factors that comma knows, and POU_D_T needs them",
+                        assignment.span, "give the section as SECTION=\"GENERALE\" with AY and AZ, or use POU_D_E");
 }
 
 // The cells named that carry an element of the kind; at least one must.
-std::vector<int> carriers(const Keywords& assignment, const solver::Model& model, bool (*carries)(Formulation), const char* kind,
-                          const char* hint) {
+std::vector<int> carriers(const Keywords& assignment, const solver::Model& model, bool (*carries)(Formulation),
+                          const char* kind, const char* hint) {
   std::vector<int> cells;
   for (const int cell : selected_cells(assignment, *model.mesh)) {
     if (carries(model.formulations[cell])) cells.push_back(cell);
@@ -191,7 +209,8 @@ std::vector<int> carriers(const Keywords& assignment, const solver::Model& model
 }
 
 std::vector<int> beams_of(const Keywords& assignment, const solver::Model& model) {
-  return carriers(assignment, model, solver::is_beam, "beam", "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
+  return carriers(assignment, model, solver::is_beam, "beam",
+                  "give them MODELISATION=\"POU_D_E\" or \"POU_D_T\" in AFFE_MODELE");
 }
 
 // COUDE alone: a factor for each plane of bending, or one for both.
@@ -209,7 +228,8 @@ void soften_elbow(const Keywords& elbow, int cell, solver::ElementProperties& pr
 
 }  // namespace
 
-void add_beam_sections(const std::vector<Keywords>& assignments, const solver::Model& model, solver::ElementProperties& properties) {
+void add_beam_sections(const std::vector<Keywords>& assignments, const solver::Model& model,
+                       solver::ElementProperties& properties) {
   std::map<int, const Keywords*> elbows;  // of a cell, the last one
   for (const Keywords& assignment : assignments) {
     if (assignment.text("SECTION") == "COUDE") {
@@ -227,7 +247,8 @@ void add_beam_sections(const std::vector<Keywords>& assignments, const solver::M
 
 void add_bar_sections(const Keywords& assignment, const solver::Model& model, solver::ElementProperties& properties) {
   const BeamSection section = section_of(assignment, false);
-  for (const int cell : carriers(assignment, model, solver::is_bar, "bar", "give them MODELISATION=\"BARRE\" in AFFE_MODELE")) {
+  for (const int cell :
+       carriers(assignment, model, solver::is_bar, "bar", "give them MODELISATION=\"BARRE\" in AFFE_MODELE")) {
     properties.sections[cell] = section;
   }
 }

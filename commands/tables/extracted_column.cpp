@@ -62,7 +62,10 @@ std::string stripped(const Value& value) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
-std::vector<Value> several(const Value& value) { return value.is_sequence() ? std::vector<Value>(value.items().begin(), value.items().end()) : std::vector<Value>{value}; }
+std::vector<Value> several(const Value& value) {
+  return value.is_sequence() ? std::vector<Value>(value.items().begin(), value.items().end())
+                             : std::vector<Value>{value};
+}
 
 /// Whether a cell is one of the values, texts without the blanks around them. An empty cell is None alone.
 bool is_one_of(const Value& cell, const std::vector<Value>& wanted) {
@@ -72,7 +75,8 @@ bool is_one_of(const Value& cell, const std::vector<Value>& wanted) {
   });
 }
 
-/// Whether a cell lies so to the value; of several the one that lets most pass. An empty cell never does, nor a text to a number.
+/// Whether a cell lies so to the value; of several the one that lets most pass. An empty cell never does, nor a text to
+/// a number.
 bool lies_to(const Value& cell, Operator op, const std::vector<Value>& values) {
   return std::ranges::any_of(values, [&](const Value& each) {
     if (cell.is_none() || each.is_none() || cell.is_text() != each.is_text()) return false;
@@ -100,9 +104,13 @@ struct ColumnObject : HostObject {
   /// The table of the rows that pass.
   std::optional<Value> compared(Operator op, const Value& other) const override {
     const std::vector<Value> values = several(other);
-    if (!std::ranges::all_of(values, [](const Value& each) { return each.is_number() || each.is_text() || each.is_none(); })) return std::nullopt;
+    if (!std::ranges::all_of(values,
+                             [](const Value& each) { return each.is_number() || each.is_text() || each.is_none(); }))
+      return std::nullopt;
     const bool equality = op == Operator::equal || op == Operator::not_equal;
-    return rows_where([&](const Value& cell) { return equality ? is_one_of(cell, values) == (op == Operator::equal) : lies_to(cell, op, values); });
+    return rows_where([&](const Value& cell) {
+      return equality ? is_one_of(cell, values) == (op == Operator::equal) : lies_to(cell, op, values);
+    });
   }
 
   Value rows_where(const std::function<bool(const Value&)>& passes) const {
@@ -161,11 +169,18 @@ const std::map<std::string, ColumnMethod, std::less<>>& column_methods() {
       {"MAXI_ABS", {{}, [](const Column& column, const Given&) { return extreme_sizes(column, true); }}},
       {"MINI_ABS", {{}, [](const Column& column, const Given&) { return extreme_sizes(column, false); }}},
       {"VIDE", {{}, [](const Column& column, const Given&) { return column.rows_where(&Value::is_none); }}},
-      {"NON_VIDE", {{}, [](const Column& column, const Given&) { return column.rows_where([](const Value& cell) { return !cell.is_none(); }); }}},
-      {"REGEXP", {{"regexp"}, [](const Column& column, const Given& given) {
-         const std::string pattern = given.needed_text("regexp");
-         return column.rows_where([&](const Value& cell) { return cell.is_text() && interpreter::finds_pattern(cell.as_text(), pattern); });
-       }}},
+      {"NON_VIDE",
+       {{},
+        [](const Column& column, const Given&) {
+          return column.rows_where([](const Value& cell) { return !cell.is_none(); });
+        }}},
+      {"REGEXP",
+       {{"regexp"},
+        [](const Column& column, const Given& given) {
+          const std::string pattern = given.needed_text("regexp");
+          return column.rows_where(
+              [&](const Value& cell) { return cell.is_text() && interpreter::finds_pattern(cell.as_text(), pattern); });
+        }}},
   };
   return table;
 }

@@ -86,7 +86,9 @@ Value keywords_of(const Table& table) {
 }
 
 void need_column(const TableRows& table, const std::string& name) {
-  if (!table.has(name)) raise(ErrorKind::key, Value(name).repr(), "the columns are " + Value::list({table.columns.begin(), table.columns.end()}).repr());
+  if (!table.has(name))
+    raise(ErrorKind::key, Value(name).repr(),
+          "the columns are " + Value::list({table.columns.begin(), table.columns.end()}).repr());
 }
 
 /// The table of these columns; what is empty in all of them is a row no more.
@@ -140,10 +142,13 @@ Value sort(TableRows& table, Evaluator&, const MethodArguments& given) {
   const std::vector<std::string> keys = given.has("CLES") ? given.texts("CLES") : table.columns;
   for (const std::string& key : keys) need_column(table, key);
   const std::string order = given.text("ORDRE", "CROISSANT");
-  if (order != "CROISSANT" && order != "DECROISSANT") raise(ErrorKind::value, "ORDRE is CROISSANT or DECROISSANT, not " + order);
+  if (order != "CROISSANT" && order != "DECROISSANT")
+    raise(ErrorKind::value, "ORDRE is CROISSANT or DECROISSANT, not " + order);
   const bool downwards = order == "DECROISSANT";
   for (auto key = keys.rbegin(); key != keys.rend(); ++key)
-    std::ranges::stable_sort(table.rows, [&, name = Value(*key)](const auto& a, const auto& b) { return comes_before(cell_in(*a, name), cell_in(*b, name), downwards); });
+    std::ranges::stable_sort(table.rows, [&, name = Value(*key)](const auto& a, const auto& b) {
+      return comes_before(cell_in(*a, name), cell_in(*b, name), downwards);
+    });
   return Value();
 }
 
@@ -204,15 +209,18 @@ Value rename(TableRows& table, Evaluator&, const MethodArguments& given) {
 std::vector<std::string> parameters_of(const Value& function, Evaluator& evaluator) {
   if (function.is_concept()) {
     const auto& data = function.as_concept()->data;
-    if (evaluator.host().force(function.as_concept()) && data->real_function() != nullptr) return data->real_function()->parameters();
+    if (evaluator.host().force(function.as_concept()) && data->real_function() != nullptr)
+      return data->real_function()->parameters();
   }
-  raise(ErrorKind::type, "fromfunction() needs the names of the columns that the function takes", "give them as third argument");
+  raise(ErrorKind::type, "fromfunction() needs the names of the columns that the function takes",
+        "give them as third argument");
 }
 
 /// A column of what the function gives for the values of others; empty where one of them is.
 Value from_function(TableRows& table, Evaluator& evaluator, const MethodArguments& given) {
   const Value function = given.value("funct"), constants = given.value("const");
-  const std::vector<std::string> names = given.has("l_para") ? given.texts("l_para") : parameters_of(function, evaluator);
+  const std::vector<std::string> names =
+      given.has("l_para") ? given.texts("l_para") : parameters_of(function, evaluator);
   for (const std::string& name : names) need_column(table, name);
   std::vector<Value> made;
   for (const auto& row : table.rows) {
@@ -230,8 +238,10 @@ Value from_function(TableRows& table, Evaluator& evaluator, const MethodArgument
 
 Value without_rows_of(TableRows& table, Evaluator&, const MethodArguments& given) {
   const RowsPtr other = rows_behind(given.value("other"));
-  if (!other || other->columns != table.columns) raise(ErrorKind::type, "difference() takes a table with the same columns");
-  return table_value(table.where([is_there = other->membership(table.columns)](const Dict& row) { return !is_there(row); }));
+  if (!other || other->columns != table.columns)
+    raise(ErrorKind::type, "difference() takes a table with the same columns");
+  return table_value(
+      table.where([is_there = other->membership(table.columns)](const Dict& row) { return !is_there(row); }));
 }
 
 Value reorder(TableRows& table, Evaluator&, const MethodArguments& given) {
@@ -284,7 +294,8 @@ struct TableObject : HostObject {
   std::optional<Value> iterated() const override { return Value::list({table->rows.begin(), table->rows.end()}); }
 
   std::optional<Value> attribute(std::string_view name) const override {
-    if (const auto found = table_methods().find(name); found != table_methods().end()) return bound(found->first, found->second);
+    if (const auto found = table_methods().find(name); found != table_methods().end())
+      return bound(found->first, found->second);
     if (name == "para") return Value::list({table->columns.begin(), table->columns.end()});
     if (name == "rows") return iterated();
     if (name == "titr") return Value(table->title);
@@ -301,7 +312,8 @@ struct TableObject : HostObject {
   /// Rows of both tables, or of either; of tables with the same columns.
   std::optional<Value> combined(Operator op, const Value& other) const override {
     const RowsPtr right = rows_behind(other);
-    if (!right || right->columns != table->columns || (op != Operator::bit_and && op != Operator::bit_or)) return std::nullopt;
+    if (!right || right->columns != table->columns || (op != Operator::bit_and && op != Operator::bit_or))
+      return std::nullopt;
     if (op == Operator::bit_and) return table_value(table->where(right->membership(table->columns)));
     auto united = std::make_shared<TableRows>(*table);
     const auto is_there = table->membership(table->columns);
@@ -352,7 +364,9 @@ RowsPtr rows_behind(const Value& value) {
   return object != nullptr ? object->table : nullptr;
 }
 
-Value table_value(RowsPtr rows) { return Value(std::shared_ptr<Object>(std::make_shared<TableObject>(std::move(rows)))); }
+Value table_value(RowsPtr rows) {
+  return Value(std::shared_ptr<Object>(std::make_shared<TableObject>(std::move(rows))));
+}
 
 Value extracted_table(const Table& table) {
   auto rows = std::make_shared<TableRows>();

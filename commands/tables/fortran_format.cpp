@@ -70,7 +70,8 @@ RealFormat::RealFormat(std::string_view format) {
   const auto descriptor = parse(format);
   if (!descriptor) {
     constexpr std::size_t most_shown = 40;
-    const std::string shown = format.size() > most_shown ? std::string(format.substr(0, most_shown)) + "..." : std::string(format);
+    const std::string shown =
+        format.size() > most_shown ? std::string(format.substr(0, most_shown)) + "..." : std::string(format);
     throw interpreter::DiagnosticError("bad-format", "\"" + shown + "\" is no format of a real number", {},
                                        "write E12.5, 1PE13.6 or F10.3");
   }

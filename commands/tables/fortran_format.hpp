@@ -21,7 +21,8 @@ class RealFormat {
   int digits_;
 };
 
-/// A number by a descriptor: E, D, F or G, with a scale factor 1P or not. Throws DiagnosticError `bad-format` on one that is not known.
+/// A number by a descriptor: E, D, F or G, with a scale factor 1P or not. Throws DiagnosticError `bad-format` on one
+/// that is not known.
 std::string format_real(double value, std::string_view format);
 
 }  // namespace comma::commands

@@ -8,8 +8,8 @@
 
 namespace comma::commands {
 
-/// PARA_CALC: one row a step that was computed, with what the computation says of it; OBSERVATION where some was asked for. Nothing for
-/// another name.
+/// PARA_CALC: one row a step that was computed, with what the computation says of it; OBSERVATION where some was asked
+/// for. Nothing for another name.
 std::optional<Table> table_of_result(const ResultConcept& data, std::string_view name);
 
 }  // namespace comma::commands

@@ -53,7 +53,8 @@ RowKeys::Entry* RowKeys::find_entry(const std::vector<Cell>& row, std::span<cons
   }
   const auto agrees = [&](const Entry& entry) {
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (!same_(row[static_cast<std::size_t>(columns[i])], (*entry.row)[static_cast<std::size_t>(columns_[i])])) return false;
+      if (!same_(row[static_cast<std::size_t>(columns[i])], (*entry.row)[static_cast<std::size_t>(columns_[i])]))
+        return false;
     return true;
   };
   Entry* least = nullptr;
@@ -62,7 +63,9 @@ RowKeys::Entry* RowKeys::find_entry(const std::vector<Cell>& row, std::span<cons
     if (found == buckets_.end()) continue;
     Bucket& bucket = found->second;
     while (bucket.first < bucket.entries.size() && bucket.entries[bucket.first].taken) ++bucket.first;
-    const auto entry = std::find_if(bucket.entries.begin() + static_cast<std::ptrdiff_t>(bucket.first), bucket.entries.end(), [&](const Entry& each) { return !each.taken && agrees(each); });
+    const auto entry =
+        std::find_if(bucket.entries.begin() + static_cast<std::ptrdiff_t>(bucket.first), bucket.entries.end(),
+                     [&](const Entry& each) { return !each.taken && agrees(each); });
     if (entry != bucket.entries.end() && (least == nullptr || entry->index < least->index)) least = &*entry;
   }
   return least;

@@ -13,14 +13,15 @@
 
 namespace comma::commands {
 
-/// Whether cells name the same: texts and empty cells where they are equal, numbers where they differ by less than rounding (1e-9 of their size), or look
-/// alike in a format.
+/// Whether cells name the same: texts and empty cells where they are equal, numbers where they differ by less than
+/// rounding (1e-9 of their size), or look alike in a format.
 class SameKey {
  public:
   explicit SameKey(std::optional<RealFormat> format = std::nullopt) : format_(std::move(format)) {}
   bool operator()(const Cell& a, const Cell& b) const;
 
-  /// Words such that cells which name the same have one in common: the first stands for the cell itself, a second for what lies just beyond it.
+  /// Words such that cells which name the same have one in common: the first stands for the cell itself, a second for
+  /// what lies just beyond it.
   std::vector<std::string> words(const Cell& cell) const;
 
  private:

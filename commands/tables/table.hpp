@@ -33,19 +33,20 @@ struct Table {
 
 /// How a table is written.
 struct TableLayout {
-  std::string separator = " ";       ///< before each column
-  std::string real_format = "E12.5"; ///< of Fortran
-  std::string comment = "#";         ///< before the title
-  std::string names_comment;         ///< before the line of the names
+  std::string separator = " ";        ///< before each column
+  std::string real_format = "E12.5";  ///< of Fortran
+  std::string comment = "#";          ///< before the title
+  std::string names_comment;          ///< before the line of the names
   std::string row_start;
   std::string row_end = "\n";
 };
 
-/// The table in Code_Aster's own format (FORMAT='ASTER' of IMPR_TABLE, read again by LIRE_TABLE, U7.02.03): between #DEBUT_TABLE and #FIN_TABLE the title, the names, their types
-/// I, R or K80, a line a row.
+/// The table in Code_Aster's own format (FORMAT='ASTER' of IMPR_TABLE, read again by LIRE_TABLE, U7.02.03): between
+/// #DEBUT_TABLE and #FIN_TABLE the title, the names, their types I, R or K80, a line a row.
 std::string aster_table(const Table& table, const TableLayout& layout = {});
 
-/// A table of two entries out of three columns: a row for each value of the first, a column for each of the second, in between the third; empty where there is none.
+/// A table of two entries out of three columns: a row for each value of the first, a column for each of the second, in
+/// between the third; empty where there is none.
 Table crossed(const Table& table);
 
 /// The table as aligned text: the title behind the comment sign, the column names, a line a row; an empty cell is "-".

@@ -54,7 +54,9 @@ class Comparison {
       return over_values(texts_, [&](const std::string& wanted) { return holds(comparison_, own.compare(wanted)); });
     }
     const auto value = number_in(cell);
-    return value && over_values(numbers_, [&](double wanted) { return kind_ == Kind::integer ? holds(comparison_, order(*value, wanted)) : holds_real(*value, wanted); });
+    return value && over_values(numbers_, [&](double wanted) {
+             return kind_ == Kind::integer ? holds(comparison_, order(*value, wanted)) : holds_real(*value, wanted);
+           });
   }
 
  private:
@@ -87,7 +89,9 @@ double ranked(const std::string& comparison, double value) {
 }
 
 /// Numbers before texts, empty cells last, whatever the order of each kind.
-int rank(const Cell& cell) { return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0; }
+int rank(const Cell& cell) {
+  return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0;
+}
 
 bool less(const Cell& a, const Cell& b) {
   if (rank(a) != rank(b)) return rank(a) < rank(b);
@@ -138,7 +142,8 @@ Table with_columns(const Table& table, const std::vector<int>& columns) {
   part.rows.resize(table.rows.size());
   for (const int column : columns) {
     part.columns.push_back(table.columns[static_cast<std::size_t>(column)]);
-    for (std::size_t i = 0; i < table.rows.size(); ++i) part.rows[i].push_back(table.rows[i][static_cast<std::size_t>(column)]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+      part.rows[i].push_back(table.rows[i][static_cast<std::size_t>(column)]);
   }
   return part;
 }
@@ -177,7 +182,9 @@ std::vector<double> numbers_in(const Table& table, int column, const Keywords& k
     if (const auto number = number_in(cell)) {
       numbers.push_back(*number);
     } else if (!is_empty(cell)) {
-      throw DiagnosticError("wrong-type", "column " + table.columns[static_cast<std::size_t>(column)] + " holds texts, not numbers", keywords.span);
+      throw DiagnosticError("wrong-type",
+                            "column " + table.columns[static_cast<std::size_t>(column)] + " holds texts, not numbers",
+                            keywords.span);
     }
   }
   return numbers;

@@ -13,7 +13,8 @@ namespace comma::commands {
 std::optional<double> number_in(const Cell& cell);
 
 /// Index of a column. Throws DiagnosticError `unknown-column` at `keyword` with the nearest name.
-int column_of(const Table& table, const std::string& name, const interpreter::Keywords& keywords, const std::string& keyword = "NOM_PARA");
+int column_of(const Table& table, const std::string& name, const interpreter::Keywords& keywords,
+              const std::string& keyword = "NOM_PARA");
 
 /// The same for each name of NOM_PARA.
 std::vector<int> columns_of(const Table& table, const interpreter::Keywords& keywords);
@@ -21,8 +22,8 @@ std::vector<int> columns_of(const Table& table, const interpreter::Keywords& key
 /// These columns alone, in this order.
 Table with_columns(const Table& table, const std::vector<int>& columns);
 
-/// Orders the rows by the columns of NOM_PARA, upwards or downwards (ORDRE); rows that agree keep their order. Numbers come before
-/// texts, empty cells last.
+/// Orders the rows by the columns of NOM_PARA, upwards or downwards (ORDRE); rows that agree keep their order. Numbers
+/// come before texts, empty cells last.
 void sort_rows(Table& table, const interpreter::Keywords& keywords);
 
 /// The rows that pass one FILTRE (NOM_PARA, CRIT_COMP, VALE, VALE_I, VALE_K, CRITERE, PRECISION), in their order.

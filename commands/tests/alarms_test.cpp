@@ -22,7 +22,9 @@ std::string text_of(const fs::path& path) {
 std::multiset<std::string> matches(const std::string& text, const char* pattern) {
   const std::regex expression(pattern);
   std::multiset<std::string> found;
-  for (auto match = std::sregex_iterator(text.begin(), text.end(), expression); match != std::sregex_iterator(); ++match) found.insert((*match)[1]);
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), expression); match != std::sregex_iterator();
+       ++match)
+    found.insert((*match)[1]);
   return found;
 }
 

@@ -1,5 +1,5 @@
-// Every page of the catalogue shows an example; each of them is checked here, behind a prelude that makes the concepts it
-// takes for granted, and run where comma supports the command.
+// Every page of the catalogue shows an example; each of them is checked here, behind a prelude that makes the concepts
+// it takes for granted, and run where comma supports the command.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -24,8 +24,10 @@ const fs::path folder = source / "commands/tests/examples";
 // What only one example needs, because another page uses the same name for something else.
 const std::map<std::string, std::string> more = {
     {"CREA_RESU",
-     "COLD = CREA_CHAMP(OPERATION='AFFE', TYPE_CHAM='NOEU_TEMP_R', MAILLAGE=MA, AFFE=_F(TOUT='OUI', NOM_CMP='TEMP', VALE=0.0))\n"
-     "HOT = CREA_CHAMP(OPERATION='AFFE', TYPE_CHAM='NOEU_TEMP_R', MAILLAGE=MA, AFFE=_F(TOUT='OUI', NOM_CMP='TEMP', VALE=9.0))\n"},
+     "COLD = CREA_CHAMP(OPERATION='AFFE', TYPE_CHAM='NOEU_TEMP_R', MAILLAGE=MA, AFFE=_F(TOUT='OUI', NOM_CMP='TEMP', "
+     "VALE=0.0))\n"
+     "HOT = CREA_CHAMP(OPERATION='AFFE', TYPE_CHAM='NOEU_TEMP_R', MAILLAGE=MA, AFFE=_F(TOUT='OUI', NOM_CMP='TEMP', "
+     "VALE=9.0))\n"},
     {"POST_CHAMP",
      "SLABS = AFFE_MODELE(MAILLAGE=MA, AFFE=_F(GROUP_MA='BODY', PHENOMENE='MECANIQUE', MODELISATION='DKT'))\n"
      "THICK = AFFE_CARA_ELEM(MODELE=SLABS, COQUE=_F(GROUP_MA='BODY', EPAIS=0.1, EXCENTREMENT=0.05))\n"
@@ -38,7 +40,9 @@ const std::map<std::string, std::string> more = {
 // A folder for one example: what it writes goes there.
 class Workplace {
  public:
-  Workplace() : before_(fs::current_path()), folder_(fs::temp_directory_path() / ("comma-example-" + std::to_string(getpid()))) {
+  Workplace()
+      : before_(fs::current_path()),
+        folder_(fs::temp_directory_path() / ("comma-example-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
     fs::current_path(folder_);
   }
@@ -65,7 +69,8 @@ std::vector<std::string> errors_of(const std::string& command, const std::string
   const std::vector<ExportFile> files = {{"mmed", source / "testcases/zzzz237/zzzz237.mmed", true, false, 20},
                                          {"mail", folder / "plate.mail", true, false, 21},
                                          {"comm", work / "included.comm", true, false, 91}};
-  StudyRun pass(Study{{folder / "prelude.comm", file}, files}, Verbosity::quiet, {.check_only = check_only, .only_tests = false});
+  StudyRun pass(Study{{folder / "prelude.comm", file}, files}, Verbosity::quiet,
+                {.check_only = check_only, .only_tests = false});
   pass.run();
   std::vector<std::string> errors;
   for (const auto& item : pass.diagnostics().items()) {

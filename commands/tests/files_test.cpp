@@ -66,7 +66,8 @@ TEST_CASE("A unit that the command file names is that file, whatever else could 
 TEST_CASE("An .export names files by unit, and outputs land in the current folder") {
   const Folder folder;
   folder.file("a.comm");
-  const auto path = folder.file("a.export", "P time_limit 60\n# comment\nF comm a.comm D 1\nF mmed m.mmed D 20\nF rmed out.rmed R 80\n");
+  const auto path = folder.file(
+      "a.export", "P time_limit 60\n# comment\nF comm a.comm D 1\nF mmed m.mmed D 20\nF rmed out.rmed R 80\n");
   const Study study = read_export(path, "/elsewhere");
   REQUIRE(study.command_files.size() == 1);
   const Files files(study.command_files[0], study.files, "/elsewhere");
@@ -95,14 +96,17 @@ TEST_CASE("A wrong line of an .export is told with its place") {
   }
 }
 
-TEST_CASE("A unit that the command file names writes under that name until it is set free, and into the current folder alone") {
+TEST_CASE(
+    "A unit that the command file names writes under that name until it is set free, and into the current folder "
+    "alone") {
   Files files("/study/a.comm", {}, "/here");
   files.name_output(37, "./curve.txt");
   CHECK(files.output(37, "resu", 8) == fs::path("/here/curve.txt"));
   CHECK(files.output(38, "resu", 8) == fs::path("/here/a.38.resu"));
   files.name_output(37, "");
   CHECK(files.output(37, "resu", 8) == fs::path("/here/a.37.resu"));
-  for (const char* elsewhere : {"/etc/passwd", "../b.txt", "deep/b.txt", ".."}) CHECK_THROWS_AS(files.name_output(37, elsewhere), DiagnosticError);
+  for (const char* elsewhere : {"/etc/passwd", "../b.txt", "deep/b.txt", ".."})
+    CHECK_THROWS_AS(files.name_output(37, elsewhere), DiagnosticError);
 }
 
 TEST_CASE("What the study reads is not written over") {

@@ -1,5 +1,5 @@
-// One error at a time, planted into every scene of ours: `comma check` must find it, alone, with the right code on the right
-// line, and with a hint where a near name exists.
+// One error at a time, planted into every scene of ours: `comma check` must find it, alone, with the right code on the
+// right line, and with a hint where a near name exists.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -37,10 +37,12 @@ std::string text_of(const fs::path& path) {
 // A folder with the scene's mesh, where mutants replace its command file.
 class Bench {
  public:
-  explicit Bench(const fs::path& scene) : folder_(fs::temp_directory_path() / fmt::format("comma-mutants-{}", getpid())) {
+  explicit Bench(const fs::path& scene)
+      : folder_(fs::temp_directory_path() / fmt::format("comma-mutants-{}", getpid())) {
     fs::create_directories(folder_);
     for (const auto& entry : fs::directory_iterator(scene.parent_path())) {
-      const bool other = entry.is_regular_file() && entry.path().extension() != ".comm" && entry.path().extension() != ".expected";
+      const bool other =
+          entry.is_regular_file() && entry.path().extension() != ".comm" && entry.path().extension() != ".expected";
       if (other) fs::copy_file(entry.path(), folder_ / entry.path().filename(), fs::copy_options::overwrite_existing);
     }
     file_ = folder_ / scene.filename();
@@ -79,7 +81,8 @@ std::vector<fs::path> scenes() {
   const fs::path root = COMMA_SOURCE_DIR;
   std::vector<fs::path> found = {root / "commands/tests/wrong/sound.comm"};
   // testcases/SCENE/NAME.comm; what lies deeper is part of a command file (bench).
-  for (auto entry = fs::recursive_directory_iterator(root / "testcases"); entry != fs::recursive_directory_iterator(); ++entry) {
+  for (auto entry = fs::recursive_directory_iterator(root / "testcases"); entry != fs::recursive_directory_iterator();
+       ++entry) {
     const fs::path& path = entry->path();
     if (entry.depth() == 1 && path.extension() == ".comm" && mesh_is_small(path)) found.push_back(path);
   }
@@ -90,7 +93,8 @@ std::vector<fs::path> scenes() {
 // Judges one mutant; what is not as it should be is told by a failing check with the mutant's own story.
 void judge(const Bench& bench, const Mutant& mutant, Tally& tally) {
   const auto errors = bench.errors_of(mutant.text);
-  std::string story = fmt::format("{} at line {}, wanted {} with hint \"{}\", got {} errors", mutant.kind, mutant.line, mutant.code, mutant.hint, errors.size());
+  std::string story = fmt::format("{} at line {}, wanted {} with hint \"{}\", got {} errors", mutant.kind, mutant.line,
+                                  mutant.code, mutant.hint, errors.size());
   for (const Diagnostic& error : errors) story += "\n" + render(error);
   INFO(story);
   ++tally.planted;
@@ -123,13 +127,15 @@ TEST_CASE("A syntax error hides no error elsewhere in the file, and makes none")
     for (std::size_t i = 0; i < pairs.size(); i += stride) {
       const Pair& pair = pairs[i];
       const auto errors = bench.errors_of(pair.text);
-      std::string story = fmt::format("{}: {} at line {} and {} at line {}, got {} errors", scene.filename().string(), pair.unreadable.kind, pair.unreadable.line,
-                                      pair.other.kind, pair.other.line, errors.size());
+      std::string story =
+          fmt::format("{}: {} at line {} and {} at line {}, got {} errors", scene.filename().string(),
+                      pair.unreadable.kind, pair.unreadable.line, pair.other.kind, pair.other.line, errors.size());
       for (const Diagnostic& error : errors) story += "\n" + render(error);
       INFO(story);
       const auto tells = [&](const Mutant& mutant) {
         return std::any_of(errors.begin(), errors.end(), [&](const Diagnostic& error) {
-          return error.code == mutant.code && error.span && error.span.file->position(error.span.begin).line == mutant.line;
+          return error.code == mutant.code && error.span &&
+                 error.span.file->position(error.span.begin).line == mutant.line;
         });
       };
       const bool both = errors.size() == 2 && tells(pair.unreadable) && tells(pair.other);
@@ -165,16 +171,33 @@ TEST_CASE("Each error that is planted into a scene is found, alone, in its place
   }
   Tally all;
   for (const auto& [kind, tally] : tallies) {
-    fmt::print("{:<32} planted {:>4}  found {:>4}  alone {:>4}  right code {:>4}  right line {:>4}  hints {}/{}\n", kind, tally.planted, tally.found,
-               tally.alone, tally.right_code, tally.right_line, tally.hinted, tally.hints_due);
+    fmt::print("{:<32} planted {:>4}  found {:>4}  alone {:>4}  right code {:>4}  right line {:>4}  hints {}/{}\n",
+               kind, tally.planted, tally.found, tally.alone, tally.right_code, tally.right_line, tally.hinted,
+               tally.hints_due);
     all.planted += tally.planted;
     all.found += tally.found;
   }
   fmt::print("mutants: {} planted, {} found\n", all.planted, all.found);
-  for (const char* kind : {"misspelt command", "misspelt keyword", "misspelt word", "missing compulsory keyword", "two exclusive keywords", "wrong type",
-                           "wrong concept type", "out of bounds", "unknown concept", "unknown group", "unknown component", "unknown field",
-                           "concept used before it exists", "too many occurrences", "too many values", "keyword given twice", "unbalanced bracket",
-                           "stray indentation", "missing comma", "string left open"}) {
+  for (const char* kind : {"misspelt command",
+                           "misspelt keyword",
+                           "misspelt word",
+                           "missing compulsory keyword",
+                           "two exclusive keywords",
+                           "wrong type",
+                           "wrong concept type",
+                           "out of bounds",
+                           "unknown concept",
+                           "unknown group",
+                           "unknown component",
+                           "unknown field",
+                           "concept used before it exists",
+                           "too many occurrences",
+                           "too many values",
+                           "keyword given twice",
+                           "unbalanced bracket",
+                           "stray indentation",
+                           "missing comma",
+                           "string left open"}) {
     INFO(kind);
     CHECK(tallies[kind].planted > 0);
   }

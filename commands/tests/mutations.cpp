@@ -47,7 +47,8 @@ std::string misspell(std::string word) {
 }
 
 bool all_of_kind(const KeywordPage& page, const std::function<bool(Kind)>& wanted) {
-  return !page.types.empty() && std::ranges::all_of(page.types, [&](const TypePage& type) { return wanted(type.kind); });
+  return !page.types.empty() &&
+         std::ranges::all_of(page.types, [&](const TypePage& type) { return wanted(type.kind); });
 }
 
 bool is_numeric(Kind kind) { return kind == Kind::real || kind == Kind::integer; }
@@ -69,8 +70,10 @@ bool has_block(const Statement& statement) {
     case StatementKind::for_:
     case StatementKind::function:
     case StatementKind::try_:
-    case StatementKind::with_: return true;
-    default: return false;
+    case StatementKind::with_:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -109,7 +112,8 @@ class Planter {
   void learn(const Statement& statement) {
     if (statement.kind != StatementKind::assign) return;
     const auto& assign = static_cast<const AssignStatement&>(statement);
-    if (assign.targets.front()->kind == NodeKind::name) ++assignments_[static_cast<const NameNode&>(*assign.targets.front()).id];
+    if (assign.targets.front()->kind == NodeKind::name)
+      ++assignments_[static_cast<const NameNode&>(*assign.targets.front()).id];
   }
 
   /// After its statement, a variable may stand for a concept of its type.
@@ -122,14 +126,17 @@ class Planter {
 
   void visit(const Statement& statement) {
     const CallNode* call = nullptr;
-    if (statement.kind == StatementKind::assign) call = command_of(static_cast<const AssignStatement&>(statement).value);
-    if (statement.kind == StatementKind::expression) call = command_of(static_cast<const ValueStatement&>(statement).value);
+    if (statement.kind == StatementKind::assign)
+      call = command_of(static_cast<const AssignStatement&>(statement).value);
+    if (statement.kind == StatementKind::expression)
+      call = command_of(static_cast<const ValueStatement&>(statement).value);
     if (call == nullptr || !catalogue_.has(callee_of(*call))) return;
     plant_in_statement(statement, *call);
     // A component is wrong with respect to a field: that of NOM_CHAM, or displacements.
     const std::string written_call = written(*call);
-    component_is_judged_ = written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
-                           (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
+    component_is_judged_ =
+        written_call.starts_with("AFFE_CHAR") || written_call.starts_with("DEFI_CONTACT") ||
+        (written_call.find("RESU") != std::string::npos && written_call.find("NOM_CHAM=") != std::string::npos);
     // Near it among those of the field is a displacement's; of another field all are listed.
     component_hint_ = count(written_call, "NOM_CHAM=") == count(written_call, "NOM_CHAM=\"DEPL\"") ? "DX" : "";
     const CommandPage& page = catalogue_.page(callee_of(*call));
@@ -138,14 +145,18 @@ class Planter {
 
   void plant_in_statement(const Statement& statement, const CallNode& call) {
     const std::string name = callee_of(call);
-    add("misspelt command", call.callee->begin, call.callee->end, misspell(name), "unknown-command", line_of(call.begin), name);
+    add("misspelt command", call.callee->begin, call.callee->end, misspell(name), "unknown-command",
+        line_of(call.begin), name);
     add_unreadable("unbalanced bracket", call.end - 1, call.end, "", "unclosed-bracket", line_of(call.callee->end));
     const std::string_view stray = after_block_ ? "bad-indentation" : "unexpected-indent";
-    if (statement.begin > 0) add_unreadable("stray indentation", statement.begin, statement.begin, "  ", std::string(stray), line_of(statement.begin));
+    if (statement.begin > 0)
+      add_unreadable("stray indentation", statement.begin, statement.begin, "  ", std::string(stray),
+                     line_of(statement.begin));
     for (std::size_t i = 1; i < call.arguments.size(); ++i) {
       const std::uint32_t comma = call.arguments[i - 1].value->end;
       const bool plain = text_[comma] == ',' && call.arguments[i].kind == CallNode::Kind::keyword;
-      if (plain) add_unreadable("missing comma", comma, comma + 1, " ", "missing-comma", line_of(call.arguments[i].name_begin));
+      if (plain)
+        add_unreadable("missing comma", comma, comma + 1, " ", "missing-comma", line_of(call.arguments[i].name_begin));
     }
     if (statement.kind == StatementKind::assign) plant_late_definition(static_cast<const AssignStatement&>(statement));
   }
@@ -161,7 +172,8 @@ class Planter {
     const std::string statement = text_.substr(assign.begin, assign.end - assign.begin);
     moved += std::string(static_cast<std::size_t>(std::ranges::count(statement, '\n')), '\n');
     moved += text_.substr(assign.end) + "\n" + statement + "\n";
-    mutants_.push_back({"concept used before it exists", moved, line_of(*use), "unknown-name", "", statement_, false, 0, 0, ""});
+    mutants_.push_back(
+        {"concept used before it exists", moved, line_of(*use), "unknown-name", "", statement_, false, 0, 0, ""});
   }
 
   /// Where a whole word stands next outside comments and quotes; scenes are plain enough for that.
@@ -205,7 +217,8 @@ class Planter {
     for (const CallNode* occurrence : occurrences) visit_level(*occurrence, inner, line_of(occurrence->begin));
     if (page.max_count == 1 && occurrences.size() == 1) {
       const std::string once = written(value);
-      add("too many occurrences", value.begin, value.end, "(" + once + ", " + once + ")", "too-many-occurrences", line_of(value.begin));
+      add("too many occurrences", value.begin, value.end, "(" + once + ", " + once + ")", "too-many-occurrences",
+          line_of(value.begin));
     }
   }
 
@@ -227,13 +240,15 @@ class Planter {
     return !pages.empty();
   }
 
-  void plant_at_keyword(const CallNode& call, std::size_t index, const KeywordPage& page, const Levels& levels, int line) {
+  void plant_at_keyword(const CallNode& call, std::size_t index, const KeywordPage& page, const Levels& levels,
+                        int line) {
     const Item& item = call.arguments[index];
     const bool nameable = item.name.size() > 2;
     if (!is_keyword(misspell(item.name), levels))
-      add("misspelt keyword", item.name_begin, item.name_end, misspell(item.name), "unknown-keyword", line_of(item.name_begin), nameable ? item.name : "");
-    add("keyword given twice", item.value->end, item.value->end, ", " + item.name + "=" + written(*item.value), "repeated-keyword",
-        line_of(item.value->end));
+      add("misspelt keyword", item.name_begin, item.name_end, misspell(item.name), "unknown-keyword",
+          line_of(item.name_begin), nameable ? item.name : "");
+    add("keyword given twice", item.value->end, item.value->end, ", " + item.name + "=" + written(*item.value),
+        "repeated-keyword", line_of(item.value->end));
     const bool always = std::ranges::any_of(levels, [&](const LevelPage* level) {
       return std::ranges::any_of(level->keywords, [&](const KeywordPage& keyword) { return &keyword == &page; });
     });
@@ -244,8 +259,8 @@ class Planter {
       const bool spread_follows = !last && call.arguments[index + 1].kind != CallNode::Kind::keyword;
       if (!spread_follows) {
         const std::string gap = text_.substr(item.value->end, end - item.value->end);
-        add("missing compulsory keyword", item.name_begin, end, std::string(static_cast<std::size_t>(std::ranges::count(gap, '\n')), '\n'),
-            "missing-keyword", line);
+        add("missing compulsory keyword", item.name_begin, end,
+            std::string(static_cast<std::size_t>(std::ranges::count(gap, '\n')), '\n'), "missing-keyword", line);
       }
     }
     for (const LevelPage* level : levels) plant_excluded(call, item, *level);
@@ -257,12 +272,14 @@ class Planter {
       const bool excludes = rule.kind == RulePage::Kind::exactly_one || rule.kind == RulePage::Kind::at_most_one;
       if (!excludes || std::ranges::find(rule.keywords, item.name) == rule.keywords.end()) continue;
       for (const std::string& other : rule.keywords) {
-        const bool given = std::ranges::any_of(call.arguments, [&](const Item& argument) { return argument.name == other; });
+        const bool given =
+            std::ranges::any_of(call.arguments, [&](const Item& argument) { return argument.name == other; });
         const auto page = std::ranges::find(level.keywords, other, &KeywordPage::name);
         if (given || page == level.keywords.end() || page->is_factor()) continue;
         const std::string value = sample_value(*page);
         if (value.empty()) continue;
-        add("two exclusive keywords", item.value->end, item.value->end, ", " + other + "=" + value, "exclusive-keywords", line_of(item.value->end));
+        add("two exclusive keywords", item.value->end, item.value->end, ", " + other + "=" + value,
+            "exclusive-keywords", line_of(item.value->end));
         return;
       }
     }
@@ -271,22 +288,27 @@ class Planter {
   void plant_at_value(const Item& item, const KeywordPage& page) {
     plant_wrong_type(item, page);
     plant_out_of_bounds(item, page);
-    if (item.value->kind == NodeKind::name) plant_unknown_concept(static_cast<const NameNode&>(*item.value), page, item);
+    if (item.value->kind == NodeKind::name)
+      plant_unknown_concept(static_cast<const NameNode&>(*item.value), page, item);
     each_text(*item.value, [&](const ConstantNode& node) { plant_misspelt_text(item, node, page); });
     if (page.max_count == 1 && item.value->kind == NodeKind::constant && page.types.front().kind != Kind::anything) {
       const std::string once = written(*item.value);
-      add("too many values", item.value->begin, item.value->end, "(" + once + ", " + once + ")", "wrong-count", line_of(item.value->begin));
+      add("too many values", item.value->begin, item.value->end, "(" + once + ", " + once + ")", "wrong-count",
+          line_of(item.value->begin));
     }
   }
 
   void plant_wrong_type(const Item& item, const KeywordPage& page) {
     const Node& value = *item.value;
-    if (all_of_kind(page, is_numeric)) add("wrong type", value.begin, value.end, "'WORD'", "wrong-type", line_of(value.begin));
-    if (all_of_kind(page, holds_text)) add("wrong type", value.begin, value.end, "3.5", "wrong-type", line_of(value.begin));
+    if (all_of_kind(page, is_numeric))
+      add("wrong type", value.begin, value.end, "'WORD'", "wrong-type", line_of(value.begin));
+    if (all_of_kind(page, holds_text))
+      add("wrong type", value.begin, value.end, "3.5", "wrong-type", line_of(value.begin));
     if (!all_of_kind(page, [](Kind kind) { return kind == Kind::concept_kind; })) return;
     add("wrong type", value.begin, value.end, "3.5", "wrong-type", line_of(value.begin));
     for (const auto& [name, type] : known_) {
-      const bool fits = std::ranges::any_of(page.types, [&](const TypePage& wanted) { return catalogue_.is_a(type, wanted.concept_type); });
+      const bool fits = std::ranges::any_of(
+          page.types, [&](const TypePage& wanted) { return catalogue_.is_a(type, wanted.concept_type); });
       if (fits) continue;
       add("wrong concept type", value.begin, value.end, name, "wrong-concept-type", line_of(value.begin));
       break;
@@ -297,8 +319,10 @@ class Planter {
     if (!all_of_kind(page, is_numeric) || page.max_count != 1) return;
     const bool whole = page.types.front().kind == Kind::integer;
     std::optional<double> outside;
-    if (page.bounds.above || page.bounds.at_least) outside = std::min(page.bounds.above.value_or(0.0), page.bounds.at_least.value_or(0.0)) - 7.0;
-    if (page.bounds.below || page.bounds.at_most) outside = 2.0 * std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0;
+    if (page.bounds.above || page.bounds.at_least)
+      outside = std::min(page.bounds.above.value_or(0.0), page.bounds.at_least.value_or(0.0)) - 7.0;
+    if (page.bounds.below || page.bounds.at_most)
+      outside = 2.0 * std::max(page.bounds.below.value_or(0.0), page.bounds.at_most.value_or(0.0)) + 7.0;
     constexpr double largest_integer = 9.0e18;
     if (!outside || !page.words.empty() || (whole && std::abs(*outside) > largest_integer)) return;
     const std::string value = whole ? fmt::format("{:.0f}", *outside) : fmt::format("{}", *outside);
@@ -308,7 +332,8 @@ class Planter {
   void plant_unknown_concept(const NameNode& name, const KeywordPage& page, const Item& item) {
     if (page.types.front().kind != Kind::concept_kind || !known_.contains(name.id)) return;
     const bool nameable = name.id.size() > 2;
-    add("unknown concept", name.begin, name.end, misspell(name.id), "unknown-name", line_of(item.value->begin), nameable ? name.id : "");
+    add("unknown concept", name.begin, name.end, misspell(name.id), "unknown-name", line_of(item.value->begin),
+        nameable ? name.id : "");
   }
 
   void plant_misspelt_text(const Item& item, const ConstantNode& node, const KeywordPage& page) {
@@ -316,22 +341,27 @@ class Planter {
     const std::string wrong = "\"" + misspell(word) + "\"";
     const int line = line_of(item.value->begin);
     const std::string hint = word.size() > 3 ? word : "";
-    if (text_[node.end - 1] == '"') add_unreadable("string left open", node.end - 1, node.end, "", "unterminated-string", line_of(node.begin));
+    if (text_[node.end - 1] == '"')
+      add_unreadable("string left open", node.end - 1, node.end, "", "unterminated-string", line_of(node.begin));
     if (!page.words.empty()) return add("misspelt word", node.begin, node.end, wrong, "unknown-word", line, hint);
     if (page.types.size() != 1) return;
     switch (page.types.front().kind) {
       case Kind::node_group:
-      case Kind::cell_group: return add("unknown group", node.begin, node.end, wrong, "unknown-group", line, hint);
-      case Kind::field: return add("unknown field", node.begin, node.end, wrong, "unknown-field", line, hint);
+      case Kind::cell_group:
+        return add("unknown group", node.begin, node.end, wrong, "unknown-group", line, hint);
+      case Kind::field:
+        return add("unknown field", node.begin, node.end, wrong, "unknown-field", line, hint);
       case Kind::component:
         if (!component_is_judged_) return;
         return add("unknown component", node.begin, node.end, "\"DW\"", "unknown-component", line, component_hint_);
-      default: return;
+      default:
+        return;
     }
   }
 
   static void each_text(const Node& value, const std::function<void(const ConstantNode&)>& visit) {
-    if (value.kind == NodeKind::constant && static_cast<const ConstantNode&>(value).value.is_text()) visit(static_cast<const ConstantNode&>(value));
+    if (value.kind == NodeKind::constant && static_cast<const ConstantNode&>(value).value.is_text())
+      visit(static_cast<const ConstantNode&>(value));
     if (value.kind != NodeKind::tuple && value.kind != NodeKind::list) return;
     for (const NodePtr& item : static_cast<const SequenceNode&>(value).items) each_text(*item, visit);
   }
@@ -339,12 +369,14 @@ class Planter {
   std::string written(const Node& node) const { return text_.substr(node.begin, node.end - node.begin); }
   int line_of(std::uint32_t offset) const { return source_->position(offset).line; }
 
-  void add(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement, std::string code, int line,
-           std::string hint = "") {
+  void add(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement, std::string code,
+           int line, std::string hint = "") {
     const std::string mutant = text_.substr(0, begin) + replacement + text_.substr(end);
-    mutants_.push_back({std::move(kind), mutant, line, std::move(code), std::move(hint), statement_, true, begin, end, replacement});
+    mutants_.push_back(
+        {std::move(kind), mutant, line, std::move(code), std::move(hint), statement_, true, begin, end, replacement});
   }
-  void add_unreadable(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement, std::string code, int line) {
+  void add_unreadable(std::string kind, std::uint32_t begin, std::uint32_t end, const std::string& replacement,
+                      std::string code, int line) {
     add(std::move(kind), begin, end, replacement, std::move(code), line);
     mutants_.back().readable = false;
   }
@@ -365,8 +397,8 @@ class Planter {
 /// The sound text with two of its parts replaced.
 std::string with_both(const std::string& text, const Mutant& a, const Mutant& b) {
   const auto& [first, second] = std::minmax(a, b, [](const Mutant& x, const Mutant& y) { return x.begin < y.begin; });
-  return text.substr(0, first.begin) + first.replacement + text.substr(first.end, second.begin - first.end) + second.replacement +
-         text.substr(second.end);
+  return text.substr(0, first.begin) + first.replacement + text.substr(first.end, second.begin - first.end) +
+         second.replacement + text.substr(second.end);
 }
 
 bool moves_lines(const std::string& text, const Mutant& mutant) {
@@ -375,12 +407,15 @@ bool moves_lines(const std::string& text, const Mutant& mutant) {
 }
 
 bool hangs_on_names(const Mutant& mutant) {
-  return mutant.kind != "misspelt command" && mutant.kind != "misspelt keyword" && mutant.kind != "missing compulsory keyword";
+  return mutant.kind != "misspelt command" && mutant.kind != "misspelt keyword" &&
+         mutant.kind != "missing compulsory keyword";
 }
 
 }  // namespace
 
-std::vector<Mutant> plant_errors(const std::string& text, const Catalogue& catalogue) { return Planter(text, catalogue).run(); }
+std::vector<Mutant> plant_errors(const std::string& text, const Catalogue& catalogue) {
+  return Planter(text, catalogue).run();
+}
 
 std::vector<Pair> plant_pairs(const std::string& text, const Catalogue& catalogue) {
   const std::vector<Mutant> mutants = plant_errors(text, catalogue);

@@ -26,10 +26,12 @@ std::string text_of(const fs::path& path) {
 class Workplace {
  public:
   explicit Workplace(const fs::path& scene)
-      : before_(fs::current_path()), folder_(fs::temp_directory_path() / ("comma-pruning-" + std::to_string(getpid()))) {
+      : before_(fs::current_path()),
+        folder_(fs::temp_directory_path() / ("comma-pruning-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
     for (const auto& entry : fs::directory_iterator(scene.parent_path())) {
-      if (entry.is_regular_file()) fs::copy_file(entry.path(), folder_ / entry.path().filename(), fs::copy_options::overwrite_existing);
+      if (entry.is_regular_file())
+        fs::copy_file(entry.path(), folder_ / entry.path().filename(), fs::copy_options::overwrite_existing);
     }
     fs::current_path(folder_);
   }

@@ -35,7 +35,8 @@ Keyword reals(const std::string& name, double value) { return keyword(name, Valu
 }  // namespace
 
 TEST_CASE("A VALE_CALC is judged to 1e-6 and a VALE_REFE to 1e-3 unless the file says otherwise") {
-  const auto verdicts = judge(test_with({reals("VALE_CALC", 2.0), reals("VALE_REFE", 2.001)}), "TEST_RESU", "x", 2.000001);
+  const auto verdicts =
+      judge(test_with({reals("VALE_CALC", 2.0), reals("VALE_REFE", 2.001)}), "TEST_RESU", "x", 2.000001);
   REQUIRE(verdicts.size() == 2);
   CHECK(verdicts[0].kind == "VALE_CALC");
   CHECK(verdicts[0].passed);
@@ -54,15 +55,16 @@ TEST_CASE("A relative test of zero is absolute unless an order of magnitude is g
   const auto plain = judge(test_with({reals("VALE_CALC", 0.0)}), "TEST_RESU", "x", 5e-7)[0];
   CHECK_FALSE(plain.relative);
   CHECK(plain.passed);
-  const auto scaled = judge(test_with({reals("VALE_CALC", 0.0), keyword("ORDRE_GRANDEUR", Value(1e10))}), "TEST_RESU", "x", 100.0)[0];
+  const auto scaled =
+      judge(test_with({reals("VALE_CALC", 0.0), keyword("ORDRE_GRANDEUR", Value(1e10))}), "TEST_RESU", "x", 100.0)[0];
   CHECK(scaled.relative);
   CHECK(scaled.error == Approx(1e-8));
   CHECK(scaled.passed);
 }
 
 TEST_CASE("CRITERE ABSOLU compares differences") {
-  const auto verdict =
-      judge(test_with({reals("VALE_CALC", 1e6), keyword("CRITERE", Value::tuple({Value("ABSOLU")}))}), "TEST_RESU", "x", 1e6 + 0.1)[0];
+  const auto verdict = judge(test_with({reals("VALE_CALC", 1e6), keyword("CRITERE", Value::tuple({Value("ABSOLU")}))}),
+                             "TEST_RESU", "x", 1e6 + 0.1)[0];
   CHECK_FALSE(verdict.passed);
   CHECK(verdict.error == Approx(0.1));
 }
@@ -72,7 +74,10 @@ TEST_CASE("A value that is not a number never passes") {
 }
 
 TEST_CASE("Integers and texts are compared as such") {
-  CHECK(judge(test_with({keyword("VALE_CALC_I", Value::tuple({Value(3)}))}), "TEST_RESU", "x", std::int64_t{3})[0].passed);
-  CHECK_FALSE(judge(test_with({keyword("VALE_CALC_I", Value::tuple({Value(3)}))}), "TEST_RESU", "x", std::int64_t{4})[0].passed);
-  CHECK(judge(test_with({keyword("VALE_CALC_K", Value::tuple({Value("A")}))}), "TEST_RESU", "x", std::string("A"))[0].passed);
+  CHECK(judge(test_with({keyword("VALE_CALC_I", Value::tuple({Value(3)}))}), "TEST_RESU", "x", std::int64_t{3})[0]
+            .passed);
+  CHECK_FALSE(judge(test_with({keyword("VALE_CALC_I", Value::tuple({Value(3)}))}), "TEST_RESU", "x", std::int64_t{4})[0]
+                  .passed);
+  CHECK(judge(test_with({keyword("VALE_CALC_K", Value::tuple({Value("A")}))}), "TEST_RESU", "x", std::string("A"))[0]
+            .passed);
 }

@@ -1,6 +1,6 @@
-// Every file of tests/wrong is wrong in one way (sound.comm in none). Beside NAME.comm stands NAME.expected: the exit status
-// and what a user reads, to the letter. COMMA_UPDATE_EXPECTED=1 in the environment writes them anew, to be read before they
-// are committed.
+// Every file of tests/wrong is wrong in one way (sound.comm in none). Beside NAME.comm stands NAME.expected: the exit
+// status and what a user reads, to the letter. COMMA_UPDATE_EXPECTED=1 in the environment writes them anew, to be read
+// before they are committed.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -26,7 +26,8 @@ std::string text_of(const fs::path& path) {
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
 }
 
 // What `comma run` says of a file, with the folder's path left out.

@@ -1,4 +1,5 @@
-// Evaluations of a formula a second, on one core. Run it as build/bin/formula_bench [EXPRESSION]; X and Y are its parameters.
+// Evaluations of a formula a second, on one core. Run it as build/bin/formula_bench [EXPRESSION]; X and Y are its
+// parameters.
 #include <fmt/format.h>
 
 #include <array>
@@ -20,8 +21,8 @@ void measure(const std::string& text) {
     sum += formula(arguments);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  fmt::print("{:<40} {:6.1f} million evaluations a second ({}; sum {:.6g})\n", text, 1e-6 * evaluations / elapsed.count(),
-             formula.is_compiled() ? "compiled" : "by the tree", sum);
+  fmt::print("{:<40} {:6.1f} million evaluations a second ({}; sum {:.6g})\n", text,
+             1e-6 * evaluations / elapsed.count(), formula.is_compiled() ? "compiled" : "by the tree", sum);
 }
 
 }  // namespace
@@ -31,5 +32,6 @@ int main(int argc, char** argv) {
     measure(argv[1]);
     return 0;
   }
-  for (const char* text : {"sin(X)*Y+2.0", "X*Y+2.0", "1.0 if X < 3.0 else X**2 / Y", "max(X, Y) % 0.25"}) measure(text);
+  for (const char* text : {"sin(X)*Y+2.0", "X*Y+2.0", "1.0 if X < 3.0 else X**2 / Y", "max(X, Y) % 0.25"})
+    measure(text);
 }

@@ -59,7 +59,8 @@ TEST_CASE("What is written into an array is stretched to the place and keeps the
 
 TEST_CASE("In-place operators change the array itself", "[array]") {
   CHECK(output_of("x = np.array([1., 2.])\ny = x\ny += 1\nprint(x.tolist(), y is x)") == "[2.0, 3.0] True\n");
-  CHECK(output_of("def f(v):\n  v *= 2.\n  v[0] = 7.\nx = np.array([1., 2.])\nf(x)\nprint(x.tolist())") == "[7.0, 4.0]\n");
+  CHECK(output_of("def f(v):\n  v *= 2.\n  v[0] = 7.\nx = np.array([1., 2.])\nf(x)\nprint(x.tolist())") ==
+        "[7.0, 4.0]\n");
   CHECK(output_of("a = np.array([[1., 2.], [3., 4.]])\na[0] -= 1\na[:, 1] /= 2\na[1, 0] **= 2\nprint(a.tolist())") ==
         "[[0.0, 0.5], [9.0, 2.0]]\n");
   CHECK(output_of("a = np.array([7, -7])\na //= 2\na %= 3\nprint(a.tolist())") == "[0, 2]\n");
@@ -86,39 +87,45 @@ TEST_CASE("Floor division and remainder are those of floats", "[array]") {
 }
 
 TEST_CASE("Signs, logic and matrix products of arrays", "[array]") {
-  CHECK(printed(R"(-np.array([1, -2]), +np.array([1., -2.]), -np.array([0.]))") ==
-        R"([-1  2] [ 1. -2.] [-0.])");
-  CHECK(printed(R"(~np.array([True, False]), ~np.array([0, 5]))") ==
-        R"([False  True] [-1 -6])");
-  CHECK(printed(R"((np.array([1, 2, 3]) > 1) & (np.array([1, 2, 3]) < 3), (np.array([1, 2]) > 1) | (np.array([1, 2]) < 2))") ==
-        R"([False  True False] [ True  True])");
+  CHECK(printed(R"(-np.array([1, -2]), +np.array([1., -2.]), -np.array([0.]))") == R"([-1  2] [ 1. -2.] [-0.])");
+  CHECK(printed(R"(~np.array([True, False]), ~np.array([0, 5]))") == R"([False  True] [-1 -6])");
+  CHECK(
+      printed(
+          R"((np.array([1, 2, 3]) > 1) & (np.array([1, 2, 3]) < 3), (np.array([1, 2]) > 1) | (np.array([1, 2]) < 2))") ==
+      R"([False  True False] [ True  True])");
   CHECK(printed(R"(np.array([6, 3]) & 5, np.array([6, 3]) ^ 5, np.array([True, False]) ^ True)") ==
         R"([4 1] [3 6] [False  True])");
-  CHECK(printed(R"(np.array([True, True]) + np.array([True, False]), np.array([True, False]) * 2, np.array([True, False]) / 2)") ==
-        R"([ True  True] [2 0] [0.5 0. ])");
-  CHECK(printed(R"(np.array([[1, 2], [3, 4]]) @ np.array([5, 6]), np.array([1, 2]) @ np.array([3, 4]), [1., 2.] @ np.array([[1, 2], [3, 4]]))") ==
-        R"([17 39] 11 [ 7. 10.])");
+  CHECK(
+      printed(
+          R"(np.array([True, True]) + np.array([True, False]), np.array([True, False]) * 2, np.array([True, False]) / 2)") ==
+      R"([ True  True] [2 0] [0.5 0. ])");
+  CHECK(
+      printed(
+          R"(np.array([[1, 2], [3, 4]]) @ np.array([5, 6]), np.array([1, 2]) @ np.array([3, 4]), [1., 2.] @ np.array([[1, 2], [3, 4]]))") ==
+      R"([17 39] 11 [ 7. 10.])");
   CHECK(printed(R"(np.array([[1], [2]]) @ np.array([[3, 4]]))") ==
         R"([[3 4]
  [6 8]])");
-  CHECK(printed(R"(1 / np.array([0, -1]) * np.array([0, 1]), 1 / (np.array([0]) * -1))") ==
-        R"([nan -1.] [inf])");
-  CHECK(printed(R"(np.array([1, 2]) == None, np.array([1, 2]) == [1, 3], 3 in np.array([[1, 2], [3, 4]]), 5 in np.array([1.]))") ==
-        R"([False False] [ True False] True False)");
-  CHECK(printed(R"(2 ** np.array([1, 2, 3]), np.array([4., 9.]) ** 0.5, 7 % np.array([3, -3]), -7 // np.array([2., 4.]))") ==
-        R"([2 4 8] [2. 3.] [ 1 -2] [-4. -2.])");
+  CHECK(printed(R"(1 / np.array([0, -1]) * np.array([0, 1]), 1 / (np.array([0]) * -1))") == R"([nan -1.] [inf])");
+  CHECK(
+      printed(
+          R"(np.array([1, 2]) == None, np.array([1, 2]) == [1, 3], 3 in np.array([[1, 2], [3, 4]]), 5 in np.array([1.]))") ==
+      R"([False False] [ True False] True False)");
+  CHECK(
+      printed(
+          R"(2 ** np.array([1, 2, 3]), np.array([4., 9.]) ** 0.5, 7 % np.array([3, -3]), -7 // np.array([2., 4.]))") ==
+      R"([2 4 8] [2. 3.] [ 1 -2] [-4. -2.])");
 }
 
 TEST_CASE("Masks and lists of indices pick numbers", "[array]") {
-  CHECK(printed(R"(np.array([1, 5, 2])[np.array([1, 5, 2]) > 1])") ==
-        R"([5 2])");
-  CHECK(printed(R"(np.array([[1, 2], [3, 4]])[np.array([[True, False], [True, True]])])") ==
-        R"([1 3 4])");
+  CHECK(printed(R"(np.array([1, 5, 2])[np.array([1, 5, 2]) > 1])") == R"([5 2])");
+  CHECK(printed(R"(np.array([[1, 2], [3, 4]])[np.array([[True, False], [True, True]])])") == R"([1 3 4])");
   CHECK(printed(R"(np.array([[1, 2], [3, 4], [5, 6]])[[0, 2]])") ==
         R"([[1 2]
  [5 6]])");
-  CHECK(printed(R"(np.array([[1, 2], [3, 4], [5, 6]])[[0, 2], 1], np.array([[1, 2], [3, 4], [5, 6]])[[0, 2], [1, 0]])") ==
-        R"([2 6] [2 5])");
+  CHECK(
+      printed(R"(np.array([[1, 2], [3, 4], [5, 6]])[[0, 2], 1], np.array([[1, 2], [3, 4], [5, 6]])[[0, 2], [1, 0]])") ==
+      R"([2 6] [2 5])");
   CHECK(printed(R"(np.array([[1, 2, 3], [4, 5, 6]])[:, [0, 2]])") ==
         R"([[1 3]
  [4 6]])");
@@ -134,8 +141,7 @@ TEST_CASE("Masks and lists of indices pick numbers", "[array]") {
         R"([] [[0]
  [1]
  [2]] [[0 1 2]])");
-  CHECK(printed(R"(np.arange(4)[range(1, 3)], np.arange(5)[np.arange(5) > 9])") ==
-        R"([1 2] [])");
+  CHECK(printed(R"(np.arange(4)[range(1, 3)], np.arange(5)[np.arange(5) > 9])") == R"([1 2] [])");
 }
 
 TEST_CASE("Arrays are written as numpy writes them", "[array]") {
@@ -147,12 +153,16 @@ TEST_CASE("Arrays are written as numpy writes them", "[array]") {
   CHECK(printed(R"(np.array([[1., 2.], [3.25, 4.]]))") ==
         R"([[1.   2.  ]
  [3.25 4.  ]])");
-  CHECK(printed(R"(np.array([1e-5, 1.]), np.array([1e10, 1.]), np.array([1e200, -1e-200]), np.array([123456.789, 0.001]))") ==
-        R"([1.e-05 1.e+00] [1.e+10 1.e+00] [ 1.e+200 -1.e-200] [1.23456789e+05 1.00000000e-03])");
+  CHECK(
+      printed(
+          R"(np.array([1e-5, 1.]), np.array([1e10, 1.]), np.array([1e200, -1e-200]), np.array([123456.789, 0.001]))") ==
+      R"([1.e-05 1.e+00] [1.e+10 1.e+00] [ 1.e+200 -1.e-200] [1.23456789e+05 1.00000000e-03])");
   CHECK(printed(R"(np.array([1/3, 2/3]), np.array([1e8]), np.array([12345678.9]), np.array([0.1 + 0.2]))") ==
         R"([0.33333333 0.66666667] [1.e+08] [12345678.9] [0.3])");
-  CHECK(printed(R"(np.array([float('nan'), 1.]), np.array([float('inf'), -float('inf'), 0.5]), np.array([float('nan')]))") ==
-        R"([nan  1.] [ inf -inf  0.5] [nan])");
+  CHECK(
+      printed(
+          R"(np.array([float('nan'), 1.]), np.array([float('inf'), -float('inf'), 0.5]), np.array([float('nan')]))") ==
+      R"([nan  1.] [ inf -inf  0.5] [nan])");
   CHECK(printed(R"(np.linspace(0, 1, 30))") ==
         R"([0.         0.03448276 0.06896552 0.10344828 0.13793103 0.17241379
  0.20689655 0.24137931 0.27586207 0.31034483 0.34482759 0.37931034
@@ -161,8 +171,7 @@ TEST_CASE("Arrays are written as numpy writes them", "[array]") {
  0.82758621 0.86206897 0.89655172 0.93103448 0.96551724 1.        ])");
   CHECK(printed(R"(repr(np.linspace(0, 1, 11)))") ==
         R"(array([0. , 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1. ]))");
-  CHECK(printed(R"(np.arange(2000))") ==
-        R"([   0    1    2 ... 1997 1998 1999])");
+  CHECK(printed(R"(np.arange(2000))") == R"([   0    1    2 ... 1997 1998 1999])");
   CHECK(printed(R"(np.zeros((40, 40)))") ==
         R"([[0. 0. 0. ... 0. 0. 0.]
  [0. 0. 0. ... 0. 0. 0.]
@@ -180,8 +189,7 @@ TEST_CASE("Arrays are written as numpy writes them", "[array]") {
   19009.5]
  [20010.  21010.5 22011.  23011.5 24012.  25012.5 26013.  27013.5 28014.
   29014.5]])");
-  CHECK(printed(R"('%s and {}'.format(np.array([1, 2])) % np.array([0.5]))") ==
-        R"([0.5] and [1 2])");
+  CHECK(printed(R"('%s and {}'.format(np.array([1, 2])) % np.array([0.5]))") == R"([0.5] and [1 2])");
 }
 
 TEST_CASE("What is written through masks and lists of indices lands in the array", "[array]") {
@@ -203,7 +211,8 @@ TEST_CASE("What arrays cannot do is told by name", "[array]") {
   CHECK(finding_of("np.zeros((2, 2, 2))").second == "arrays have one or two dimensions here, not 3");
   CHECK(finding_of("np.zeros((2, 2))[:, :, None]").second == "arrays have one or two dimensions here, not 3");
   CHECK(finding_of("np.arange(3)[[True, False]]").second ==
-        "boolean index did not match indexed array along dimension 0; dimension is 3 but corresponding boolean dimension is 2");
+        "boolean index did not match indexed array along dimension 0; dimension is 3 but corresponding boolean "
+        "dimension is 2");
   CHECK(finding_of("np.arange(3)[[0, 3]]").second == "index 3 is out of bounds for axis 0 with size 3");
   CHECK(finding_of("np.arange(3)[[0.5]]").second == "arrays used as indices must be of integer (or boolean) type");
   CHECK(finding_of("if np.arange(3) > 1: pass").first == "value-error");

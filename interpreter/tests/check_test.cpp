@@ -69,10 +69,9 @@ TEST_CASE("A call without a mistake is converted and completed with defaults") {
 
 TEST_CASE("A vector of numpy is taken as the tuple of its numbers") {
   Checker checker;
-  const CheckedCall checked = checker.check(
-      "LOAD", {{"MODEL", Value(checker.model)},
-               {"AXIS", make_value({{1.0, 0.0}, {2}, NumberType::integer})},
-               {"POINTS", make_value({{0.5, 1.0, 1.5}, {3}, NumberType::real})}});
+  const CheckedCall checked = checker.check("LOAD", {{"MODEL", Value(checker.model)},
+                                                     {"AXIS", make_value({{1.0, 0.0}, {2}, NumberType::integer})},
+                                                     {"POINTS", make_value({{0.5, 1.0, 1.5}, {3}, NumberType::real})}});
   REQUIRE(checker.diagnostics.items().empty());
   CHECK(checked.call.reals("AXIS") == std::vector<double>{1.0, 0.0});
   CHECK(checked.call.at("POINTS").value.is_tuple());
@@ -121,7 +120,8 @@ TEST_CASE("Factors may be one, several, or a dict") {
 
 TEST_CASE("The number that an editor gives a command passes with any") {
   Checker checker;
-  CHECK(checker.check("LOAD", {{"identifier", Value("3:1")}, {"MODEL", Value(checker.model)}, {"PRES", Value(3)}}).complete);
+  CHECK(checker.check("LOAD", {{"identifier", Value("3:1")}, {"MODEL", Value(checker.model)}, {"PRES", Value(3)}})
+            .complete);
   CHECK(checker.diagnostics.items().empty());
 }
 
@@ -183,7 +183,8 @@ TEST_CASE("A word that resembles none is told with all of them") {
 }
 
 TEST_CASE("A missing compulsory keyword is told at the command") {
-  expect(Checker().only_of("LOAD", {}), "missing-keyword", "LOAD needs MODEL", "LOAD", "write MODEL=...: The model that bears it.");
+  expect(Checker().only_of("LOAD", {}), "missing-keyword", "LOAD needs MODEL", "LOAD",
+         "write MODEL=...: The model that bears it.");
 }
 
 TEST_CASE("A text where a number is wanted") {
@@ -232,8 +233,8 @@ TEST_CASE("A number out of its bounds") {
 }
 
 TEST_CASE("An integer that the machine would cut off") {
-  expect(Checker().only({{"TUNE", factor({{"STEPS", Value(std::int64_t{4294967296})}})}}), "out-of-bounds", "LOAD/TUNE/STEPS must be an integer of 32 bits; it is 4294967296", "4294967296",
-         "2147483647 at most");
+  expect(Checker().only({{"TUNE", factor({{"STEPS", Value(std::int64_t{4294967296})}})}}), "out-of-bounds",
+         "LOAD/TUNE/STEPS must be an integer of 32 bits; it is 4294967296", "4294967296", "2147483647 at most");
 }
 
 TEST_CASE("Too few and too many values") {
@@ -366,10 +367,10 @@ TEST_CASE("An empty list of occurrences leaves a factor out") {
 }
 
 TEST_CASE("A page may let the user choose further names; their values pass as they were written") {
-  const LittleCatalogue little({
-      "command: FORMULA\ndoc: Makes a formula.\ncategory: functions\n"
-      "keywords: {TEXT: {type: text, doc: The expression., required: true}}\n"
-      "further: {type: anything, doc: A name of the expression.}"});
+  const LittleCatalogue little(
+      {"command: FORMULA\ndoc: Makes a formula.\ncategory: functions\n"
+       "keywords: {TEXT: {type: text, doc: The expression., required: true}}\n"
+       "further: {type: anything, doc: A name of the expression.}"});
   const auto check = [&](const Arguments& arguments, Diagnostics& diagnostics) {
     return check_call(written_call("FORMULA", arguments), little.catalogue->page("FORMULA"), *little.catalogue,
                       diagnostics, Severity::error);
@@ -402,10 +403,11 @@ TEST_CASE("A keyword of a block that may not be there is judged as far as it is 
 
 TEST_CASE("Where further keywords may be given that are not known, none is missing") {
   Checker checker;
-  CommandCall call = written_call("LOAD", {{"PRES", Value(-1.0)}, {"PHASE", Value(1.0)}, {"SPOT", factor({{"UNIT_X", Value(1.0)}})}});
+  CommandCall call =
+      written_call("LOAD", {{"PRES", Value(-1.0)}, {"PHASE", Value(1.0)}, {"SPOT", factor({{"UNIT_X", Value(1.0)}})}});
   call.open = true;
-  const CheckedCall checked =
-      check_call(call, checker.little.catalogue->page("LOAD"), *checker.little.catalogue, checker.diagnostics, Severity::error);
+  const CheckedCall checked = check_call(call, checker.little.catalogue->page("LOAD"), *checker.little.catalogue,
+                                         checker.diagnostics, Severity::error);
   std::vector<std::string> codes;
   for (const Diagnostic& item : checker.diagnostics.items()) codes.push_back(item.code);
   CHECK(codes == std::vector<std::string>{"out-of-bounds", "missing-one-of", "requires-keyword"});

@@ -90,7 +90,8 @@ TEST_CASE("What is changed in place by something made from it does not keep that
   CHECK(result.expired());
 }
 
-TEST_CASE("A chain of products, each made from the one before, takes one arrow a link, and is let go of without recursion") {
+TEST_CASE(
+    "A chain of products, each made from the one before, takes one arrow a link, and is let go of without recursion") {
   Builder builder;
   constexpr int links = 100000;
   ConceptPtr last = builder.add("MESH", {}, "MA");

@@ -1,5 +1,5 @@
-#include "interpreter/dict.hpp"
 #include "interpreter/evaluator.hpp"
+#include "interpreter/dict.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -191,7 +191,9 @@ TEST_CASE("A concept without data reads as unknown", "[evaluator]") {
 }
 
 TEST_CASE("What is not known has no text, within a list neither", "[evaluator]") {
-  const Run run("T = DEFI_FONCTION()\nx = [1, (T['DX'], 2)]\nprint(x)\nprint('values=' + str(x))\nprint(f'{x}')\nprint(repr(x))\nprint('end')\n");
+  const Run run(
+      "T = DEFI_FONCTION()\nx = [1, (T['DX'], 2)]\nprint(x)\nprint('values=' + "
+      "str(x))\nprint(f'{x}')\nprint(repr(x))\nprint('end')\n");
   CHECK(run.findings().empty());
   CHECK(run.output == "end\n");
 }
@@ -213,7 +215,8 @@ namespace {
 
 /// A concept with one method, and how it is asked for.
 struct Counted : ConceptData {
-  Value method(std::string_view name, const std::vector<Value>& arguments, const std::map<std::string, Value>& keywords) const override {
+  Value method(std::string_view name, const std::vector<Value>& arguments,
+               const std::map<std::string, Value>& keywords) const override {
     return name == "size" ? Value(3) : ConceptData::method(name, arguments, keywords);
   }
   std::vector<std::string> method_names() const override { return {"size"}; }
@@ -224,7 +227,9 @@ struct JudgingHost : RecordingHost {
   bool solves = true;
   std::vector<std::string> verdicts;
   bool runs_calls() const override { return solves; }
-  void judge(const Assertion& claim) override { verdicts.push_back(claim.method + (claim.holds ? " holds" : " fails: " + claim.message)); }
+  void judge(const Assertion& claim) override {
+    verdicts.push_back(claim.method + (claim.holds ? " holds" : " fails: " + claim.message));
+  }
 };
 
 std::vector<std::string> verdicts_of(const std::string& text, bool solves = true) {
@@ -232,7 +237,11 @@ std::vector<std::string> verdicts_of(const std::string& text, bool solves = true
   JudgingHost& judge = *host;
   judge.solves = solves;
   judge.failure = "no-convergence";
-  const Run run("from code_aster import CA\ntest = CA.TestCase()\ndef fail(what='x', key=None):\n    raise ValueError('bad ' + what)\n" + text, std::move(host));
+  const Run run(
+      "from code_aster import CA\ntest = CA.TestCase()\ndef fail(what='x', key=None):\n    raise ValueError('bad ' + "
+      "what)\n" +
+          text,
+      std::move(host));
   std::vector<std::string> verdicts = judge.verdicts;
   for (const std::string& finding : run.findings()) verdicts.push_back(finding);
   return verdicts;
@@ -243,27 +252,38 @@ std::vector<std::string> verdicts_of(const std::string& text, bool solves = true
 TEST_CASE("hasattr of a concept asks what it has, and does not know while it is not there", "[evaluator]") {
   auto host = std::make_unique<RecordingHost>();
   host->data = std::make_shared<Counted>();
-  const Run run("T = DEFI_FONCTION()\nprint(hasattr(T, 'size'), hasattr(T, 'sise'), hasattr(T, 'nom'), hasattr(T, 'getName'), T.getName(), T.userName, getattr(T, 'sise', 0), getattr(T, 'size')())\n",
-                std::move(host));
+  const Run run(
+      "T = DEFI_FONCTION()\nprint(hasattr(T, 'size'), hasattr(T, 'sise'), hasattr(T, 'nom'), hasattr(T, 'getName'), "
+      "T.getName(), T.userName, getattr(T, 'sise', 0), getattr(T, 'size')())\n",
+      std::move(host));
   CHECK(run.output == "True False True True T T 0 3\n");
   CHECK(run.findings().empty());
-  const Run unknown("T = DEFI_FONCTION()\nif hasattr(T, 'size'):\n    x = 1\nelse:\n    x = 2\nprint(T.getName())\nprint(x)\n");
+  const Run unknown(
+      "T = DEFI_FONCTION()\nif hasattr(T, 'size'):\n    x = 1\nelse:\n    x = 2\nprint(T.getName())\nprint(x)\n");
   CHECK(unknown.output == "T\n");
   CHECK(unknown.findings().empty());
 }
 
 TEST_CASE("What a block or a call has to raise is a claim as others are", "[evaluator]") {
   CHECK(verdicts_of("with test.assertRaises(ValueError):\n    fail()\n") == Findings{"assertRaises holds"});
-  CHECK(verdicts_of("with test.assertRaises((KeyError, LookupError)) as caught:\n    [][1]\ntest.assertEqual(str(caught.exception), 'list index out of range')\n") ==
+  CHECK(verdicts_of("with test.assertRaises((KeyError, LookupError)) as caught:\n    "
+                    "[][1]\ntest.assertEqual(str(caught.exception), 'list index out of range')\n") ==
         Findings{"assertRaises holds", "assertEqual holds"});
-  CHECK(verdicts_of("with test.assertRaises(ValueError):\n    x = 1\n") == Findings{"assertRaises fails: ValueError not raised"});
+  CHECK(verdicts_of("with test.assertRaises(ValueError):\n    x = 1\n") ==
+        Findings{"assertRaises fails: ValueError not raised"});
   CHECK(verdicts_of("with test.assertRaises(KeyError):\n    fail()\n") == Findings{"value-error 4:5"});
-  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'b.d [xy]$'):\n    fail()\n") == Findings{"assertRaisesRegex holds"});
-  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'good'):\n    fail()\n") == Findings{"assertRaisesRegex fails: 'bad x' does not hold 'good'"});
-  CHECK(verdicts_of("test.assertRaises(ValueError, fail, 'y', key=2)\ntest.assertRaisesRegex(ValueError, '^bad', fail)\ntest.assertRaises(ZeroDivisionError, lambda: 0)\n") ==
+  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'b.d [xy]$'):\n    fail()\n") ==
+        Findings{"assertRaisesRegex holds"});
+  CHECK(verdicts_of("with test.assertRaisesRegex(ValueError, 'good'):\n    fail()\n") ==
+        Findings{"assertRaisesRegex fails: 'bad x' does not hold 'good'"});
+  CHECK(verdicts_of("test.assertRaises(ValueError, fail, 'y', key=2)\ntest.assertRaisesRegex(ValueError, '^bad', "
+                    "fail)\ntest.assertRaises(ZeroDivisionError, lambda: 0)\n") ==
         Findings{"assertRaises holds", "assertRaisesRegex holds", "assertRaises fails: ZeroDivisionError not raised"});
-  CHECK(verdicts_of("def f():\n    with test.assertRaises(CA.AsterError):\n        STAT_NON_LINE()\n    return 1\nx = f()\n") == Findings{"assertRaises holds"});
-  CHECK(verdicts_of("test.assertIsInstance(1, (int, str))\ntest.assertNotIsInstance('a', int)\ntest.assertIsInstance(1.5, int)\n") ==
+  CHECK(verdicts_of(
+            "def f():\n    with test.assertRaises(CA.AsterError):\n        STAT_NON_LINE()\n    return 1\nx = f()\n") ==
+        Findings{"assertRaises holds"});
+  CHECK(verdicts_of("test.assertIsInstance(1, (int, str))\ntest.assertNotIsInstance('a', "
+                    "int)\ntest.assertIsInstance(1.5, int)\n") ==
         Findings{"assertIsInstance holds", "assertNotIsInstance holds", "assertIsInstance fails: "});
   CHECK(verdicts_of("with 3:\n    x = 1\n") == Findings{"not-supported 5:1"});
   CHECK(verdicts_of("with open('x') as f:\n    y = f.read()\nz = y\n") == Findings{"not-supported 5:6"});
@@ -292,25 +312,31 @@ TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
   CHECK(diagnostics.items().empty());
 }
 
-TEST_CASE("_F(...) is a dict: it can be looked through, changed and extended before a command reads it", "[evaluator]") {
+TEST_CASE("_F(...) is a dict: it can be looked through, changed and extended before a command reads it",
+          "[evaluator]") {
   const Run run(
       "f = _F(GROUP_MA='TOP', PRES=1.0)\n"
       "f['PRES'] = 2.0\n"
       "f.update(NIVE=3)\n"
-      "print(isinstance(f, dict), isinstance(f, _F), isinstance({}, _F), f.get('PRES'), list(f), len(f), 'NIVE' in f, f == {'GROUP_MA': 'TOP', 'PRES': 2.0, 'NIVE': 3})\n"
+      "print(isinstance(f, dict), isinstance(f, _F), isinstance({}, _F), f.get('PRES'), list(f), len(f), 'NIVE' in f, "
+      "f == {'GROUP_MA': 'TOP', 'PRES': 2.0, 'NIVE': 3})\n"
       "g = _F(f, PRES=4.0)\n"
       "del g['NIVE']\n"
       "print(f, g, dict(g), {**g, 'X': 1}, [k for k, v in g.items() if v == 4.0])\n"
       "AFFE_MODELE(AFFE=g)\n");
   CHECK(run.output ==
         "True True False 2.0 ['GROUP_MA', 'PRES', 'NIVE'] 3 True True\n"
-        "_F(GROUP_MA='TOP', PRES=2.0, NIVE=3) _F(GROUP_MA='TOP', PRES=4.0) {'GROUP_MA': 'TOP', 'PRES': 4.0} {'GROUP_MA': 'TOP', 'PRES': 4.0, 'X': 1} ['PRES']\n");
+        "_F(GROUP_MA='TOP', PRES=2.0, NIVE=3) _F(GROUP_MA='TOP', PRES=4.0) {'GROUP_MA': 'TOP', 'PRES': 4.0} "
+        "{'GROUP_MA': 'TOP', 'PRES': 4.0, 'X': 1} ['PRES']\n");
   CHECK(run.host->calls.back().arguments[0].value->repr() == "_F(GROUP_MA='TOP', PRES=4.0)");
 }
 
 TEST_CASE("sys.exit with a status or a text ends the file with an error", "[evaluator]") {
-  const auto [text, message] = GENERATE(table<std::string, std::string>({{"3", "the file ends itself with status 3"}, {"'too stiff'", "the file ends itself: too stiff"}}));
-  for (const std::string& way : {"import sys\nsys.exit(" + text + ")\n", "def f():\n  raise SystemExit(" + text + ")\ntry:\n  f()\nexcept Exception:\n  pass\n"}) {
+  const auto [text, message] = GENERATE(table<std::string, std::string>(
+      {{"3", "the file ends itself with status 3"}, {"'too stiff'", "the file ends itself: too stiff"}}));
+  for (const std::string& way :
+       {"import sys\nsys.exit(" + text + ")\n",
+        "def f():\n  raise SystemExit(" + text + ")\ntry:\n  f()\nexcept Exception:\n  pass\n"}) {
     const Run run(way + "print(2)\n");
     REQUIRE(run.evaluator->failed_exit());
     CHECK(run.evaluator->failed_exit()->message == message);

@@ -47,7 +47,8 @@ Bound bind(const Arguments& arguments, const std::vector<std::pair<std::string, 
 }  // namespace
 
 TEST_CASE("A variable of the file that an expression uses becomes an argument of the call") {
-  const Bound bound = bind({{"NAMES", Value("X")}, {"VALUE", Value("a * X + e")}}, {{"a", Value(3.0)}, {"e", Value(1.0)}, {"b", Value(2.0)}});
+  const Bound bound = bind({{"NAMES", Value("X")}, {"VALUE", Value("a * X + e")}},
+                           {{"a", Value(3.0)}, {"e", Value(1.0)}, {"b", Value(2.0)}});
   REQUIRE(bound.sound);
   REQUIRE(bound.find("a") != nullptr);
   CHECK(bound.find("a")->as_real() == 3.0);
@@ -56,8 +57,9 @@ TEST_CASE("A variable of the file that an expression uses becomes an argument of
 }
 
 TEST_CASE("What the call gives and what it names as parameter is not looked for") {
-  const Bound bound = bind({{"NAMES", Value::tuple({Value("X"), Value("Y")})}, {"VALUE", Value("a * X + Y")}, {"a", Value(5.0)}},
-                           {{"a", Value(3.0)}, {"X", Value(7.0)}, {"Y", Value(8.0)}});
+  const Bound bound =
+      bind({{"NAMES", Value::tuple({Value("X"), Value("Y")})}, {"VALUE", Value("a * X + Y")}, {"a", Value(5.0)}},
+           {{"a", Value(3.0)}, {"X", Value(7.0)}, {"Y", Value(8.0)}});
   REQUIRE(bound.sound);
   CHECK(bound.find("a")->as_real() == 5.0);
   CHECK(bound.call.arguments.size() == 3);

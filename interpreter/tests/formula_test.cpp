@@ -28,15 +28,24 @@ class Writer {
   std::string expression(int depth) {
     if (depth == 0) return leaf();
     switch (pick(9)) {
-      case 0: return "(" + expression(depth - 1) + any(arithmetic) + expression(depth - 1) + ")";
-      case 1: return "(" + expression(depth - 1) + any(arithmetic) + leaf() + ")";
-      case 2: return std::string(any(unary)) + "(" + expression(depth - 1) + ")";
-      case 3: return std::string(any(binary)) + "(" + expression(depth - 1) + ", " + expression(depth - 1) + ")";
-      case 4: return "(-" + expression(depth - 1) + ")";
-      case 5: return "(" + expression(depth - 1) + " if " + condition(depth - 1) + " else " + expression(depth - 1) + ")";
-      case 6: return "(" + expression(depth - 1) + any(logical) + expression(depth - 1) + ")";
-      case 7: return "(" + condition(depth - 1) + " + " + expression(depth - 1) + ")";
-      default: return "(not " + expression(depth - 1) + ")";
+      case 0:
+        return "(" + expression(depth - 1) + any(arithmetic) + expression(depth - 1) + ")";
+      case 1:
+        return "(" + expression(depth - 1) + any(arithmetic) + leaf() + ")";
+      case 2:
+        return std::string(any(unary)) + "(" + expression(depth - 1) + ")";
+      case 3:
+        return std::string(any(binary)) + "(" + expression(depth - 1) + ", " + expression(depth - 1) + ")";
+      case 4:
+        return "(-" + expression(depth - 1) + ")";
+      case 5:
+        return "(" + expression(depth - 1) + " if " + condition(depth - 1) + " else " + expression(depth - 1) + ")";
+      case 6:
+        return "(" + expression(depth - 1) + any(logical) + expression(depth - 1) + ")";
+      case 7:
+        return "(" + condition(depth - 1) + " + " + expression(depth - 1) + ")";
+      default:
+        return "(not " + expression(depth - 1) + ")";
     }
   }
 
@@ -49,8 +58,9 @@ class Writer {
   static constexpr std::array arithmetic = {" + ", " - ", " * ", " / ", "**", " // ", " % "};
   static constexpr std::array compared = {" < ", " <= ", " > ", " >= ", " == ", " != "};
   static constexpr std::array logical = {" and ", " or "};
-  static constexpr std::array unary = {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log",
-                                       "log10", "sqrt", "abs", "fabs", "floor", "ceil", "int", "float", "round"};
+  static constexpr std::array unary = {"sin",  "cos",   "tan",  "asin", "acos",  "atan", "sinh",
+                                       "cosh", "tanh",  "exp",  "log",  "log10", "sqrt", "abs",
+                                       "fabs", "floor", "ceil", "int",  "float", "round"};
   static constexpr std::array binary = {"min", "max", "pow", "hypot"};
   static constexpr std::array leaves = {"X", "Y", "Z", "INST", "2", "3.0", "0.5", "pi", "e", "10", "-1", "1e-3"};
 
@@ -200,8 +210,10 @@ TEST_CASE("A formula calls functions that the file defines, with the file's own 
   Diagnostics diagnostics;
   RecordingHost host;
   Evaluator evaluator(host, diagnostics, [](std::string_view) {});
-  const auto file = std::make_shared<const SourceFile>(
-      "f.comm", "scale = 3.0\ndef f(x, power=2):\n  return scale * x**power\ndef bad(x):\n  return 1 / (x - x)\ndef word(x):\n  return 'a'\n");
+  const auto file =
+      std::make_shared<const SourceFile>("f.comm",
+                                         "scale = 3.0\ndef f(x, power=2):\n  return scale * x**power\ndef bad(x):\n  "
+                                         "return 1 / (x - x)\ndef word(x):\n  return 'a'\n");
   evaluator.run(parse(file, diagnostics));
   REQUIRE_FALSE(diagnostics.has_errors());
   const auto bound = [&](const char* name) { return FormulaBindings{{name, *evaluator.global(name)}}; };
@@ -256,7 +268,8 @@ TEST_CASE("A function of the file that fails in a formula has been called once")
   Diagnostics diagnostics;
   RecordingHost host;
   Evaluator evaluator(host, diagnostics, [](std::string_view) {});
-  const auto file = std::make_shared<const SourceFile>("f.comm", "calls = []\ndef f(x):\n  calls.append(x)\n  raise ValueError('no')\n");
+  const auto file = std::make_shared<const SourceFile>(
+      "f.comm", "calls = []\ndef f(x):\n  calls.append(x)\n  raise ValueError('no')\n");
   evaluator.run(parse(file, diagnostics));
   const Formula formula("f(X) + 1.0", {"X"}, {{"f", *evaluator.global("f")}});
   REQUIRE(formula.is_compiled());

@@ -141,7 +141,9 @@ TEST_CASE("A check runs what is cheap and solves, prints and verifies nothing") 
   CHECK(result.as_concept()->data == nullptr);
 }
 
-TEST_CASE("Calls that solve are prepared before the first of them runs, unless they wait for one that solves, or the file catches what goes wrong") {
+TEST_CASE(
+    "Calls that solve are prepared before the first of them runs, unless they wait for one that solves, or the file "
+    "catches what goes wrong") {
   const bool check_only = GENERATE(true, false);
   World world({.check_only = check_only});
   CommandTable preparations;
@@ -199,7 +201,8 @@ TEST_CASE("Forcing a concept runs what it depends on, once, and nothing else") {
   CHECK(world.log == Log{"MESH MA", "MODEL MO", "SOLVE R", "TABLE T", "MESH MB"});
 }
 
-TEST_CASE("A call outside of try that fails when it is forced is told once and not thrown; what depends on it does not run") {
+TEST_CASE(
+    "A call outside of try that fails when it is forced is told once and not thrown; what depends on it does not run") {
   World world;
   world.failing = "R";
   const bool later_try = GENERATE(false, true);
@@ -308,7 +311,9 @@ TEST_CASE("What only writes is left out with an alarm where comma does not suppo
 
 TEST_CASE("A command that only writes may find out itself that it cannot") {
   World world;
-  world.commands["PRINT"] = [](const Call&) -> std::shared_ptr<ConceptData> { throw DiagnosticError("unsupported", "no such format"); };
+  world.commands["PRINT"] = [](const Call&) -> std::shared_ptr<ConceptData> {
+    throw DiagnosticError("unsupported", "no such format");
+  };
   const Value mesh = world.call("MESH", {}, "MA");
   world.call("PRINT", {{"WHAT", mesh}});
   world.call("VERIFY", {{"WHAT", mesh}});

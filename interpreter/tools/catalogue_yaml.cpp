@@ -108,8 +108,8 @@ class PageBuilder {
   Json page(Json json) const {
     json.erase("shapes");  // a place for YAML anchors
     allow(json, "the page",
-          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "destroys", "supported",
-           "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
+          {"command", "doc", "category", "example", "note", "produces", "cost", "role", "standalone", "destroys",
+           "supported", "reuse", "keywords", "unsupported", "further", "rules", "blocks", "use"});
     demand(json, "the page", {"command", "doc", "category"});
     choose(json, "cost", {"cheap", "solve"});
     choose(json, "role", {"value", "verdict", "output", "naming", "setup"});
@@ -230,9 +230,9 @@ class PageBuilder {
     if (!json.is_object()) refuse(where, "a mapping with type and doc is expected");
     json = level(std::move(json), where);
     if (json.contains("unsupported_words")) add_unsupported_words(json);
-    allow(json, where,
-          {"type", "doc", "unit", "aliases", "min", "max", "words", "above", "at_least", "below", "at_most", "required",
-           "supported", "no_effect", "counts_when", "default", "keywords", "rules", "blocks", "further"});
+    allow(json, where, {"type",        "doc",      "unit",     "aliases", "min",      "max",       "words",
+                        "above",       "at_least", "below",    "at_most", "required", "supported", "no_effect",
+                        "counts_when", "default",  "keywords", "rules",   "blocks",   "further"});
     demand(json, where, {"type", "doc"});
     if (json["type"] == "factor" && !json.contains("keywords") && !json.contains("blocks"))
       refuse(where, "a factor lists its keywords ('keywords: {}' when it has none)");

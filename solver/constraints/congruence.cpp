@@ -10,7 +10,8 @@ namespace {
 
 using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// What is left of contributions that cancel, as those of a body that relations make rigid do, is nothing: a pivot of it would hold the body.
+/// What is left of contributions that cancel, as those of a body that relations make rigid do, is nothing: a pivot of
+/// it would hold the body.
 constexpr double nothing_left = 1e-13;
 
 struct WeightedRow {
@@ -47,7 +48,9 @@ std::vector<int> count_by_column(const SymmetricMatrix& pattern, const RowMajor&
 }
 
 double contribution_count(const SymmetricMatrix& pattern, const RowMajor& transformation) {
-  const auto width = [&](int row) { return static_cast<double>(transformation.outerIndexPtr()[row + 1] - transformation.outerIndexPtr()[row]); };
+  const auto width = [&](int row) {
+    return static_cast<double>(transformation.outerIndexPtr()[row + 1] - transformation.outerIndexPtr()[row]);
+  };
   double count = 0.0;
   for (int j = 0; j < pattern.outerSize(); ++j)
     for (SymmetricMatrix::InnerIterator it(pattern, j); it; ++it) count += width(static_cast<int>(it.row())) * width(j);
@@ -127,7 +130,8 @@ SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
     long double value = 0.0L;
     double size = 0.0;
   };
-  // In extended precision translations, over which rows add up to exactly zero, leave nothing beside what really holds a rigid body.
+  // In extended precision translations, over which rows add up to exactly zero, leave nothing beside what really holds
+  // a rigid body.
   std::vector<Sum> sums(static_cast<std::size_t>(result.nonZeros()));
   for (std::size_t k = 0; k < sources_.size(); ++k) {
     Sum& sum = sums[static_cast<std::size_t>(targets_[k])];
@@ -136,7 +140,8 @@ SymmetricMatrix Congruence::apply(const SymmetricMatrix& matrix) const {
     sum.size += std::abs(static_cast<double>(part));
   }
   for (std::size_t entry = 0; entry < sums.size(); ++entry)
-    if (std::abs(sums[entry].value) > nothing_left * sums[entry].size) to[entry] = static_cast<double>(sums[entry].value);
+    if (std::abs(sums[entry].value) > nothing_left * sums[entry].size)
+      to[entry] = static_cast<double>(sums[entry].value);
   return result;
 }
 

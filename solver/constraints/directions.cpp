@@ -115,21 +115,22 @@ std::map<int, Eigen::Vector3d> mean_tangents(const Mesh& mesh, std::span<const i
   std::map<int, Eigen::Vector3d> tangents;
   for (const int cell : cells) {
     if (dimension(mesh.cell_types[cell]) != 1)
-      throw Error("not-an-edge", fmt::format("cell {}, a {}, has no tangent", mesh.cell_name(cell), name_of(mesh.cell_types[cell])));
+      throw Error("not-an-edge",
+                  fmt::format("cell {}, a {}, has no tangent", mesh.cell_name(cell), name_of(mesh.cell_types[cell])));
     const auto nodes = mesh.cell(cell);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      tangents.try_emplace(nodes[a], Eigen::Vector3d::Zero()).first->second += point_at(mesh, cell, static_cast<int>(a)).tangents.col(0).normalized();
+      tangents.try_emplace(nodes[a], Eigen::Vector3d::Zero()).first->second +=
+          point_at(mesh, cell, static_cast<int>(a)).tangents.col(0).normalized();
   }
   for (auto& [node, tangent] : tangents) {
     if (!(tangent.norm() > negligible_component))
-      throw Error("degenerate-facet", fmt::format("the edges at node {} run opposite ways", mesh.node_name(node)), "give them one direction");
+      throw Error("degenerate-facet", fmt::format("the edges at node {} run opposite ways", mesh.node_name(node)),
+                  "give them one direction");
     tangent = cleaned(tangent.normalized());
   }
   return tangents;
 }
 
-Eigen::Vector3d plane_tangent(const Eigen::Vector3d& normal) {
-  return {-normal[1], normal[0], 0.0};
-}
+Eigen::Vector3d plane_tangent(const Eigen::Vector3d& normal) { return {-normal[1], normal[0], 0.0}; }
 
 }  // namespace comma::solver

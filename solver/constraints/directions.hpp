@@ -32,8 +32,9 @@ int beam_at_node(const Model& model, int node, std::span<const int> candidates =
 /// Error `not-a-skin` for a cell without normal (an edge in space, a solid), `degenerate-facet` where normals cancel.
 std::map<int, Eigen::Vector3d> mean_normals(const Mesh& mesh, std::span<const int> cells);
 
-/// Unit tangent at each node of edges: the mean of the unit tangents that the edges have there, from their first node to their second (U4.44.01,
-/// ARETE_IMPO). Throws Error `not-an-edge` for another cell, `degenerate-facet` where tangents cancel.
+/// Unit tangent at each node of edges: the mean of the unit tangents that the edges have there, from their first node
+/// to their second (U4.44.01, ARETE_IMPO). Throws Error `not-an-edge` for another cell, `degenerate-facet` where
+/// tangents cancel.
 std::map<int, Eigen::Vector3d> mean_tangents(const Mesh& mesh, std::span<const int> cells);
 
 /// The tangent of a plane skin to its normal: the normal turned by +90 degrees.

@@ -62,9 +62,7 @@ double Elimination::Condition::value(double time) const {
   return reference + (multiplier ? multiplier(time) * prescribed : prescribed);
 }
 
-std::string Elimination::Condition::origin() const {
-  return relation->origin ? *relation->origin : "origin unknown";
-}
+std::string Elimination::Condition::origin() const { return relation->origin ? *relation->origin : "origin unknown"; }
 
 Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads) {
   std::vector<SparseRow> rows;
@@ -82,7 +80,15 @@ SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const
                                      const LinearRelation& relation) {
   const Point at = relation.terms.empty() ? Point{} : mesh.nodes[relation.terms.front().node];
   const bool constant = !relation.function && !applied.multiplier && !applied.differential;
-  conditions_.push_back({applied.load, &relation, applied.multiplier, at, unit_of(relation), describe(relation, mesh), constant, {}, 0.0});
+  conditions_.push_back({applied.load,
+                         &relation,
+                         applied.multiplier,
+                         at,
+                         unit_of(relation),
+                         describe(relation, mesh),
+                         constant,
+                         {},
+                         0.0});
   std::map<int, double> coefficients;
   for (const auto& term : relation.terms) {
     const int dof = dofs.dof(term.node, term.component);
@@ -147,7 +153,8 @@ Elimination::Scales Elimination::scales_of(const Eigen::VectorXd& values) const 
   return scales;
 }
 
-void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& values, const Scales& scales, double time) const {
+void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& values, const Scales& scales,
+                        double time) const {
   double sum = 0.0;
   double largest = 0.0;
   double scale = 0.0;
@@ -156,7 +163,8 @@ void Elimination::check(const SparseRow& dependency, const Eigen::VectorXd& valu
     largest = std::max(largest, std::abs(factor * values[condition]));
     scale = std::max(scale, scales[static_cast<std::size_t>(conditions_[static_cast<std::size_t>(condition)].unit)]);
   }
-  // Beside values of 1, a value of 1e-17 is a zero that carries rounding, as a cosine leaves it; beside a pressure of 1e9 it is not.
+  // Beside values of 1, a value of 1e-17 is a zero that carries rounding, as a cosine leaves it; beside a pressure of
+  // 1e9 it is not.
   const double rounding = std::numeric_limits<double>::epsilon() * scale;
   if (!(std::abs(sum) <= contradiction_tolerance * largest + rounding)) contradict(dependency, values, time);
 }

@@ -43,8 +43,8 @@ class Elimination {
   /// The full degree of freedom behind each reduced one (for messages); its row of T is a unit row.
   std::span<const int> kept() const { return kept_; }
 
-  /// T^T K T, lower triangle; the pattern depends on K's pattern alone. Its plan is made anew when K's pattern changes. Where conditions
-  /// only hold single unknowns, it is a part of K and takes K's memory over.
+  /// T^T K T, lower triangle; the pattern depends on K's pattern alone. Its plan is made anew when K's pattern changes.
+  /// Where conditions only hold single unknowns, it is a part of K and takes K's memory over.
   SymmetricMatrix reduce(SymmetricMatrix stiffness) const;
   /// T^T W T of a skew-symmetric W, its strict lower triangle.
   SkewMatrix reduce_skew(const SkewMatrix& stiffness) const;
@@ -85,7 +85,8 @@ class Elimination {
   std::vector<Condition> conditions_;
   std::vector<SparseRow> dependencies_;
   std::vector<int> kept_;
-  std::vector<int> selected_;  ///< the reduced unknown of each degree of freedom (-1: held) where T does nothing else; empty otherwise
+  std::vector<int> selected_;  ///< the reduced unknown of each degree of freedom (-1: held) where T does nothing else;
+                               ///< empty otherwise
   Eigen::SparseMatrix<double> transformation_;
   Eigen::SparseMatrix<double> offsets_;  ///< G, full_size x conditions
   mutable std::unique_ptr<Congruence> plan_;

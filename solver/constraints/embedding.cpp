@@ -153,7 +153,8 @@ LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int 
     relation.terms.push_back({host[a], static_cast<Component>(c), -weight});
     for (int k = 0; c < 3 && k < 3; ++k) {
       const double turned = Eigen::Vector3d::Unit(k).cross(arm)[c];
-      if (std::abs(turned) > negligible_weight * arm.norm()) relation.terms.push_back({host[a], static_cast<Component>(3 + k), -weight * turned});
+      if (std::abs(turned) > negligible_weight * arm.norm())
+        relation.terms.push_back({host[a], static_cast<Component>(3 + k), -weight * turned});
     }
   }
   return relation;
@@ -161,13 +162,17 @@ LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int 
 
 }  // namespace
 
-std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs, std::span<const Embedding> embeddings, const Origin& origin) {
+std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                      std::span<const Embedding> embeddings, const Origin& origin) {
   std::vector<LinearRelation> relations;
   for (const Embedding& embedding : embeddings) {
     if (dofs.dof(mesh.cell(embedding.cell)[0], Component::drx) < 0)
-      throw Error("unknown-dof", fmt::format("cell {} is to hold nodes as a shell does, but its nodes have no rotations", mesh.cell_name(embedding.cell)));
+      throw Error("unknown-dof",
+                  fmt::format("cell {} is to hold nodes as a shell does, but its nodes have no rotations",
+                              mesh.cell_name(embedding.cell)));
     for (int c = 0; c < 6; ++c)
-      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0) relations.push_back(shell_relation(mesh, embedding, c, origin));
+      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0)
+        relations.push_back(shell_relation(mesh, embedding, c, origin));
   }
   return relations;
 }

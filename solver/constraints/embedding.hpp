@@ -28,9 +28,11 @@ std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::
 std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
                                                 std::span<const Embedding> embeddings, const Origin& origin);
 
-/// The same to shells, whose points move with the rotations of their nodes: with P the place of the cell that is nearest to the node M,
-/// u(M) = sum of weight * (u_i + rotation_i x PM), and rotation(M) = sum of weight * rotation_i where M has rotations (TYPE_RACCORD='COQUE',
-/// 'MASSIF_COQUE'). Throws Error `unknown-dof` for a cell whose nodes have no rotations.
-std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs, std::span<const Embedding> embeddings, const Origin& origin);
+/// The same to shells, whose points move with the rotations of their nodes: with P the place of the cell that is
+/// nearest to the node M, u(M) = sum of weight * (u_i + rotation_i x PM), and rotation(M) = sum of weight * rotation_i
+/// where M has rotations (TYPE_RACCORD='COQUE', 'MASSIF_COQUE'). Throws Error `unknown-dof` for a cell whose nodes have
+/// no rotations.
+std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                      std::span<const Embedding> embeddings, const Origin& origin);
 
 }  // namespace comma::solver

@@ -32,7 +32,8 @@ struct RigidBody {
   bool in_space() const { return (components & space_mask) != 0; }
 };
 
-RigidBody make_body(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places) {
+RigidBody make_body(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
+                    std::span<const Eigen::Vector3d> places) {
   RigidBody body;
   std::set<int> known;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -150,8 +151,9 @@ std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std
   return rigid_link(mesh, dofs, nodes, places, coincidence, origin);
 }
 
-std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places,
-                                       double coincidence, const Origin& origin) {
+std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
+                                       std::span<const Eigen::Vector3d> places, double coincidence,
+                                       const Origin& origin) {
   RigidBody body = make_body(mesh, dofs, nodes, places);
   const BodyRows rows = rows_of(dofs, body, motions_of(body, coincidence));
   if (body.nodes.size() < 2) return {};

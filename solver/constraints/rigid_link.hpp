@@ -20,8 +20,9 @@ std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std
                                        double coincidence, const Origin& origin);
 
 /// The same of nodes that lie at `places`, one for each of `nodes`: what they may do from there.
-std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes, std::span<const Eigen::Vector3d> places,
-                                       double coincidence, const Origin& origin);
+std::vector<LinearRelation> rigid_link(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
+                                       std::span<const Eigen::Vector3d> places, double coincidence,
+                                       const Origin& origin);
 
 /// The distance below which nodes count as coincident unless told otherwise: a thousandth of the shortest edge of the
 /// mesh (U4.44.01, LIAISON_SOLIDE/DIST_MIN). 0 in a mesh without edges.

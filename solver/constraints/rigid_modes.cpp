@@ -95,7 +95,8 @@ PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elim
 
 struct ModeEnergies {
   ModeMatrix energy = ModeMatrix::Zero();  ///< R^T K R
-  double largest_diagonal = 0.0;           ///< of rotations times 1 / size^2, as the modes have them: whatever the unit of length
+  double largest_diagonal =
+      0.0;  ///< of rotations times 1 / size^2, as the modes have them: whatever the unit of length
 };
 
 /// Rows outside the part do not couple with it, so only its own columns are walked.
@@ -113,7 +114,8 @@ ModeEnergies energies_of(const SymmetricMatrix& stiffness, std::span<const int> 
       if (row != column)
         forces.row(place[column]) += entry.value() * values.row(place[row]);
       else
-        result.largest_diagonal = std::max(result.largest_diagonal, std::abs(entry.value()) * values.row(place[column]).cwiseAbs2().maxCoeff());
+        result.largest_diagonal = std::max(result.largest_diagonal,
+                                           std::abs(entry.value()) * values.row(place[column]).cwiseAbs2().maxCoeff());
     }
   }
   result.energy = values.transpose() * forces;
@@ -224,9 +226,7 @@ std::vector<RigidMotion> readable_motions(NullSpace null, const PartModes& part,
 
 }  // namespace
 
-bool RigidMotion::is_rotation() const {
-  return rotation.squaredNorm() > 0.0;
-}
+bool RigidMotion::is_rotation() const { return rotation.squaredNorm() > 0.0; }
 
 std::string RigidMotion::text(int dimension) const {
   if (!is_rotation()) return "translation along " + direction(translation, dimension);

@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "solver/constraints/rigid_modes.hpp"
-#include "solver/mesh/disjoint_sets.hpp"
 #include "solver/linear/equilibration.hpp"
+#include "solver/mesh/disjoint_sets.hpp"
 
 namespace comma::solver {
 
@@ -20,7 +20,8 @@ constexpr std::size_t most_nodes_shown = 6;
 constexpr std::size_t most_dofs_shown = 4;
 /// Entries of a null vector below this part of its largest belong to nodes that follow rather than move.
 constexpr double moving = 1e-3;
-/// A motion is held by something if it takes more energy than rounding makes: this for each unknown, relative to the stiffness.
+/// A motion is held by something if it takes more energy than rounding makes: this for each unknown, relative to the
+/// stiffness.
 constexpr double rounding = 1e-14;
 
 /// The connected parts of the reduced unknowns: coupled by stiffness, or moving the same node (directly or by
@@ -75,8 +76,10 @@ std::string remedy_for(const std::vector<RigidMotion>& motions) {
 }
 
 std::string weakness_remedy(double tolerance) {
-  return fmt::format("; or, if the supports are that weak or the body that slender on purpose, let pivots lose more than {:.0f} digits",
-                     1.0 - std::log10(tolerance));
+  return fmt::format(
+      "; or, if the supports are that weak or the body that slender on purpose, let pivots lose more than {:.0f} "
+      "digits",
+      1.0 - std::log10(tolerance));
 }
 
 /// The null vector of a part by inverse iteration on the equilibrated matrix, as a displacement of all degrees of
@@ -128,22 +131,26 @@ std::string describe(const FreePart& part, const Mesh& mesh) {
   }
   if (part.nodes.size() > names.size()) names.push_back("...");
   const std::string count = part.nodes.size() == 1 ? "1 node" : fmt::format("{} nodes", part.nodes.size());
-  return fmt::format("{} holds {} ({}): {}", part.held_weakly ? "hardly anything" : "nothing", fmt::join(names, ", "), count,
-                     fmt::join(part.motions, ", "));
+  return fmt::format("{} holds {} ({}): {}", part.held_weakly ? "hardly anything" : "nothing", fmt::join(names, ", "),
+                     count, fmt::join(part.motions, ", "));
 }
 
-/// The stiffness (its lower triangle) with one as large as the largest of the translations against each of the rows, as far as these move the unknowns: what else they move stays where it is.
-SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness, const DofMap& dofs, const Elimination& elimination) {
+/// The stiffness (its lower triangle) with one as large as the largest of the translations against each of the rows, as
+/// far as these move the unknowns: what else they move stays where it is.
+SymmetricMatrix held_by(const RowMatrix& rows, std::span<const int> unknowns, const SymmetricMatrix& stiffness,
+                        const DofMap& dofs, const Elimination& elimination) {
   std::vector<char> moves(static_cast<std::size_t>(stiffness.rows()), 0);
   for (const int unknown : unknowns) moves[static_cast<std::size_t>(unknown)] = 1;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   double largest = 0.0;
   for (const int unknown : unknowns)
-    if (!is_rotation(dofs.component_of(elimination.kept()[static_cast<std::size_t>(unknown)]))) largest = std::max(largest, diagonal[unknown]);
+    if (!is_rotation(dofs.component_of(elimination.kept()[static_cast<std::size_t>(unknown)])))
+      largest = std::max(largest, diagonal[unknown]);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rows.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(rows, row); it; ++it)
-      if (moves[static_cast<std::size_t>(it.col())]) entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
+      if (moves[static_cast<std::size_t>(it.col())])
+        entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
   SymmetricMatrix own(rows.rows(), stiffness.rows());
   own.setFromTriplets(entries.begin(), entries.end());
   const SymmetricMatrix products = SymmetricMatrix(own.transpose()) * own;
@@ -165,9 +172,12 @@ std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, cons
     if (!suspect && !suspects.empty()) continue;
     if (result.size() == most_free_parts) break;
     auto motions = free_rigid_motions(mesh, dofs, elimination, reduced_stiffness, unknowns, tolerance);
-    if (held != nullptr && !motions.empty()) motions = free_rigid_motions(mesh, dofs, elimination, held_by(*held, unknowns, reduced_stiffness, dofs, elimination), unknowns, tolerance);
+    if (held != nullptr && !motions.empty())
+      motions = free_rigid_motions(mesh, dofs, elimination,
+                                   held_by(*held, unknowns, reduced_stiffness, dofs, elimination), unknowns, tolerance);
     if (motions.empty()) {
-      if (suspect && held == nullptr) result.push_back(mechanism(mesh, dofs, null_vector(elimination, reduced_stiffness, unknowns)));
+      if (suspect && held == nullptr)
+        result.push_back(mechanism(mesh, dofs, null_vector(elimination, reduced_stiffness, unknowns)));
       continue;
     }
     FreePart part;

@@ -27,10 +27,12 @@ struct FreePart {
 /// connected part of its graph span a space of at most six dimensions; those whose energy is less than
 /// 10^-singular_digits of the part's stiffness are free. Where none is, inverse iteration finds the mechanism. At most
 /// `most_free_parts` are looked into. `null_rows` empty: every part is tested. `singular_digits` < 0 is taken as 8.
-/// `held`: not null: rigid motions alone that these rows of the reduced unknowns leave free as well, each part by itself.
+/// `held`: not null: rigid motions alone that these rows of the reduced unknowns leave free as well, each part by
+/// itself.
 std::vector<FreePart> find_free_parts(const Mesh& mesh, const DofMap& dofs, const Elimination& elimination,
                                       const SymmetricMatrix& reduced_stiffness, std::span<const int> null_rows,
-                                      int singular_digits = LinearOptions{}.singular_digits, const RowMatrix* held = nullptr);
+                                      int singular_digits = LinearOptions{}.singular_digits,
+                                      const RowMatrix* held = nullptr);
 
 inline constexpr std::size_t most_free_parts = 5;
 

@@ -50,7 +50,8 @@ bool hang_together(const Mesh& mesh, const std::vector<int>& cells) {
 
 }  // namespace
 
-std::shared_ptr<const SolidUnknowns> solid_unknowns(const Model& model, const DofMap& dofs, const Elimination& elimination) {
+std::shared_ptr<const SolidUnknowns> solid_unknowns(const Model& model, const DofMap& dofs,
+                                                    const Elimination& elimination) {
   const Mesh& mesh = *model.mesh;
   const std::vector<int> cells = solid_cells(model);
   if (cells.empty() || !hang_together(mesh, cells)) return nullptr;

@@ -23,7 +23,8 @@ Vector3d mean(std::span<const Vector3d> places) {
 }
 
 /// The rotation that takes the one set of arms nearest to the other.
-Matrix3d nearest_rotation(std::span<const Vector3d> from, const Vector3d& from_mean, std::span<const Vector3d> to, const Vector3d& to_mean) {
+Matrix3d nearest_rotation(std::span<const Vector3d> from, const Vector3d& from_mean, std::span<const Vector3d> to,
+                          const Vector3d& to_mean) {
   Matrix3d products = Matrix3d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) products += (from[i] - from_mean) * (to[i] - to_mean).transpose();
   const Eigen::JacobiSVD<Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -34,12 +35,15 @@ Matrix3d nearest_rotation(std::span<const Vector3d> from, const Vector3d& from_m
 
 }  // namespace
 
-TurningLinks::TurningLinks(const Mesh& mesh, const DofMap& dofs, std::span<const RigidLink> links) : mesh_(mesh), dofs_(dofs), links_(links) {
+TurningLinks::TurningLinks(const Mesh& mesh, const DofMap& dofs, std::span<const RigidLink> links)
+    : mesh_(mesh), dofs_(dofs), links_(links) {
   for (const RigidLink& link : links)
     for (const int node : link.nodes)
       if (dofs.dof(node, Component::drx) >= 0 || dofs.dof(node, Component::drz) >= 0)
-        throw Error("unsupported", fmt::format("node {} of a rigid body in large rotations has rotations of its own", mesh.node_name(node)),
-                    "leave out TYPE_CHARGE='SUIV' where rotations are small, or join nodes of solids alone");
+        throw Error(
+            "unsupported",
+            fmt::format("node {} of a rigid body in large rotations has rotations of its own", mesh.node_name(node)),
+            "leave out TYPE_CHARGE='SUIV' where rotations are small, or join nodes of solids alone");
 }
 
 std::vector<Vector3d> TurningLinks::initial_places(const RigidLink& link) const {
@@ -48,7 +52,8 @@ std::vector<Vector3d> TurningLinks::initial_places(const RigidLink& link) const 
   return places;
 }
 
-std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, std::span<const Vector3d> initial, const Eigen::VectorXd& u) const {
+std::vector<Vector3d> TurningLinks::nearest_places(const RigidLink& link, std::span<const Vector3d> initial,
+                                                   const Eigen::VectorXd& u) const {
   std::vector<Vector3d> moved(initial.begin(), initial.end());
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += displacement_of(link.nodes[i], u, dofs_);
   const Vector3d from = mean(initial), to = mean(moved);
@@ -64,7 +69,8 @@ std::vector<LinearRelation> TurningLinks::at(const Eigen::VectorXd& u) const {
     std::map<int, Vector3d> rigid;
     for (std::size_t i = 0; i < places.size(); ++i) rigid[link.nodes[i]] = places[i] - initial[i];
     for (LinearRelation& relation : rigid_link(mesh_, dofs_, link.nodes, places, link.coincidence, link.origin)) {
-      for (const auto& term : relation.terms) relation.value += term.coefficient * rigid.at(term.node)[static_cast<int>(term.component)];
+      for (const auto& term : relation.terms)
+        relation.value += term.coefficient * rigid.at(term.node)[static_cast<int>(term.component)];
       relations.push_back(std::move(relation));
     }
   }

@@ -11,9 +11,10 @@
 
 namespace comma::solver {
 
-/// The displacements that a rigid body may have are no linear space: at displacements u the relations are those of small motions from the rigid motion that is nearest
-/// to u, in the sense of least squares over the nodes (Kabsch, Acta Crystallographica A 32, 1976). Newton's method that takes them anew after each correction arrives
-/// at a rigid motion, which it misses by the square of the last correction.
+/// The displacements that a rigid body may have are no linear space: at displacements u the relations are those of
+/// small motions from the rigid motion that is nearest to u, in the sense of least squares over the nodes (Kabsch, Acta
+/// Crystallographica A 32, 1976). Newton's method that takes them anew after each correction arrives at a rigid motion,
+/// which it misses by the square of the last correction.
 class TurningLinks {
  public:
   /// Keeps references to its arguments. Throws Error `unsupported` naming a node with rotations.
@@ -26,7 +27,8 @@ class TurningLinks {
 
  private:
   std::vector<Eigen::Vector3d> initial_places(const RigidLink& link) const;
-  std::vector<Eigen::Vector3d> nearest_places(const RigidLink& link, std::span<const Eigen::Vector3d> initial, const Eigen::VectorXd& u) const;
+  std::vector<Eigen::Vector3d> nearest_places(const RigidLink& link, std::span<const Eigen::Vector3d> initial,
+                                              const Eigen::VectorXd& u) const;
 
   const Mesh& mesh_;
   const DofMap& dofs_;

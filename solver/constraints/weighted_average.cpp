@@ -62,9 +62,7 @@ Leaders look_at(const Mesh& mesh, const DofMap& dofs, int follower, std::span<co
 }
 
 /// The motions that count, as rows of the six.
-std::vector<int> motions(bool in_space) {
-  return in_space ? std::vector{0, 1, 2, 3, 4, 5} : std::vector{0, 1, 5};
-}
+std::vector<int> motions(bool in_space) { return in_space ? std::vector{0, 1, 2, 3, 4, 5} : std::vector{0, 1, 5}; }
 
 /// Inverse of the normal matrix on the motions that the leaders see.
 struct NormalMatrix {

@@ -15,11 +15,12 @@ class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
 
-  /// Calls `visit(item)` for items in the order of nearness of their boxes' branches; it returns the distance that an item
-  /// must not exceed to be worth a visit (infinity at first).
+  /// Calls `visit(item)` for items in the order of nearness of their boxes' branches; it returns the distance that an
+  /// item must not exceed to be worth a visit (infinity at first).
   template <class Visit>
   void search(const Eigen::Vector3d& point, Visit visit) const {
-    if (!items_.empty()) search(0, static_cast<int>(items_.size()), 0, point, std::numeric_limits<double>::infinity(), visit);
+    if (!items_.empty())
+      search(0, static_cast<int>(items_.size()), 0, point, std::numeric_limits<double>::infinity(), visit);
   }
 
  private:

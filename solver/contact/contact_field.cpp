@@ -8,13 +8,43 @@ namespace comma::solver {
 namespace {
 
 enum Column : std::uint8_t {
-  cont, jeu, rn, rnx, rny, rnz, glix, gliy, gli, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r, hn, i, ix, iy, iz,
-  pt_x, pt_y, pt_z, proj_x, proj_y, proj_z, column_count
+  cont,
+  jeu,
+  rn,
+  rnx,
+  rny,
+  rnz,
+  glix,
+  gliy,
+  gli,
+  rtax,
+  rtay,
+  rtaz,
+  rtgx,
+  rtgy,
+  rtgz,
+  rx,
+  ry,
+  rz,
+  r,
+  hn,
+  i,
+  ix,
+  iy,
+  iz,
+  pt_x,
+  pt_y,
+  pt_z,
+  proj_x,
+  proj_y,
+  proj_z,
+  column_count
 };
 
 constexpr std::array<const char*, column_count> contact_names = {
-    "CONT", "JEU",  "RN",   "RNX",  "RNY", "RNZ", "GLIX", "GLIY", "GLI", "RTAX", "RTAY", "RTAZ", "RTGX",   "RTGY",   "RTGZ",
-    "RX",   "RY",   "RZ",   "R",    "HN",  "I",   "IX",   "IY",   "IZ",  "PT_X", "PT_Y", "PT_Z", "PROJ_X", "PROJ_Y", "PROJ_Z"};
+    "CONT", "JEU",  "RN",   "RNX",  "RNY",  "RNZ",  "GLIX", "GLIY",   "GLI",    "RTAX",
+    "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ", "RX",   "RY",   "RZ",     "R",      "HN",
+    "I",    "IX",   "IY",   "IZ",   "PT_X", "PT_Y", "PT_Z", "PROJ_X", "PROJ_Y", "PROJ_Z"};
 
 constexpr double not_paired = -1.0;
 constexpr double open = 0.0;
@@ -47,7 +77,9 @@ void write_state(const NodeContact& contact, Positions positions, double* row) {
 
 /// To those of other zones at the node.
 void add_forces(const NodeContact& contact, double* row) {
-  const auto add = [row](int column, double force) { row[column] = (row[column] == row[column] ? row[column] : 0.0) + force; };
+  const auto add = [row](int column, double force) {
+    row[column] = (row[column] == row[column] ? row[column] : 0.0) + force;
+  };
   add(rn, contact.normal_force);
   for (int axis = 0; axis < 3; ++axis) {
     const double normal = contact.normal_force * contact.pair.normal[axis], shear = contact.shear_force[axis];
@@ -82,17 +114,21 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
       continue;
     }
     const bool is_shared = row[jeu] == row[jeu];
-    if (!is_shared || (pair.status == PairingStatus::paired && contact.gap < row[jeu])) write_state(contact, positions, row);
+    if (!is_shared || (pair.status == PairingStatus::paired && contact.gap < row[jeu]))
+      write_state(contact, positions, row);
     add_forces(contact, row);
   }
   return field;
 }
 
-NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps, const Eigen::VectorXd& multipliers,
-                         int node_count, Positions positions) {
+NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps,
+                         const Eigen::VectorXd& multipliers, int node_count, Positions positions) {
   std::vector<NodeContact> contacts;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    contacts.push_back({.pair = pairs[k], .gap = gaps[k], .normal_force = multipliers[static_cast<Eigen::Index>(k)], .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0});
+    contacts.push_back({.pair = pairs[k],
+                        .gap = gaps[k],
+                        .normal_force = multipliers[static_cast<Eigen::Index>(k)],
+                        .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0});
   return contact_field(contacts, node_count, positions);
 }
 

@@ -17,16 +17,19 @@ using Eigen::Vector3d;
 
 /// A shape function this near to one belongs to the node on which the point lies.
 constexpr double at_node_tolerance = 1e-12;
-/// Shape functions as near as this to the largest one weigh as much: the middle of a face is as near to all of its sides.
+/// Shape functions as near as this to the largest one weigh as much: the middle of a face is as near to all of its
+/// sides.
 constexpr double equal_weight = 1e-9;
-/// Of the integral of a shape function, one below this share of that of its size hardly bears: it vanishes on straight faces, and nearly so on curved ones.
+/// Of the integral of a shape function, one below this share of that of its size hardly bears: it vanishes on straight
+/// faces, and nearly so on curved ones.
 constexpr double small_share = 0.1;
 /// This share of it is next to nothing.
 constexpr double least_share = 1e-9;
 
 class ZonePoints {
  public:
-  ZonePoints(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time, const FacedFacets& before)
+  ZonePoints(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time,
+             const FacedFacets& before)
       : zone_(definition.zones[static_cast<std::size_t>(zone)]),
         index_(zone),
         model_(model),
@@ -44,14 +47,16 @@ class ZonePoints {
     for (const FacePoint& at : rule) {
       ContactPoint point = place(cell, type, at);
       if (point.node >= 0 && point.weight == 0.0) take_share(point, type, is_carried(cell, type, point.node, rule));
-      if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); })) continue;
+      if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
+        continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
         add(point, known->second, points[known->second.index]);
         continue;
       }
       face_master(at, before_.of(points.size()), point);
-      if (point.node >= 0) at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, mesh_, cell, point.shape)});
+      if (point.node >= 0)
+        at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, mesh_, cell, point.shape)});
       points.push_back(point);
     }
   }
@@ -65,7 +70,9 @@ class ZonePoints {
   /// Faces of different thickness share the multiplier of the node, which sees the mean of their gaps.
   void add(const ContactPoint& further, AtNode& known, ContactPoint& point) const {
     const double weight = point.weight + further.weight;
-    const double mean = (point.weight * known.half_thickness + further.weight * half_thickness(zone_, mesh_, further.cell, further.shape)) / weight;
+    const double mean = (point.weight * known.half_thickness +
+                         further.weight * half_thickness(zone_, mesh_, further.cell, further.shape)) /
+                        weight;
     if (point.facet >= 0) point.thickness += mean - known.half_thickness;
     known.half_thickness = mean;
     point.weight = weight;
@@ -92,12 +99,15 @@ class ZonePoints {
   bool is_carried(int cell, CellType type, int node, const std::vector<FacePoint>& rule) const {
     const std::size_t local = local_number(cell, node);
     return std::ranges::any_of(rule, [&](const FacePoint& at) {
-      return std::abs(facet_shape(type, at.xi).values[local]) > at_node_tolerance && at.weight * measure(cell, at.xi) != 0.0;
+      return std::abs(facet_shape(type, at.xi).values[local]) > at_node_tolerance &&
+             at.weight * measure(cell, at.xi) != 0.0;
     });
   }
 
-  /// The integral of a node's shape function: what a point on the axis stands for, where the radius vanishes. On quadratic faces the integral vanishes too, or nearly so, yet the
-  /// node may not overlap either: it weighs as much as its size. Next to nothing where other points carry the node, or an overlap has a pressure: the point shows how the node is.
+  /// The integral of a node's shape function: what a point on the axis stands for, where the radius vanishes. On
+  /// quadratic faces the integral vanishes too, or nearly so, yet the node may not overlap either: it weighs as much as
+  /// its size. Next to nothing where other points carry the node, or an overlap has a pressure: the point shows how the
+  /// node is.
   void take_share(ContactPoint& point, CellType type, bool carried) const {
     const std::size_t local = local_number(point.cell, point.node);
     double share = 0.0, size = 0.0;
@@ -118,7 +128,9 @@ class ZonePoints {
   }
 
   /// Of the initial face: pressures are forces over the area before deformation.
-  double measure(int cell, const Eigen::Vector2d& xi) const { return initial_stretch(mesh_, cell, xi, is_axisymmetric(model_.formulations[cell])); }
+  double measure(int cell, const Eigen::Vector2d& xi) const {
+    return initial_stretch(mesh_, cell, xi, is_axisymmetric(model_.formulations[cell]));
+  }
 
   void face_master(const FacePoint& at, FacedFacet before, ContactPoint& point) const {
     const Vector3d here = position(point);
@@ -135,7 +147,8 @@ class ZonePoints {
     point.kept = hit->kept;
     const bool needs_own = zone_.normal_side != NormalSide::master;
     point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
-    point.thickness = thickness_at(zone_, here, point.foot, time_) + half_thickness(zone_, mesh_, point.facet, point.master_shape) +
+    point.thickness = thickness_at(zone_, here, point.foot, time_) +
+                      half_thickness(zone_, mesh_, point.facet, point.master_shape) +
                       half_thickness(zone_, mesh_, point.cell, point.shape);
   }
 
@@ -158,7 +171,8 @@ class ZonePoints {
 };
 
 /// Slave nodes as points of weight one, whose tractions are forces.
-std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time, const FacedFacets& before) {
+std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, const Mesh& mesh, Positions positions,
+                                       double time, const FacedFacets& before) {
   std::map<std::pair<int, int>, int> cells;  // of a zone's node: one of its slave faces
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone)
     for (const int cell : definition.zones[zone].slave_cells)
@@ -194,9 +208,10 @@ double initial_stretch(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, b
   return facet_stretch(mesh.cell_types[facet], {points.data(), nodes.size()}, xi, times_radius);
 }
 
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
-                                         const FacedFacets& before) {
-  if (definition.formulation == ContactFormulation::discrete) return nodal_points(definition, *model.mesh, positions, time, before);
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions,
+                                         double time, const FacedFacets& before) {
+  if (definition.formulation == ContactFormulation::discrete)
+    return nodal_points(definition, *model.mesh, positions, time, before);
   std::vector<ContactPoint> points;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {
     if (definition.zones[zone].mixed.local_average) {
@@ -212,7 +227,8 @@ std::vector<ContactPoint> contact_points(const ContactDefinition& definition, co
 bool is_nearest_to(const ContactPoint& point, const Mesh& mesh, const std::function<bool(int)>& is_such_node) {
   if (point.node >= 0) return is_such_node(point.node);
   const auto nodes = mesh.cell(point.cell);
-  const double most = *std::max_element(point.shape.begin(), point.shape.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  const double most =
+      *std::max_element(point.shape.begin(), point.shape.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (point.shape[i] >= most - equal_weight && !is_such_node(nodes[i])) return false;
   return true;

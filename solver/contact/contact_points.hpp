@@ -20,13 +20,14 @@ struct GapShare {
   Eigen::Vector3d coefficient = Eigen::Vector3d::Zero();
 };
 
-/// A point of a slave face, or a patch of them (see patch_points.hpp). Pressures are interpolated from the face's nodes by the same shape functions as displacements.
+/// A point of a slave face, or a patch of them (see patch_points.hpp). Pressures are interpolated from the face's nodes
+/// by the same shape functions as displacements.
 struct ContactPoint {
   int zone = 0;
-  int cell = -1;                                       ///< slave face
-  int node = -1;                                       ///< the slave node on which the point lies; -1: it lies between nodes
-  std::array<double, max_facet_nodes> shape{};         ///< of the slave face's nodes
-  double weight = 0.0;                                 ///< initial area (length in the plane; times the radius where axisymmetric)
+  int cell = -1;                                ///< slave face
+  int node = -1;                                ///< the slave node on which the point lies; -1: it lies between nodes
+  std::array<double, max_facet_nodes> shape{};  ///< of the slave face's nodes
+  double weight = 0.0;  ///< initial area (length in the plane; times the radius where axisymmetric)
   PairingStatus status = PairingStatus::outside;
   int facet = -1;                                      ///< master cell, when paired
   std::array<double, max_facet_nodes> master_shape{};  ///< of the master facet's nodes
@@ -34,23 +35,26 @@ struct ContactPoint {
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap
   bool kept = false;                                   ///< see ContactPair
-  std::vector<GapShare> shares;                        ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
-  double offset = 0.0;                                 ///< see shares; thicknesses count in it
-  bool bears_nothing = false;                          ///< on the axis of an axisymmetric face of second order: no uniform pressure there has a force at its node
-  double area = 0.0;                                   ///< of the whole patch, `weight` being that of the part that faces the master
+  std::vector<GapShare>
+      shares;  ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
+  double offset = 0.0;         ///< see shares; thicknesses count in it
+  bool bears_nothing = false;  ///< on the axis of an axisymmetric face of second order: no uniform pressure there has a
+                               ///< force at its node
+  double area = 0.0;           ///< of the whole patch, `weight` being that of the part that faces the master
 };
 
-/// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their weights and the
-/// weighted mean of their faces' thicknesses, which is the same discrete problem. Neither excluded nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the points are the slave nodes that may make
-/// contact, of weight one: their tractions are forces. `time`: at which thicknesses are read.
-/// Zones of local average contact have a point a patch.
-/// `before`: what each faced at the last pairing, if anything is to be kept of it (averages over patches keep nothing).
-/// Throws what face_rule, projections and normals throw.
-std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions, double time,
-                                         const FacedFacets& before = {});
+/// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their
+/// weights and the weighted mean of their faces' thicknesses, which is the same discrete problem. Neither excluded
+/// nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the
+/// points are the slave nodes that may make contact, of weight one: their tractions are forces. `time`: at which
+/// thicknesses are read. Zones of local average contact have a point a patch. `before`: what each faced at the last
+/// pairing, if anything is to be kept of it (averages over patches keep nothing). Throws what face_rule, projections
+/// and normals throw.
+std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions,
+                                         double time, const FacedFacets& before = {});
 
-/// Whether the node on which a point lies is such a node; between nodes, whether all that are nearest to it are: those that its shape
-/// functions weigh most.
+/// Whether the node on which a point lies is such a node; between nodes, whether all that are nearest to it are: those
+/// that its shape functions weigh most.
 bool is_nearest_to(const ContactPoint& point, const Mesh& mesh, const std::function<bool(int)>& is_such_node);
 
 /// Of a facet as the mesh has it (see facet_stretch).

@@ -18,13 +18,14 @@ struct UnilateralCondition {
   std::vector<Component> components;
   std::vector<FieldFunction> coefficients;  ///< one a component
   FieldFunction bound;
-  double penalty = 0.0;  ///< positive: the bound gives way, and pushes back by this much a unit of what it is passed by; 0: it holds
+  double penalty =
+      0.0;  ///< positive: the bound gives way, and pushes back by this much a unit of what it is passed by; 0: it holds
 };
 
 /// How the inequalities of the discrete formulation are solved.
 enum class ContactAlgorithm : std::uint8_t { active_set, projected_gradient };
-/// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a weak form
-/// (R5.03.52).
+/// `discrete`: gaps of slave nodes as inequalities (R5.03.50); `mixed`: displacements and pressures on slave faces in a
+/// weak form (R5.03.52).
 enum class ContactFormulation : std::uint8_t { discrete, mixed };
 /// How slave faces are integrated; see face_rule.hpp.
 enum class ContactRule : std::uint8_t { automatic, gauss, simpson, newton_cotes };
@@ -34,32 +35,37 @@ enum class GeometryUpdate : std::uint8_t { none, automatic, controlled };
 enum class NormalRule : std::uint8_t { automatic, fixed, along_y };
 enum class NormalSide : std::uint8_t { master, slave, average };
 
-/// How a zone presses and rubs, beyond inequalities. Coefficients are pressures a unit of length in the mixed formulation, forces a
-/// unit of length in the discrete one.
+/// How a zone presses and rubs, beyond inequalities. Coefficients are pressures a unit of length in the mixed
+/// formulation, forces a unit of length in the discrete one.
 struct MixedZone {
   ContactRule rule = ContactRule::automatic;
-  int rule_order = 0;                ///< 0: the rule's default
-  double augmentation = 100.0;       ///< COEF_CONT: of the pressure by the gap
-  bool keeps_augmentation = false;   ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
-  bool local_average = false;        ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
-  bool penalised = false;            ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
-  std::optional<double> largest_depth;  ///< PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper
+  int rule_order = 0;               ///< 0: the rule's default
+  double augmentation = 100.0;      ///< COEF_CONT: of the pressure by the gap
+  bool keeps_augmentation = false;  ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
+  bool local_average = false;  ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
+  bool penalised = false;      ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
+  std::optional<double>
+      largest_depth;  ///< PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
-  bool bilateral = false;            ///< GLISSIERE: a point that has closed does not open again
-  double friction = 0.0;             ///< COULOMB
-  bool friction_penalised = false;       ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
-  double friction_penalty = 0.0;         ///< a force over a length, or one over a length
-  std::optional<double> largest_slip;    ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks slips by more in the step
-  double friction_augmentation = 100.0;  ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
-  std::vector<int> frictionless_nodes;   ///< SANS_GROUP_NO_FR
-  std::optional<std::array<double, 3>> frictionless_direction;  ///< DIRE_EXCL_FROT: these nodes have no friction along it (not null); without: along no direction
+  bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again
+  double friction = 0.0;            ///< COULOMB
+  bool friction_penalised = false;  ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the
+                                    ///< mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
+  double friction_penalty = 0.0;    ///< a force over a length, or one over a length
+  std::optional<double> largest_slip;  ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks
+                                       ///< slips by more in the step
+  double friction_augmentation =
+      100.0;                            ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
+  std::vector<int> frictionless_nodes;  ///< SANS_GROUP_NO_FR
+  std::optional<std::array<double, 3>> frictionless_direction;  ///< DIRE_EXCL_FROT: these nodes have no friction along
+                                                                ///< it (not null); without: along no direction
 };
 
 /// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').
 enum class PairingRule : std::uint8_t { facet, node };
 
-/// What a cell of a contact surface adds to either side of it (DIST_POUTRE, DIST_COQUE): the radius of a beam at its ends, half of
-/// the thickness of a plate.
+/// What a cell of a contact surface adds to either side of it (DIST_POUTRE, DIST_COQUE): the radius of a beam at its
+/// ends, half of the thickness of a plate.
 struct HalfThickness {
   double first = 0.0;
   double last = 0.0;
@@ -72,20 +78,25 @@ struct ContactZone {
   PairingRule pairing = PairingRule::facet;
   NormalSide normal_side = NormalSide::master;
   NormalRule master_normal = NormalRule::automatic;
-  std::array<double, 3> master_vector{};   ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
+  std::array<double, 3>
+      master_vector{};  ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
   NormalRule slave_normal = NormalRule::automatic;
-  std::array<double, 3> slave_vector{};    ///< the same of the slave surface (VECT_ESCL)
-  std::optional<std::array<double, 3>> pairing_direction;  ///< DIRE_APPA: slave points look for the master along it; absent: for the nearest place
-  std::vector<int> excluded_slave_nodes;   ///< SANS_GROUP_NO
-  double projection_tolerance = 0.5;       ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
-  bool resolved = true;                    ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
-  double interpenetration_tolerance = 0.0; ///< TOLE_INTERP: how deep a node of a watched zone may go
-  double pairing_distance = -1.0;          ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master node are not paired; < 0: no limit
+  std::array<double, 3> slave_vector{};  ///< the same of the slave surface (VECT_ESCL)
+  std::optional<std::array<double, 3>>
+      pairing_direction;  ///< DIRE_APPA: slave points look for the master along it; absent: for the nearest place
+  std::vector<int> excluded_slave_nodes;  ///< SANS_GROUP_NO
+  double projection_tolerance =
+      0.5;  ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
+  bool resolved = true;  ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
+  double interpenetration_tolerance = 0.0;  ///< TOLE_INTERP: how deep a node of a watched zone may go
+  double pairing_distance = -1.0;  ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master
+                                   ///< node are not paired; < 0: no limit
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
   bool thickness_changes = false;  ///< either depends on time
-  std::unordered_map<int, HalfThickness> half_thickness;  ///< of cells of both surfaces, what their elements add; those not named add nothing
-  MixedZone mixed;                 ///< for zones that is_condensed() speaks of
+  std::unordered_map<int, HalfThickness>
+      half_thickness;  ///< of cells of both surfaces, what their elements add; those not named add nothing
+  MixedZone mixed;     ///< for zones that is_condensed() speaks of
 };
 
 struct ContactDefinition {
@@ -95,24 +106,29 @@ struct ContactDefinition {
   int controlled_updates = 2;        ///< NB_ITER_GEOM, for GeometryUpdate::controlled
   int max_geometry_updates = 10;     ///< ITER_GEOM_MAXI
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
-  double restless_tolerance = 0.0;   ///< updates that have long brought the geometry no nearer to rest end where it moves by less than this
+  double restless_tolerance =
+      0.0;  ///< updates that have long brought the geometry no nearer to rest end where it moves by less than this
   double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
-  bool joint_iterations = false;     ///< one iteration of Newton's method updates statuses, geometry and bodies (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
-  int active_set_factor = 30;        ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
-  bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
-  bool has_friction = false;              ///< FROTTEMENT='COULOMB', though all coefficients be zero: fields have its components
-  bool smooth_normals = false;            ///< LISSAGE: normals at the nodes are averaged and interpolated between them
+  bool joint_iterations = false;           ///< one iteration of Newton's method updates statuses, geometry and bodies
+                                           ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
+  int active_set_factor = 30;              ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
+  bool stop_on_interpenetration = false;   ///< STOP_INTERP: too deep a node of a watched zone is an error
+  bool has_friction = false;    ///< FROTTEMENT='COULOMB', though all coefficients be zero: fields have its components
+  bool smooth_normals = false;  ///< LISSAGE: normals at the nodes are averaged and interpolated between them
   double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
   int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number
   bool gradient_scaled = false;      ///< PRE_COND
   std::vector<ContactZone> zones;
 };
 
-/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, that rub, or that never open
-/// again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand for forces.
+/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, that rub,
+/// or that never open again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand
+/// for forces.
 inline bool is_condensed(const ContactDefinition& definition) {
   if (definition.formulation == ContactFormulation::mixed) return true;
-  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0; });
+  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) {
+    return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0;
+  });
 }
 
 }  // namespace comma::solver

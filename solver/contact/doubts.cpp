@@ -52,7 +52,8 @@ void note_stale_gap(const StaleGap& gap, double pushed_back, ContactDoubts& doub
 }  // namespace
 
 void ContactDoubts::note(const ContactDoubt& doubt) {
-  const auto found = std::ranges::find_if(all_, [&](const ContactDoubt& each) { return each.kind == doubt.kind && each.zone == doubt.zone; });
+  const auto found = std::ranges::find_if(
+      all_, [&](const ContactDoubt& each) { return each.kind == doubt.kind && each.zone == doubt.zone; });
   if (found == all_.end()) {
     all_.push_back(doubt);
   } else if (doubt.length > found->length) {
@@ -107,7 +108,8 @@ void PassedMaster::look_at(int index, Positions positions, double pushed, double
   for (const auto& [node, depth] : now.depth) {
     if (depth < -doubtful_share * pushed) continue;
     const auto known = before.depth.find(node);
-    // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay in front does.
+    // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay
+    // in front does.
     if (!(pushed > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
     sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
     ++touching;
@@ -123,35 +125,45 @@ void PassedMaster::conclude(ContactDoubts& doubts) const {
     });
     const double pushed = pushed_back_.at(zone);
     if (is_soft || depth <= doubtful_passage * pushed) continue;
-    doubts.note({.kind = DoubtKind::passed_master, .zone = zone, .share = pushed > 0.0 ? depth / pushed : std::numeric_limits<double>::infinity(), .length = depth});
+    doubts.note({.kind = DoubtKind::passed_master,
+                 .zone = zone,
+                 .share = pushed > 0.0 ? depth / pushed : std::numeric_limits<double>::infinity(),
+                 .length = depth});
   }
 }
 
 double gap_at(const ContactPair& pair, const Mesh& mesh, Positions positions) {
   Eigen::Vector3d apart = positions[static_cast<std::size_t>(pair.slave)];
   const auto facet = mesh.cell(pair.facet);
-  for (std::size_t a = 0; a < facet.size(); ++a) apart -= pair.weights[a] * positions[static_cast<std::size_t>(facet[a])];
+  for (std::size_t a = 0; a < facet.size(); ++a)
+    apart -= pair.weights[a] * positions[static_cast<std::size_t>(facet[a])];
   return apart.dot(pair.normal) - pair.thickness;
 }
 
-void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions, const StaleGaps& gaps, ContactDoubts& doubts) {
+void note_stale_geometry(const ContactDefinition& definition, const Mesh& mesh, Positions positions,
+                         const StaleGaps& gaps, ContactDoubts& doubts) {
   for (std::size_t k = 0; k < gaps.before.size() && k < gaps.now.size(); ++k) {
     const ContactPair& before = gaps.before[k];
     const ContactPair& now = gaps.now[k];
     const ContactZone& zone = definition.zones[static_cast<std::size_t>(now.zone)];
     if (now.status != PairingStatus::paired || !zone.resolved || zone.mixed.local_average) continue;
-    StaleGap gap{.zone = now.zone, .node = now.slave, .is = gap_at(now, mesh, positions), .size = extent(mesh, now.facet)};
+    StaleGap gap{
+        .zone = now.zone, .node = now.slave, .is = gap_at(now, mesh, positions), .size = extent(mesh, now.facet)};
     if (before.status == PairingStatus::paired) gap.solved = gap_at(before, mesh, positions);
     note_stale_gap(gap, gaps.pushed_back[static_cast<std::size_t>(now.zone)], doubts);
   }
 }
 
-void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions, std::span<const ContactPoint> before, std::span<const ContactPoint> now,
+void note_stale_averages(const ContactDefinition& definition, const Mesh& mesh, Positions positions,
+                         std::span<const ContactPoint> before, std::span<const ContactPoint> now,
                          std::span<const double> pushed_back, ContactDoubts& doubts) {
   for (std::size_t p = 0; p < before.size() && p < now.size(); ++p) {
     const ContactZone& zone = definition.zones[static_cast<std::size_t>(now[p].zone)];
     if (now[p].status != PairingStatus::paired || !zone.resolved || !zone.mixed.local_average) continue;
-    StaleGap gap{.zone = now[p].zone, .node = now[p].node, .is = mean_gap(now[p], positions), .size = extent(mesh, now[p].facet)};
+    StaleGap gap{.zone = now[p].zone,
+                 .node = now[p].node,
+                 .is = mean_gap(now[p], positions),
+                 .size = extent(mesh, now[p].facet)};
     if (before[p].status == PairingStatus::paired) gap.solved = mean_gap(before[p], positions);
     note_stale_gap(gap, pushed_back[static_cast<std::size_t>(now[p].zone)], doubts);
   }

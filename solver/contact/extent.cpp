@@ -7,7 +7,8 @@ namespace comma::solver {
 double extent(const Mesh& mesh, std::span<const int> cells) {
   Box box;
   for (const int cell : cells)
-    for (const int node : mesh.cell(cell)) box.extend(Eigen::Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
+    for (const int node : mesh.cell(cell))
+      box.extend(Eigen::Vector3d(mesh.nodes[node][0], mesh.nodes[node][1], mesh.nodes[node][2]));
   return box.diagonal().norm();
 }
 

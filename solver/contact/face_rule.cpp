@@ -108,8 +108,8 @@ std::vector<FacePoint> triangle_corners() {
   return points;
 }
 
-/// Dunavant's rule of degree 6 (International Journal for Numerical Methods in Engineering 21, 1985), FPG12 of R3.01.01: two orbits of three
-/// points and one of six. Weights here are for the unit area.
+/// Dunavant's rule of degree 6 (International Journal for Numerical Methods in Engineering 21, 1985), FPG12 of
+/// R3.01.01: two orbits of three points and one of six. Weights here are for the unit area.
 std::vector<FacePoint> twelve_points() {
   constexpr double a = 0.249286745170910, a_weight = 0.116786275726379;
   constexpr double b = 0.063089014491502, b_weight = 0.050844906370207;
@@ -132,7 +132,8 @@ std::vector<FacePoint> gauss_triangle(int order) {
   constexpr std::array<std::string_view, 5> families = {"FPG1", "FPG3", "FPG4", "FPG6", "FPG7"};
   if (order == static_cast<int>(families.size()) + 1) return twelve_points();
   if (order > static_cast<int>(families.size()))
-    throw Error("unsupported", fmt::format("triangles have no Gauss rule of order {}", order), "give an order (ORDRE_INT) of 6 at most");
+    throw Error("unsupported", fmt::format("triangles have no Gauss rule of order {}", order),
+                "give an order (ORDRE_INT) of 6 at most");
   std::vector<FacePoint> points;
   for (const QuadraturePoint& point : quadrature(CellType::tria3, families[static_cast<std::size_t>(order - 1)]))
     points.push_back({Vector2d(point.at[0], point.at[1]), point.weight});
@@ -145,7 +146,8 @@ std::vector<FacePoint> simpson_triangle(int order) {
   const int parts = 2 * order;  // lattice of corners and middles
   std::map<std::pair<int, int>, double> weights;
   const auto add_triangle = [&](int i, int j, int side) {
-    const std::array<std::pair<int, int>, 3> corners = {std::pair(i, j), std::pair(i + side, j), std::pair(i, j + side)};
+    const std::array<std::pair<int, int>, 3> corners = {std::pair(i, j), std::pair(i + side, j),
+                                                        std::pair(i, j + side)};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& [x, y] = corners[k];
       const auto& [next_x, next_y] = corners[(k + 1) % 3];
@@ -193,30 +195,42 @@ bool is_triangle(CellType type) { return corner_count(type) == 3; }
 
 LineRule line_of(ContactRule rule, int order) {
   switch (rule) {
-    case ContactRule::gauss: return gauss_line(order);
-    case ContactRule::simpson: return simpson_line(order);
-    case ContactRule::newton_cotes: return newton_cotes_line(order);
-    case ContactRule::automatic: break;
+    case ContactRule::gauss:
+      return gauss_line(order);
+    case ContactRule::simpson:
+      return simpson_line(order);
+    case ContactRule::newton_cotes:
+      return newton_cotes_line(order);
+    case ContactRule::automatic:
+      break;
   }
   return trapezium_line();
 }
 
 std::vector<FacePoint> triangle_rule(ContactRule rule, int order) {
   switch (rule) {
-    case ContactRule::gauss: return gauss_triangle(order);
-    case ContactRule::simpson: return simpson_triangle(order);
-    case ContactRule::newton_cotes: return newton_cotes_triangle(order);
-    case ContactRule::automatic: break;
+    case ContactRule::gauss:
+      return gauss_triangle(order);
+    case ContactRule::simpson:
+      return simpson_triangle(order);
+    case ContactRule::newton_cotes:
+      return newton_cotes_triangle(order);
+    case ContactRule::automatic:
+      break;
   }
   return triangle_corners();
 }
 
 int default_order(ContactRule rule) {
   switch (rule) {
-    case ContactRule::gauss: return default_gauss_order;
-    case ContactRule::simpson: return default_simpson_order;
-    case ContactRule::newton_cotes: return default_newton_cotes_order;
-    case ContactRule::automatic: break;
+    case ContactRule::gauss:
+      return default_gauss_order;
+    case ContactRule::simpson:
+      return default_simpson_order;
+    case ContactRule::newton_cotes:
+      return default_newton_cotes_order;
+    case ContactRule::automatic:
+      break;
   }
   return 1;
 }

@@ -15,10 +15,11 @@ struct FacePoint {
   double weight = 0.0;  ///< the weights of a rule add up to the measure of the reference cell
 };
 
-/// The points of a rule (U4.44.11, INTEGRATION): `automatic` puts them at the corners of linear faces (trapezium rule) and takes
-/// Simpson's rule on quadratic ones; `gauss`: order^d points on lines and quadrangles, on triangles the families of 1, 3, 4, 6, 7
-/// and 12 points; `simpson`: composite, `order` pieces a side; `newton_cotes`: order + 1 points a side, closed. Order 0 is the default of the
-/// rule: 3, 1 and 3. Throws Error `unsupported` for a Gauss rule of order 7 or 8 on a triangle, or a cell that is no facet.
+/// The points of a rule (U4.44.11, INTEGRATION): `automatic` puts them at the corners of linear faces (trapezium rule)
+/// and takes Simpson's rule on quadratic ones; `gauss`: order^d points on lines and quadrangles, on triangles the
+/// families of 1, 3, 4, 6, 7 and 12 points; `simpson`: composite, `order` pieces a side; `newton_cotes`: order + 1
+/// points a side, closed. Order 0 is the default of the rule: 3, 1 and 3. Throws Error `unsupported` for a Gauss rule
+/// of order 7 or 8 on a triangle, or a cell that is no facet.
 std::vector<FacePoint> face_rule(CellType type, ContactRule rule, int order);
 
 }  // namespace comma::solver

@@ -120,16 +120,20 @@ enum class Family : std::uint8_t { line, triangle, quadrangle };
 Family family_of(CellType type) {
   switch (type) {
     case CellType::seg2:
-    case CellType::seg3: return Family::line;
+    case CellType::seg3:
+      return Family::line;
     case CellType::tria3:
     case CellType::tria6:
-    case CellType::tria7: return Family::triangle;
+    case CellType::tria7:
+      return Family::triangle;
     case CellType::quad4:
     case CellType::quad8:
-    case CellType::quad9: return Family::quadrangle;
+    case CellType::quad9:
+      return Family::quadrangle;
     default:
       throw Error("unsupported", fmt::format("a {} cell cannot be a contact facet", name_of(type)),
-                  "contact surfaces are made of SEG2, SEG3, TRIA3, TRIA6, TRIA7, QUAD4, QUAD8 or QUAD9 cells; a POI1 may be a slave in FORMULATION='DISCRETE', with NORMALE='MAIT' or VECT_ESCL='FIXE'");
+                  "contact surfaces are made of SEG2, SEG3, TRIA3, TRIA6, TRIA7, QUAD4, QUAD8 or QUAD9 cells; a POI1 "
+                  "may be a slave in FORMULATION='DISCRETE', with NORMALE='MAIT' or VECT_ESCL='FIXE'");
   }
 }
 
@@ -137,12 +141,18 @@ Family family_of(CellType type) {
 
 FacetShape facet_shape(CellType type, const Vector2d& xi) {
   switch (type) {
-    case CellType::seg2: return line(2, xi[0], linear);
-    case CellType::seg3: return line(3, xi[0], quadratic);
-    case CellType::quad4: return tensor(4, xi, linear);
-    case CellType::quad8: return serendipity(xi);
-    case CellType::quad9: return tensor(9, xi, quadratic);
-    default: break;
+    case CellType::seg2:
+      return line(2, xi[0], linear);
+    case CellType::seg3:
+      return line(3, xi[0], quadratic);
+    case CellType::quad4:
+      return tensor(4, xi, linear);
+    case CellType::quad8:
+      return serendipity(xi);
+    case CellType::quad9:
+      return tensor(9, xi, quadratic);
+    default:
+      break;
   }
   if (family_of(type) == Family::triangle) return triangle(node_count(type), xi);
   throw Error("unsupported", fmt::format("no shape functions for a {} facet", name_of(type)));
@@ -151,9 +161,12 @@ FacetShape facet_shape(CellType type, const Vector2d& xi) {
 Vector2d facet_node(CellType type, int node) {
   if (type == CellType::poi1) return {};
   switch (family_of(type)) {
-    case Family::line: return {node == 2 ? 0.0 : 2.0 * node - 1.0, 0.0};
-    case Family::triangle: return {triangle_places[node][0], triangle_places[node][1]};
-    case Family::quadrangle: return {square_places[node][0], square_places[node][1]};
+    case Family::line:
+      return {node == 2 ? 0.0 : 2.0 * node - 1.0, 0.0};
+    case Family::triangle:
+      return {triangle_places[node][0], triangle_places[node][1]};
+    case Family::quadrangle:
+      return {square_places[node][0], square_places[node][1]};
   }
   return {};
 }
@@ -164,9 +177,12 @@ Vector2d facet_centre(CellType type) {
 
 double outside_distance(CellType type, const Vector2d& xi) {
   switch (family_of(type)) {
-    case Family::line: return std::max(0.0, std::abs(xi[0]) - 1.0);
-    case Family::triangle: return std::max({0.0, -xi[0], -xi[1], xi[0] + xi[1] - 1.0});
-    case Family::quadrangle: return std::max({0.0, std::abs(xi[0]) - 1.0, std::abs(xi[1]) - 1.0});
+    case Family::line:
+      return std::max(0.0, std::abs(xi[0]) - 1.0);
+    case Family::triangle:
+      return std::max({0.0, -xi[0], -xi[1], xi[0] + xi[1] - 1.0});
+    case Family::quadrangle:
+      return std::max({0.0, std::abs(xi[0]) - 1.0, std::abs(xi[1]) - 1.0});
   }
   return 0.0;
 }
@@ -191,7 +207,9 @@ Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen:
 
 double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi, bool times_radius) {
   const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, points, xi);
-  const double stretch = family_of(type) == Family::line ? tangents.col(0).norm() : Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
+  const double stretch = family_of(type) == Family::line
+                             ? tangents.col(0).norm()
+                             : Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
   if (!times_radius) return stretch;
   const FacetShape shape = facet_shape(type, xi);
   double radius = 0.0;
@@ -208,7 +226,8 @@ Eigen::Vector3d facet_normal(CellType type, std::span<const Eigen::Vector3d> poi
     normal = Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1)));
   }
   const double length = normal.norm();
-  if (!(length > 0.0)) throw Error("degenerate-facet", "a contact facet has no normal: its nodes coincide or are aligned");
+  if (!(length > 0.0))
+    throw Error("degenerate-facet", "a contact facet has no normal: its nodes coincide or are aligned");
   return normal / length;
 }
 

@@ -32,13 +32,16 @@ double outside_distance(CellType type, const Eigen::Vector2d& xi);
 Eigen::Vector2d bring_back(CellType type, const Eigen::Vector2d& xi);
 
 /// Tangents (columns; the second is zero on a line) at a reference point; `points`: one a node.
-Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi);
+Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen::Vector3d> points,
+                                           const Eigen::Vector2d& xi);
 
-/// Area (length of a line) a unit of the reference cell's; with `times_radius`, of what turns round the axis x = 0 by a radian.
-double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi, bool times_radius);
+/// Area (length of a line) a unit of the reference cell's; with `times_radius`, of what turns round the axis x = 0 by a
+/// radian.
+double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi,
+                     bool times_radius);
 
-/// Unit normal: on the right of a line in the plane (the outer side of an edge that goes counter-clockwise round its face),
-/// the cross product of the tangents on a surface. Throws Error `degenerate-facet` where it vanishes.
+/// Unit normal: on the right of a line in the plane (the outer side of an edge that goes counter-clockwise round its
+/// face), the cross product of the tangents on a surface. Throws Error `degenerate-facet` where it vanishes.
 Eigen::Vector3d facet_normal(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi);
 
 }  // namespace comma::solver

@@ -18,14 +18,15 @@ using Eigen::Vector3d;
 constexpr int most_steps = 30;
 /// A step of Newton's method in reference coordinates after which what is left is rounding, since it is squared.
 constexpr double last_step = 1e-9;
-/// Facets whose normals are less opposite, by the cosine of the angle between one and the reverse of the other, do not face each other: across a
-/// slave that stands upright on it a master has any area.
+/// Facets whose normals are less opposite, by the cosine of the angle between one and the reverse of the other, do not
+/// face each other: across a slave that stands upright on it a master has any area.
 constexpr double least_facing = 0.1;
 /// A common part below this share of the slave's reference measure is rounding at an edge.
 constexpr double sliver = 1e-12;
 /// Gauss points a segment: exact for the products of quadratic shape functions with a quadratic map.
 constexpr int segment_points = 4;
-/// Degree of the triangles' rule where both facets are flat and undistorted: shape functions are quadratic in the plane.
+/// Degree of the triangles' rule where both facets are flat and undistorted: shape functions are quadratic in the
+/// plane.
 constexpr int triangle_degree = 4;
 /// Gauss points a side where one is distorted: shape functions are then no polynomials in the plane, but smooth.
 constexpr int collapsed_points = 10;
@@ -65,20 +66,25 @@ std::optional<double> solve_scalar(double slope, Function value) {
 
 double cross_in_plane(const Vector3d& a, const Vector3d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-Vector3d tangent_at(const FacetGeometry& line, double xi) { return facet_tangents(line.type, line.points, {xi, 0.0}).col(0); }
+Vector3d tangent_at(const FacetGeometry& line, double xi) {
+  return facet_tangents(line.type, line.points, {xi, 0.0}).col(0);
+}
 
 /// Where the normal of a line passes through a place.
 std::optional<double> foot_on_slave(const FacetGeometry& slave, const Vector3d& place) {
   const double slope = cross_in_plane(tangent_at(slave, 0.0), normal_at(slave, {0.0, 0.0}));
-  return solve_scalar(slope, [&](double xi) { return cross_in_plane(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0})); });
+  return solve_scalar(slope, [&](double xi) {
+    return cross_in_plane(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0}));
+  });
 }
 
 /// Where the slave's normal at a reference point meets a master line.
 std::optional<Vector2d> faced_by(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
   const Vector3d place = point_at(slave, at);
   const Vector3d normal = normal_at(slave, at);
-  const auto hit =
-      solve_scalar(cross_in_plane(tangent_at(master, 0.0), normal), [&](double xi) { return cross_in_plane(point_at(master, {xi, 0.0}) - place, normal); });
+  const auto hit = solve_scalar(cross_in_plane(tangent_at(master, 0.0), normal), [&](double xi) {
+    return cross_in_plane(point_at(master, {xi, 0.0}) - place, normal);
+  });
   if (!hit) return std::nullopt;
   return Vector2d(*hit, 0.0);
 }
@@ -87,7 +93,9 @@ std::optional<Vector2d> faced_by(const FacetGeometry& slave, const FacetGeometry
 std::vector<FacePoint> part_rule(double begin, double end) {
   static const auto rule = face_rule(CellType::seg2, ContactRule::gauss, segment_points);
   std::vector<FacePoint> points;
-  for (const FacePoint& gauss : rule) points.push_back({{begin + 0.5 * (1.0 + gauss.xi[0]) * (end - begin), 0.0}, 0.5 * std::abs(end - begin) * gauss.weight});
+  for (const FacePoint& gauss : rule)
+    points.push_back(
+        {{begin + 0.5 * (1.0 + gauss.xi[0]) * (end - begin), 0.0}, 0.5 * std::abs(end - begin) * gauss.weight});
   return points;
 }
 
@@ -157,7 +165,8 @@ class Plane {
   /// Counter-clockwise: corners.
   Polygon outline(const FacetGeometry& facet) const {
     Polygon polygon;
-    for (const Vector3d& corner : facet.points.first(static_cast<std::size_t>(corner_count(facet.type)))) polygon.push_back(at(corner));
+    for (const Vector3d& corner : facet.points.first(static_cast<std::size_t>(corner_count(facet.type))))
+      polygon.push_back(at(corner));
     if (signed_area(polygon) < 0.0) std::ranges::reverse(polygon);
     return polygon;
   }
@@ -206,8 +215,10 @@ bool misses(const Polygon& a, const Polygon& b) {
   return !box(a).intersects(box(b));
 }
 
-/// Integration points of a polygon of the plane, with weights in the reference cell of the facet that lies over it. None where it does not.
-std::vector<FacePoint> part_rule(const Plane& plane, const FacetGeometry& facet, const Polygon& part, const std::vector<FacePoint>& rule) {
+/// Integration points of a polygon of the plane, with weights in the reference cell of the facet that lies over it.
+/// None where it does not.
+std::vector<FacePoint> part_rule(const Plane& plane, const FacetGeometry& facet, const Polygon& part,
+                                 const std::vector<FacePoint>& rule) {
   std::vector<FacePoint> points;
   for (std::size_t i = 1; i + 1 < part.size(); ++i) {
     const Vector2d a = part[i] - part[0];
@@ -265,7 +276,8 @@ Vector3d normal_at(const FacetGeometry& facet, const Vector2d& xi) {
   for (std::size_t i = 0; i < facet.normals.size(); ++i) normal += shape.values[i] * facet.normals[i];
   const double length = normal.norm();
   if (!(length > 0.0))
-    throw Error("degenerate-facet", "the normals at the nodes of a contact facet cancel", "refine the facet, or leave normals as they are (LISSAGE='NON')");
+    throw Error("degenerate-facet", "the normals at the nodes of a contact facet cancel",
+                "refine the facet, or leave normals as they are (LISSAGE='NON')");
   return normal / length;
 }
 

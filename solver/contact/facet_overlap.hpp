@@ -11,8 +11,8 @@
 
 namespace comma::solver {
 
-/// A facet where it is now. `points`: one a node; `normals`: outward unit normals at the nodes, interpolated between them; empty:
-/// the facet's own are meant.
+/// A facet where it is now. `points`: one a node; `normals`: outward unit normals at the nodes, interpolated between
+/// them; empty: the facet's own are meant.
 struct FacetGeometry {
   CellType type;
   std::span<const Eigen::Vector3d> points;
@@ -27,26 +27,29 @@ Eigen::Vector3d point_at(const FacetGeometry& facet, const Eigen::Vector2d& xi);
 struct OverlapPoint {
   Eigen::Vector2d slave;
   Eigen::Vector2d master;
-  double weight = 0.0;  ///< in the slave's reference cell: all points of a slave facet that is wholly covered add up to its measure
+  double weight =
+      0.0;  ///< in the slave's reference cell: all points of a slave facet that is wholly covered add up to its measure
 };
 
-/// What two facets have in common, integrated on either side: both empty where they do not overlap or do not face each other (normals that
-/// are within 5.7 degrees of a right angle do not).
+/// What two facets have in common, integrated on either side: both empty where they do not overlap or do not face each
+/// other (normals that are within 5.7 degrees of a right angle do not).
 struct FacetOverlap {
   std::vector<OverlapPoint> points;
-  std::vector<FacePoint> master;  ///< points and weights in the master's reference cell, of its part that the slave faces
+  std::vector<FacePoint>
+      master;  ///< points and weights in the master's reference cell, of its part that the slave faces
 };
 
 /// Both facets by their own normals, whatever `normals` say.
 ///
-/// Lines: the ends of the master are brought onto the slave along the slave's normals, and places of the segment between go
-/// back onto the master along them (Puso and Laursen, Computer Methods in Applied Mechanics and Engineering 193, 2004, in the
-/// plane). Surfaces: the corners of both are projected on the plane of the slave's corners, the polygons are clipped there, and
-/// what is common is integrated by triangles. Quadratic facets too count by their corners: a place of the plane has the
-/// reference coordinates that it would have if the slave's edges were straight, and faces the place of the master over the one that
-/// the slave's shape functions give them, so the master's part is the polygon of the corners there. Whatever their middle nodes do, overlaps
-/// with all masters add up to the whole slave. Code_Aster's figures of
-/// pressures on bodies that do not deform uniformly say the same (ssnp170z, to 3e-8, ssnp170r, to 2e-7; with bent edges 1e-5).
+/// Lines: the ends of the master are brought onto the slave along the slave's normals, and places of the segment
+/// between go back onto the master along them (Puso and Laursen, Computer Methods in Applied Mechanics and Engineering
+/// 193, 2004, in the plane). Surfaces: the corners of both are projected on the plane of the slave's corners, the
+/// polygons are clipped there, and what is common is integrated by triangles. Quadratic facets too count by their
+/// corners: a place of the plane has the reference coordinates that it would have if the slave's edges were straight,
+/// and faces the place of the master over the one that the slave's shape functions give them, so the master's part is
+/// the polygon of the corners there. Whatever their middle nodes do, overlaps with all masters add up to the whole
+/// slave. Code_Aster's figures of pressures on bodies that do not deform uniformly say the same (ssnp170z, to 3e-8,
+/// ssnp170r, to 2e-7; with bent edges 1e-5).
 FacetOverlap facet_overlap(const FacetGeometry& slave, const FacetGeometry& master);
 
 }  // namespace comma::solver

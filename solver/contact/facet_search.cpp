@@ -12,8 +12,9 @@ using Eigen::Vector3d;
 
 /// A curved facet bulges out of the box of its nodes by less than this share of the box's diagonal.
 constexpr double bulge = 0.25;
-/// Two facets whose distances differ by less than this share of coordinates, some roundings, are equally near: the first of the mesh wins, as
-/// with Code_Aster. Beside a ridge, whose facets bring a point back to places next to each other, more would pass over the nearest.
+/// Two facets whose distances differ by less than this share of coordinates, some roundings, are equally near: the
+/// first of the mesh wins, as with Code_Aster. Beside a ridge, whose facets bring a point back to places next to each
+/// other, more would pass over the nearest.
 constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
 /// Boxes this share farther than the nearest facet are looked into still: what is left out must not be as near.
 constexpr double search_margin = 1e-10;
@@ -33,8 +34,10 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
       facets_(facet_boxes()),
       nodes_(node_boxes()) {
   if (!smooth) return;
-  if (zone.master_normal == NormalRule::automatic && zone.normal_side != NormalSide::slave) master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
-  if (zone.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
+  if (zone.master_normal == NormalRule::automatic && zone.normal_side != NormalSide::slave)
+    master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
+  if (zone.normal_side != NormalSide::master)
+    slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
 }
 
 std::vector<Box> FacetSearch::facet_boxes() const {
@@ -65,7 +68,8 @@ bool FacetSearch::too_far(const Vector3d& point) const {
   return nearest > zone_.pairing_distance;
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own, FacedFacet faced) const {
+std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own,
+                                                     FacedFacet faced) const {
   Hit best;
   best.projection.distance = infinitely_far;
   facets_.search(point, [&](int item) {
@@ -82,16 +86,20 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std:
   return best;
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::kept(const Vector3d& point, FacedFacet faced, double least_distance) const {
+std::optional<FacetSearch::Hit> FacetSearch::kept(const Vector3d& point, FacedFacet faced,
+                                                  double least_distance) const {
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
   const auto places = places_of(faced.facet, points, box);
   const auto found = projected(point, mesh_.cell_types[faced.facet], places);
-  if (!found || found->outside > faced.margin || found->distance > least_distance + faced.margin * box.diagonal().norm()) return std::nullopt;
+  if (!found || found->outside > faced.margin ||
+      found->distance > least_distance + faced.margin * box.diagonal().norm())
+    return std::nullopt;
   return Hit{faced.facet, *found, true};
 }
 
-std::span<const Vector3d> FacetSearch::places_of(int facet, std::array<Vector3d, max_facet_nodes>& points, Box& box) const {
+std::span<const Vector3d> FacetSearch::places_of(int facet, std::array<Vector3d, max_facet_nodes>& points,
+                                                 Box& box) const {
   const auto cell = mesh_.cell(facet);
   for (std::size_t i = 0; i < cell.size(); ++i) {
     points[i] = positions_[cell[i]];
@@ -128,7 +136,8 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point,
   return std::nullopt;
 }
 
-std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType type, std::span<const Vector3d> places) const {
+std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType type,
+                                                 std::span<const Vector3d> places) const {
   if (!zone_.pairing_direction) return project(point, type, places);
   return project_along(Vector3d(zone_.pairing_direction->data()), point, type, places);
 }

@@ -26,22 +26,24 @@ class FacetSearch {
   struct Hit {
     int facet = -1;
     Projection projection;
-    bool kept = false;  ///< another facet is nearer, or it is fallen outside of by more than the zone's tolerance (see FacedFacet)
+    bool kept = false;  ///< another facet is nearer, or it is fallen outside of by more than the zone's tolerance (see
+                        ///< FacedFacet)
   };
 
   /// Whether no master node lies within the zone's pairing distance.
   bool too_far(const Eigen::Vector3d& point) const;
 
-  /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the orthogonal
-  /// projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing direction: the nearest facet
-  /// among those that a line along it meets, else the one that it passes by the closest.
+  /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the
+  /// orthogonal projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing
+  /// direction: the nearest facet among those that a line along it meets, else the one that it passes by the closest.
   /// A facet that was faced before is kept within its margin, and facing any of them.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
   std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
 
-  /// Unit normal from master to slave at a hit. `slave_outward`: the slave's own unit normal, read where the zone asks for it.
+  /// Unit normal from master to slave at a hit. `slave_outward`: the slave's own unit normal, read where the zone asks
+  /// for it.
   Eigen::Vector3d normal(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
 
   /// Outward unit normal of a slave face at a reference point, smoothed as the zone asks.
@@ -50,8 +52,10 @@ class FacetSearch {
  private:
   std::vector<Box> facet_boxes() const;
   std::vector<Box> node_boxes() const;
-  std::optional<Projection> projected(const Eigen::Vector3d& point, CellType type, std::span<const Eigen::Vector3d> places) const;
-  std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points, Box& box) const;
+  std::optional<Projection> projected(const Eigen::Vector3d& point, CellType type,
+                                      std::span<const Eigen::Vector3d> places) const;
+  std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points,
+                                             Box& box) const;
   void consider(const Eigen::Vector3d& point, std::span<const int> own, int facet, Hit& best) const;
   std::optional<Hit> kept(const Eigen::Vector3d& point, FacedFacet faced, double least_distance) const;
   bool is_outside(const Projection& projection, double margin) const;
@@ -66,7 +70,8 @@ class FacetSearch {
   std::unordered_map<int, Eigen::Vector3d> slave_normals_;   ///< likewise
 };
 
-/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT), beside what the elements there do.
+/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT), beside what the
+/// elements there do.
 double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, const Eigen::Vector3d& foot, double time);
 
 }  // namespace comma::solver

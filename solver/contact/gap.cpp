@@ -24,9 +24,11 @@ class RowBuilder {
       if (coefficients[axis] == 0.0) continue;
       const int dof = dofs_.dof(node, translation_components[axis]);
       if (dof < 0)
-        throw Error("unknown-dof",
-                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translation_components[axis])),
-                    "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
+        throw Error(
+            "unknown-dof",
+            fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node),
+                        name_of(translation_components[axis])),
+            "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
       entries_.emplace_back(row, dof, coefficients[axis]);
     }
   }
@@ -47,7 +49,8 @@ class RowBuilder {
 
 }  // namespace
 
-Inequalities gap_rows(std::span<const ContactPair> pairs, const Mesh& mesh, const DofMap& dofs, std::vector<int>& row_pairs) {
+Inequalities gap_rows(std::span<const ContactPair> pairs, const Mesh& mesh, const DofMap& dofs,
+                      std::vector<int>& row_pairs) {
   RowBuilder builder(mesh, dofs);
   std::vector<double> bounds, sizes;
   row_pairs.clear();

@@ -13,20 +13,26 @@ template <class Sections>
 const auto& section_of(const Sections& sections, const Mesh& mesh, int cell) {
   const auto found = sections.find(cell);
   if (found != sections.end()) return found->second;
-  throw Error("missing-section", fmt::format("the element on cell {} has no section, which contact is to add to its surface", mesh.cell_name(cell)),
+  throw Error("missing-section",
+              fmt::format("the element on cell {} has no section, which contact is to add to its surface",
+                          mesh.cell_name(cell)),
               "give it one in AFFE_CARA_ELEM");
 }
 
 double radius_of(const BeamSection& section, const Mesh& mesh, int cell) {
   if (section.shape == SectionShape::circle) return section.reach_y;
-  throw Error("unsupported", fmt::format("the section of the beam on cell {} is no circle: how far its surface lies from its axis depends on the side",
-                                         mesh.cell_name(cell)),
-              "give the distance itself (DIST_MAIT, DIST_ESCL)");
+  throw Error(
+      "unsupported",
+      fmt::format(
+          "the section of the beam on cell {} is no circle: how far its surface lies from its axis depends on the side",
+          mesh.cell_name(cell)),
+      "give the distance itself (DIST_MAIT, DIST_ESCL)");
 }
 
 }  // namespace
 
-std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const ElementProperties& properties, std::span<const int> cells) {
+std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const ElementProperties& properties,
+                                                  std::span<const int> cells) {
   std::unordered_map<int, HalfThickness> radii;
   const Mesh& mesh = *model.mesh;
   for (const int cell : cells) {
@@ -38,13 +44,17 @@ std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const Elem
   return radii;
 }
 
-std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model, const ElementProperties& properties, std::span<const int> cells) {
+std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model, const ElementProperties& properties,
+                                                              std::span<const int> cells) {
   std::unordered_map<int, HalfThickness> halves;
   for (const int cell : cells) {
     if (!is_plate(model.formulations[static_cast<std::size_t>(cell)])) continue;
     const auto& section = section_of(properties.plates, *model.mesh, cell);
     if (section.offset != 0.0)
-      throw Error("unsupported", fmt::format("plate {} is eccentric by {:.6g} (EXCENTREMENT), and DIST_COQUE takes its faces for half of its thickness off the cell", model.mesh->cell_name(cell), section.offset),
+      throw Error("unsupported",
+                  fmt::format("plate {} is eccentric by {:.6g} (EXCENTREMENT), and DIST_COQUE takes its faces for half "
+                              "of its thickness off the cell",
+                              model.mesh->cell_name(cell), section.offset),
                   "give the distance of the face from the cell by DIST_ESCL or DIST_MAIT");
     const double half = 0.5 * section.thickness;
     halves[cell] = {half, half};
@@ -52,7 +62,8 @@ std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model
   return halves;
 }
 
-double half_thickness(const ContactZone& zone, const Mesh& mesh, int cell, const std::array<double, max_facet_nodes>& shape) {
+double half_thickness(const ContactZone& zone, const Mesh& mesh, int cell,
+                      const std::array<double, max_facet_nodes>& shape) {
   const auto found = zone.half_thickness.find(cell);
   if (found == zone.half_thickness.end()) return 0.0;
   const HalfThickness& own = found->second;

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A component this small is what rounding leaves of zero. It is cleared because contact forces of 1e10 times a rounding
-/// would push a body that only weak springs hold sideways.
+/// A component this small is what rounding leaves of zero. It is cleared because contact forces of 1e10 times a
+/// rounding would push a body that only weak springs hold sideways.
 constexpr double clean_normal_tolerance = 1e-14;
 
 Vector3d cleaned_normal(Vector3d normal) {
@@ -35,17 +35,22 @@ FacetPoints gather(const Mesh& mesh, int cell, Positions positions) {
   return result;
 }
 
-bool is_line_in_space(const Mesh& mesh, int cell) { return mesh.dimension == 3 && dimension(mesh.cell_types[cell]) != 2; }
+bool is_line_in_space(const Mesh& mesh, int cell) {
+  return mesh.dimension == 3 && dimension(mesh.cell_types[cell]) != 2;
+}
 
 void require_plane_or_surface(const Mesh& mesh, int cell) {
   if (!is_line_in_space(mesh, cell)) return;
-  throw Error("unsupported", fmt::format("contact facet {} is a line in space: its normal is not defined", mesh.cell_name(cell)),
-              "give its normal (VECT_MAIT='FIXE', VECT_ESCL='FIXE'), or its second direction (VECT_MAIT='VECT_Y', VECT_ESCL='VECT_Y')");
+  throw Error("unsupported",
+              fmt::format("contact facet {} is a line in space: its normal is not defined", mesh.cell_name(cell)),
+              "give its normal (VECT_MAIT='FIXE', VECT_ESCL='FIXE'), or its second direction (VECT_MAIT='VECT_Y', "
+              "VECT_ESCL='VECT_Y')");
 }
 
-/// Across a given direction: of a line in space the cross product of its tangent and the direction, else the facet's own normal less its
-/// part along the direction.
-Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions, const Vector3d& direction) {
+/// Across a given direction: of a line in space the cross product of its tangent and the direction, else the facet's
+/// own normal less its part along the direction.
+Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions,
+                       const Vector3d& direction) {
   const FacetPoints points = gather(mesh, facet, positions);
   Vector3d normal = Vector3d::Zero();
   if (is_line_in_space(mesh, facet)) {
@@ -58,13 +63,15 @@ Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, P
     normal = own - own.dot(direction.normalized()) * direction.normalized();
   }
   if (!(normal.norm() > clean_normal_tolerance))
-    throw Error("degenerate-facet", fmt::format("the second direction that is given leaves contact facet {} no normal", mesh.cell_name(facet)));
+    throw Error("degenerate-facet", fmt::format("the second direction that is given leaves contact facet {} no normal",
+                                                mesh.cell_name(facet)));
   return cleaned_normal(normal.normalized());
 }
 
 }  // namespace
 
-std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions, const NormalChoice& choice) {
+std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions,
+                                                const NormalChoice& choice) {
   std::unordered_map<int, Vector3d> normals;
   for (const int cell : cells) {
     const CellType type = mesh.cell_types[cell];
@@ -76,7 +83,8 @@ std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<cons
   }
   for (auto& [node, normal] : normals) {
     if (!(normal.norm() > clean_normal_tolerance))
-      throw Error("degenerate-facet", fmt::format("the contact facets around node {} face opposite ways", mesh.node_name(node)),
+      throw Error("degenerate-facet",
+                  fmt::format("the contact facets around node {} face opposite ways", mesh.node_name(node)),
                   "turn the skin cells outwards with MODI_MAILLAGE/ORIE_PEAU");
     normal = cleaned_normal(normal.normalized());
   }
@@ -95,19 +103,23 @@ Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d&
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i) normal += shape.values[i] * normals.at(nodes[i]);
   if (!(normal.norm() > clean_normal_tolerance))
-    throw Error("degenerate-facet", fmt::format("the normals at the nodes of contact facet {} cancel", mesh.cell_name(facet)),
+    throw Error("degenerate-facet",
+                fmt::format("the normals at the nodes of contact facet {} cancel", mesh.cell_name(facet)),
                 "refine the facet, or leave normals as they are (LISSAGE='NON')");
   return cleaned_normal(normal.normalized());
 }
 
-Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
+Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
+                        Positions positions) {
   const Vector3d given(choice.vector[0], choice.vector[1], choice.vector[2]);
   switch (choice.rule) {
     case NormalRule::fixed:
       if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of a contact surface is null");
       return cleaned_normal(given.normalized());
-    case NormalRule::along_y: return normal_across(mesh, facet, xi, positions, given);
-    case NormalRule::automatic: break;
+    case NormalRule::along_y:
+      return normal_across(mesh, facet, xi, positions, given);
+    case NormalRule::automatic:
+      break;
   }
   return outward_normal(mesh, facet, xi, positions);
 }

@@ -22,7 +22,8 @@ class ZonePairing {
         time_(time),
         search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()) {
-    if (zone_.normal_side != NormalSide::master) slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions, slave_choice(zone_));
+    if (zone_.normal_side != NormalSide::master)
+      slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions, slave_choice(zone_));
     slave_sizes_ = nodal_half_thickness(zone_, mesh);
   }
 
@@ -43,7 +44,8 @@ class ZonePairing {
       result.kept = hit->kept;
       const auto own = slave_normals_.find(slave);
       result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
-      result.thickness = thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
+      result.thickness =
+          thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
       if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;
     }
     return result;
@@ -52,7 +54,8 @@ class ZonePairing {
  private:
   std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
     const std::span own(&slave, 1);
-    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own) : search_.nearest(positions_[slave], own, before);
+    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own)
+                                              : search_.nearest(positions_[slave], own, before);
   }
 
   const ContactZone& zone_;
@@ -75,7 +78,8 @@ FacedFacets faced_facets(const std::vector<ContactPair>& pairs, double margin) {
   return faced;
 }
 
-std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time, const FacedFacets& before) {
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions,
+                                       double time, const FacedFacets& before) {
   std::vector<ContactPair> pairs;
   std::size_t asked = 0;
   for (std::size_t zone = 0; zone < definition.zones.size(); ++zone) {

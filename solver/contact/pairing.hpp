@@ -28,22 +28,22 @@ struct ContactPair {
   int zone = 0;
   int slave = -1;
   PairingStatus status = PairingStatus::outside;
-  int facet = -1;                                 ///< master cell, when paired
-  std::array<double, max_facet_nodes> weights{};  ///< of the facet's nodes
+  int facet = -1;                                    ///< master cell, when paired
+  std::array<double, max_facet_nodes> weights{};     ///< of the facet's nodes
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();    ///< the place on the facet
   double thickness = 0.0;                            ///< of both sides, taken off the gap (DIST_ESCL, DIST_MAIT)
-  bool kept = false;                                 ///< the facet is not the nearest, or no longer faced, but the one before (FacedFacet)
+  bool kept = false;  ///< the facet is not the nearest, or no longer faced, but the one before (FacedFacet)
 };
 
-/// One entry a slave node and zone, zones in order, nodes rising: node-to-facet pairing (R5.03.50, section 3). A slave node
-/// takes the facet whose nearest place is nearest; its orthogonal projection may fall outside that facet by the tolerance,
-/// in reference coordinates, and is then brought back on its border. The pairing distance is measured to the nearest master
-/// node, as Code_Aster does: a node in the middle of a long facet is far from it. With
-/// PairingRule::node it takes the nearest master node, and the mean of the normals there. `time`: at which thicknesses are read.
+/// One entry a slave node and zone, zones in order, nodes rising: node-to-facet pairing (R5.03.50, section 3). A slave
+/// node takes the facet whose nearest place is nearest; its orthogonal projection may fall outside that facet by the
+/// tolerance, in reference coordinates, and is then brought back on its border. The pairing distance is measured to the
+/// nearest master node, as Code_Aster does: a node in the middle of a long facet is far from it. With PairingRule::node
+/// it takes the nearest master node, and the mean of the normals there. `time`: at which thicknesses are read.
 /// `before`: what slave nodes faced at the last pairing, if anything is to be kept of it.
-std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions, double time = 0.0,
-                                       const FacedFacets& before = {});
+std::vector<ContactPair> pair_surfaces(const ContactDefinition& definition, const Mesh& mesh, Positions positions,
+                                       double time = 0.0, const FacedFacets& before = {});
 
 /// What the nodes of these pairs face, to be kept within the margin when surfaces are paired again.
 FacedFacets faced_facets(const std::vector<ContactPair>& pairs, double margin);

@@ -22,7 +22,8 @@ ElementField patch_field(std::span<const std::pair<std::vector<int>, PatchContac
     field.starts.push_back(field.starts.back() + (contact != nullptr ? 1 : 0));
     if (contact == nullptr) continue;
     const double stress = contact->is_closed ? -contact->pressure : 0.0;
-    for (const double value : {contact->is_closed ? 1.0 : 0.0, contact->gap, stress, contact->covered, stress * contact->covered})
+    for (const double value :
+         {contact->is_closed ? 1.0 : 0.0, contact->gap, stress, contact->covered, stress * contact->covered})
       field.values.push_back(value);
   }
   return field;

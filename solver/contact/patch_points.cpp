@@ -22,7 +22,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A patch of which less than this share faces the master is open: what rounding leaves at an edge would not bear a pressure.
+/// A patch of which less than this share faces the master is open: what rounding leaves at an edge would not bear a
+/// pressure.
 constexpr double covered_tolerance = 1e-9;
 
 /// A facet's nodes where they are and, where normals are smoothed, the outward normals of the cells around them.
@@ -42,7 +43,8 @@ struct Gathered {
 /// The facets of a surface at one moment.
 class Surface {
  public:
-  Surface(const Mesh& mesh, std::span<const int> cells, Positions positions, bool is_smooth) : mesh_(mesh), positions_(positions), is_smooth_(is_smooth) {
+  Surface(const Mesh& mesh, std::span<const int> cells, Positions positions, bool is_smooth)
+      : mesh_(mesh), positions_(positions), is_smooth_(is_smooth) {
     if (is_smooth) normals_ = nodal_normals(mesh, cells, positions);
   }
 
@@ -70,11 +72,12 @@ class Surface {
   std::unordered_map<int, Vector3d> normals_;
 };
 
-/// What a slave face may face. Where it is curved its normals lean: what lies within the facets' sizes of the line through the face's centre
-/// is looked at.
+/// What a slave face may face. Where it is curved its normals lean: what lies within the facets' sizes of the line
+/// through the face's centre is looked at.
 class Reach {
  public:
-  explicit Reach(const Gathered& slave) : slave_(slave), normal_(facet_normal(slave.type, slave.span(), facet_centre(slave.type))) {}
+  explicit Reach(const Gathered& slave)
+      : slave_(slave), normal_(facet_normal(slave.type, slave.span(), facet_centre(slave.type))) {}
 
   bool has(const Gathered& master) const {
     const Vector3d apart = master.centre - slave_.centre;
@@ -129,7 +132,8 @@ class PatchGaps {
  private:
   void add_face(int face, bool is_far) {
     const Gathered slave = slaves_.gather(face);
-    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order)) point_.area += at.weight * initial_stretch(mesh_, face, at.xi, is_axisymmetric_);
+    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order))
+      point_.area += at.weight * initial_stretch(mesh_, face, at.xi, is_axisymmetric_);
     if (is_far) return;
     const Reach reach(slave);
     for (std::size_t m = 0; m < masters_.size(); ++m)
@@ -151,7 +155,8 @@ class PatchGaps {
       point_.weight += before;
       add_shares(face, slave, at.slave, -before);
     }
-    for (const FacePoint& at : overlap.master) add_shares(facet, master, at.xi, -at.weight * initial_stretch(mesh_, facet, at.xi, is_axisymmetric_));
+    for (const FacePoint& at : overlap.master)
+      add_shares(facet, master, at.xi, -at.weight * initial_stretch(mesh_, facet, at.xi, is_axisymmetric_));
   }
 
   /// Adds what the gap takes of a facet's nodes where they move along outward normals.
@@ -160,7 +165,8 @@ class PatchGaps {
     const FacetShape shape = facet_shape(facet.type, xi);
     const Vector3d own = facet.is_smooth ? Vector3d(Vector3d::Zero()) : normal_at(facet.geometry(), xi);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second += factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
+      sums_.try_emplace(nodes[i], Vector3d::Zero()).first->second +=
+          factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
   }
 
   static constexpr int area_order = 4;
@@ -195,13 +201,15 @@ std::vector<int> patches_of(const ContactZone& zone, const Mesh& mesh) {
   }
   for (const auto& [patch, count] : found)
     if (count != mesh.slave_patches[static_cast<std::size_t>(patch)].size())
-      throw Error("no-patch", fmt::format("not all pieces of the patch of slave face {} belong to the zone",
-                                          mesh.cell_name(mesh.slave_patches[static_cast<std::size_t>(patch)].front())),
+      throw Error("no-patch",
+                  fmt::format("not all pieces of the patch of slave face {} belong to the zone",
+                              mesh.cell_name(mesh.slave_patches[static_cast<std::size_t>(patch)].front())),
                   "take the group of slave faces that was cut");
   return patches;
 }
 
-void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions, double time, std::vector<ContactPoint>& points) {
+void append_patch_points(const ContactDefinition& definition, int zone, const Model& model, Positions positions,
+                         double time, std::vector<ContactPoint>& points) {
   PatchGaps gaps(definition, zone, model, positions, time);
   for (const int patch : patches_of(definition.zones[static_cast<std::size_t>(zone)], *model.mesh))
     points.push_back(gaps.point_of(model.mesh->slave_patches[static_cast<std::size_t>(patch)]));

@@ -34,7 +34,8 @@ double signed_area(const Polygon& polygon) {
 
 Polygon clipped(const Polygon& polygon, const Polygon& convex) {
   Polygon result = polygon;
-  for (std::size_t i = 0; i < convex.size() && result.size() > 2; ++i) result = left_of(result, convex[i], convex[(i + 1) % convex.size()]);
+  for (std::size_t i = 0; i < convex.size() && result.size() > 2; ++i)
+    result = left_of(result, convex[i], convex[(i + 1) % convex.size()]);
   return result.size() > 2 && signed_area(result) > 0.0 ? result : Polygon();
 }
 

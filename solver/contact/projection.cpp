@@ -91,7 +91,8 @@ std::optional<Projection> project(const Vector3d& node, CellType type, std::span
 }
 
 /// Seen along the direction, the place that is asked for is the foot of the node.
-std::optional<Projection> project_along(const Vector3d& direction, const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+std::optional<Projection> project_along(const Vector3d& direction, const Vector3d& node, CellType type,
+                                        std::span<const Vector3d> points) {
   const Vector3d along = direction.normalized();
   const auto seen = [&](const Vector3d& place) -> Vector3d { return place - along.dot(place) * along; };
   std::array<Vector3d, max_facet_nodes> flat;

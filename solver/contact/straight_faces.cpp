@@ -11,15 +11,18 @@ namespace {
 
 constexpr int corners = 4;
 
-void tie_edges(const Mesh& mesh, const DofMap& dofs, int cell, const Origin& origin, std::set<int>& tied, std::vector<LinearRelation>& relations) {
+void tie_edges(const Mesh& mesh, const DofMap& dofs, int cell, const Origin& origin, std::set<int>& tied,
+               std::vector<LinearRelation>& relations) {
   const auto nodes = mesh.cell(cell);
   for (int edge = 0; edge < corners; ++edge) {
     const int middle = nodes[static_cast<std::size_t>(corners + edge)];
     if (!tied.insert(middle).second) continue;
-    const int first = nodes[static_cast<std::size_t>(edge)], second = nodes[static_cast<std::size_t>((edge + 1) % corners)];
+    const int first = nodes[static_cast<std::size_t>(edge)],
+              second = nodes[static_cast<std::size_t>((edge + 1) % corners)];
     for (const Component component : {Component::dx, Component::dy, Component::dz}) {
       if (dofs.dof(middle, component) < 0) continue;
-      relations.push_back({{{middle, component, 1.0}, {first, component, -0.5}, {second, component, -0.5}}, 0.0, {}, origin});
+      relations.push_back(
+          {{{middle, component, 1.0}, {first, component, -0.5}, {second, component, -0.5}}, 0.0, {}, origin});
     }
   }
 }

@@ -10,7 +10,8 @@
 
 namespace comma::solver {
 
-std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now,
+                                                 double instant) {
   std::map<std::size_t, ContactPair> watched;
   if (std::ranges::all_of(contact.zones, [](const ContactZone& zone) { return zone.resolved; })) return watched;
   const auto pairs = pair_surfaces(contact, mesh, now, instant);
@@ -32,15 +33,19 @@ std::vector<Overlap> overlaps(const ContactDefinition& contact, const Mesh& mesh
   std::vector<Overlap> found;
   for (const auto& [k, pair] : watched_pairs(contact, mesh, now, instant)) {
     const double depth = -gap_at(pair, mesh, now);
-    if (depth > contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance && depth > rounding_of_place * extent(mesh, pair.facet)) found.push_back({pair, depth});
+    if (depth > contact.zones[static_cast<std::size_t>(pair.zone)].interpenetration_tolerance &&
+        depth > rounding_of_place * extent(mesh, pair.facet))
+      found.push_back({pair, depth});
   }
   return found;
 }
 
 }  // namespace
 
-void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant, ContactDoubts& doubts) {
-  for (const auto& [pair, depth] : overlaps(contact, mesh, now, instant)) doubts.note({.kind = DoubtKind::watched_overlap, .zone = pair.zone, .length = depth, .node = pair.slave});
+void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant,
+                           ContactDoubts& doubts) {
+  for (const auto& [pair, depth] : overlaps(contact, mesh, now, instant))
+    doubts.note({.kind = DoubtKind::watched_overlap, .zone = pair.zone, .length = depth, .node = pair.slave});
 }
 
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant) {
@@ -48,8 +53,8 @@ void require_no_interpenetration(const ContactDefinition& contact, const Mesh& m
   if (found.empty()) return;
   const auto& [pair, depth] = found.front();
   throw Error("contact-interpenetration",
-              fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced", instant, mesh.node_name(pair.slave), depth,
-                          mesh.cell_name(pair.facet), pair.zone + 1),
+              fmt::format("at INST={:g} node {} lies {:.4g} deep in facet {}, in zone {} where contact is not enforced",
+                          instant, mesh.node_name(pair.slave), depth, mesh.cell_name(pair.facet), pair.zone + 1),
               "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)");
 }
 

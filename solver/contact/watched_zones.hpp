@@ -9,14 +9,17 @@
 
 namespace comma::solver {
 
-/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Their gaps are gap_at(), less thicknesses, as where contact is
-/// enforced. Throws what pair_surfaces throws.
-std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
+/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Their gaps
+/// are gap_at(), less thicknesses, as where contact is enforced. Throws what pair_surfaces throws.
+std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now,
+                                                 double instant);
 
-/// For STOP_INTERP='OUI': throws Error `contact-interpenetration` where a watched node lies deeper than its zone allows.
+/// For STOP_INTERP='OUI': throws Error `contact-interpenetration` where a watched node lies deeper than its zone
+/// allows.
 void require_no_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant);
 
 /// For STOP_INTERP='NON': the doubt `watched_overlap` of such nodes.
-void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant, ContactDoubts& doubts);
+void note_interpenetration(const ContactDefinition& contact, const Mesh& mesh, Positions now, double instant,
+                           ContactDoubts& doubts);
 
 }  // namespace comma::solver

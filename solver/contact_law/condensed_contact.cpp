@@ -27,11 +27,16 @@ constexpr double softest_penalties = 1.0 / 4096.0;
 class CondensedSearch {
  public:
   CondensedSearch(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : problem_(problem), state_(state), given_(state.statuses), start_{state, first_jumps(problem), problem.held}, newton_(schur, problem, state) {}
+      : problem_(problem),
+        state_(state),
+        given_(state.statuses),
+        start_{state, first_jumps(problem), problem.held},
+        newton_(schur, problem, state) {}
 
-  /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that stick to what they touch;
-  /// then from laws that are smooth at first; then by corrections cut short; then from what relaxation finds; then from the statuses given, however far that leads; at
-  /// last with penalties that grow from soft ones, and with friction that grows from none.
+  /// From the multipliers expected; where that leads away, from the statuses given; then from those of points that
+  /// stick to what they touch; then from laws that are smooth at first; then by corrections cut short; then from what
+  /// relaxation finds; then from the statuses given, however far that leads; at last with penalties that grow from soft
+  /// ones, and with friction that grows from none.
   CondensedSolution run() {
     close_for_good();
     bool solved = start_as_expected() && settle(Rubbing::by_law, Patience::short_of_growth) && stays_near();
@@ -95,9 +100,12 @@ class CondensedSearch {
   }
 
  private:
-  bool settle(Rubbing rubbing, Patience patience = Patience::to_the_end) { return newton_.settle(rubbing, solution_.iterations, patience); }
+  bool settle(Rubbing rubbing, Patience patience = Patience::to_the_end) {
+    return newton_.settle(rubbing, solution_.iterations, patience);
+  }
 
-  /// What the first iteration closes of points that stay closed (GLISSIERE) is so in every attempt: which of them finds the solution does not decide it.
+  /// What the first iteration closes of points that stay closed (GLISSIERE) is so in every attempt: which of them finds
+  /// the solution does not decide it.
   void close_for_good() {
     if (problem_.components == 1 || std::ranges::none_of(problem_.points, &CondensedPoint::bilateral)) return;
     newton_.correct_statuses();
@@ -120,7 +128,8 @@ class CondensedSearch {
     solution_.forces = newton_.forces();
   }
 
-  /// Whether what is solved is a state that bodies come to. Otherwise it is kept: where there is no nearer one, it says what nothing holds.
+  /// Whether what is solved is a state that bodies come to. Otherwise it is kept: where there is no nearer one, it says
+  /// what nothing holds.
   bool stays_near() {
     if (newton_.stays_near()) return true;
     if (!far_) far_ = newton_.place();
@@ -155,7 +164,8 @@ class CondensedSearch {
     otherwise([&] { return newton_.follow_smoothed(solution_.iterations, Augmentations::of_law); });
     otherwise([&] { return newton_.descend(solution_.iterations); });
     otherwise([&] { return raise_friction(); });
-    const bool raised = solved && raise([&](double way) { newton_.take_penalties(std::pow(softest_penalties, 1.0 - way)); });
+    const bool raised =
+        solved && raise([&](double way) { newton_.take_penalties(std::pow(softest_penalties, 1.0 - way)); });
     newton_.take_penalties(1.0);
     return raised;
   }
@@ -210,12 +220,13 @@ CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem
     };
   };
   if (has_shared_friction(problem))
-    return solve_shared_friction(problem, state,
-                                 {.solve = by(&CondensedSearch::run),
-                                  .refine = by(&CondensedSearch::refine),
-                                  .attempt = by(&CondensedSearch::attempt),
-                                  .smooth = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_law); }),
-                                  .stand_in = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_pressures); })});
+    return solve_shared_friction(
+        problem, state,
+        {.solve = by(&CondensedSearch::run),
+         .refine = by(&CondensedSearch::refine),
+         .attempt = by(&CondensedSearch::attempt),
+         .smooth = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_law); }),
+         .stand_in = by([](CondensedSearch& search) { return search.smooth(Augmentations::of_pressures); })});
   CondensedState start = state;
   CondensedSolution found = CondensedSearch(schur, problem, state).run();
   if (found.verdict == CondensedVerdict::solved) return found;

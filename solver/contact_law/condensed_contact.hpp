@@ -14,14 +14,17 @@ struct CondensedSolution {
   CondensedVerdict verdict = CondensedVerdict::solved;
   Eigen::VectorXd forces;  ///< on the rows
   int iterations = 0;
-  int changes = 0;         ///< of status, beside the start
-  bool is_far = false;      ///< solved, and further away than bodies go (CondensedProblem::farthest): of solve_condensed, where there is nothing nearer; it says what nothing holds
-  bool by_shears = false;  ///< points have a share_augmentation, and no solution by shares was found: it is one by shears
+  int changes = 0;      ///< of status, beside the start
+  bool is_far = false;  ///< solved, and further away than bodies go (CondensedProblem::farthest): of solve_condensed,
+                        ///< where there is nothing nearer; it says what nothing holds
+  bool by_shears =
+      false;  ///< points have a share_augmentation, and no solution by shares was found: it is one by shears
 };
 
-/// Newton's method with statuses held during an iteration (the primal-dual active set of Hintermueller, Ito and Kunisch, SIAM
-/// Journal on Optimization 13, 2002). All points that ask for it change status at once; once a set of statuses comes back,
-/// one at a time, the first in order, which is finite where the compliance is positive definite and nothing rubs (Murty, 1974).
+/// Newton's method with statuses held during an iteration (the primal-dual active set of Hintermueller, Ito and
+/// Kunisch, SIAM Journal on Optimization 13, 2002). All points that ask for it change status at once; once a set of
+/// statuses comes back, one at a time, the first in order, which is finite where the compliance is positive definite
+/// and nothing rubs (Murty, 1974).
 CondensedSolution solve_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state);
 
 }  // namespace comma::solver

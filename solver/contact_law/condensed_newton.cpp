@@ -16,25 +16,28 @@ using Eigen::Vector3d;
 
 /// Gaps, pressures and shears beyond zero by less than this share of the largest are rounding: they change no status.
 constexpr double status_tolerance = 1e-12;
-/// Nor do pressures interpolated from larger ones of the nodes that push by so many of their roundings: beside a small augmentation these are long gaps.
+/// Nor do pressures interpolated from larger ones of the nodes that push by so many of their roundings: beside a small
+/// augmentation these are long gaps.
 constexpr double pressure_roundings = 16.0;
 /// The system is solved when what is left of it is this share of the jumps.
 constexpr double residual_tolerance = 1e-12;
-/// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned compliance.
+/// Where corrections no longer halve it, what is left may be this share: the rounding of a badly conditioned
+/// compliance.
 constexpr double stagnation_tolerance = 1e-9;
 /// Or this share of what the forces could do to the jumps.
 constexpr double jump_rounding_share = 1e-13;
 /// Or what the rounding of pressures makes of lengths by a small augmentation, up to this share of the jumps.
 constexpr double most_law_rounding = 1e-6;
-/// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it, is then the
-/// rounding of displacements.
+/// The scale of jumps is at least this share of the largest displacement: what the solver leaves of them, 1e-9 of it,
+/// is then the rounding of displacements.
 constexpr double rounding_scale = 1e-6;
 
-/// What products with the compliance leave of a linear system, as a share: the next iteration of Newton's method takes the rest along. Products in single
-/// precision leave 1e-7.
+/// What products with the compliance leave of a linear system, as a share: the next iteration of Newton's method takes
+/// the rest along. Products in single precision leave 1e-7.
 constexpr double product_tolerance = 1e-5;
 
-/// So many iterations may leave more than before, however little patience there is: on nodes, where sliding is linearised such that they come back, some more.
+/// So many iterations may leave more than before, however little patience there is: on nodes, where sliding is
+/// linearised such that they come back, some more.
 constexpr int free_iterations = 2, free_iterations_on_nodes = 5;
 
 /// A share of a correction has to bring what is left of the equations down by this much of itself.
@@ -45,10 +48,12 @@ constexpr double shortest_useful_share = 1e-2;
 constexpr int most_short_steps = 3;
 /// Jumps that grow by more are those of a body that nothing holds any more.
 constexpr double most_growth = 1e6;
-/// States this many times as far as the nearest one that was met are those of bodies that have lost their contact: only if there is no nearer one.
+/// States this many times as far as the nearest one that was met are those of bodies that have lost their contact: only
+/// if there is no nearer one.
 constexpr double farthest_state = 1e4;
 
-/// A single step has no other that would take along what products leave; and of penalties that jumps bring alone, forces are far less exact than these.
+/// A single step has no other that would take along what products leave; and of penalties that jumps bring alone,
+/// forces are far less exact than these.
 int direct_rows(const CondensedProblem& problem, bool is_nodal) {
   const bool by_jumps = std::ranges::any_of(problem.points, [&](const CondensedPoint& point) {
     return (point.law.penalised || point.law.friction_penalised) && !(is_nodal && point.stiffness > 0.0);
@@ -59,14 +64,23 @@ int direct_rows(const CondensedProblem& problem, bool is_nodal) {
 
 }  // namespace
 
-const Eigen::VectorXd& first_jumps(const CondensedProblem& problem) { return problem.begin.size() > 0 ? problem.begin : problem.free; }
+const Eigen::VectorXd& first_jumps(const CondensedProblem& problem) {
+  return problem.begin.size() > 0 ? problem.begin : problem.free;
+}
 
 bool has_penalty(const CondensedProblem& problem) {
-  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
+  return std::ranges::any_of(
+      problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
 }
 
 CondensedNewton::CondensedNewton(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-    : schur_(schur), problem_(problem), state_(state), jumps_(first_jumps(problem)), forces_(problem.held), is_nodal_(has_points_on_nodes(problem)), direct_rows_(direct_rows(problem, is_nodal_)) {
+    : schur_(schur),
+      problem_(problem),
+      state_(state),
+      jumps_(first_jumps(problem)),
+      forces_(problem.held),
+      is_nodal_(has_points_on_nodes(problem)),
+      direct_rows_(direct_rows(problem, is_nodal_)) {
   assert(problem.free.size() == schur.size() && problem.held.size() == schur.size());
   assert(state.statuses.size() == problem.points.size());
 }
@@ -94,7 +108,8 @@ void CondensedNewton::take_penalties(double share) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
     if (point.law.penalised) jumps_[point.first_row] *= ratio;
-    if (point.law.friction_penalised && state_.statuses[p] == ContactStatus::sticking) jumps_.segment(point.first_row + 1, point.rows - 1) *= ratio;
+    if (point.law.friction_penalised && state_.statuses[p] == ContactStatus::sticking)
+      jumps_.segment(point.first_row + 1, point.rows - 1) *= ratio;
   }
   penalty_share_ = share;
 }
@@ -153,7 +168,8 @@ ContactLaw CondensedNewton::law_of(std::size_t p) const {
 }
 
 bool CondensedNewton::follow_smoothed(int& iterations, Augmentations augmentations) {
-  if (problem_.components == 1 || !smooth_condensed(schur_, problem_, state_, jumps_, bodies_, augmentations)) return false;
+  if (problem_.components == 1 || !smooth_condensed(schur_, problem_, state_, jumps_, bodies_, augmentations))
+    return false;
   pressures_by_bodies_ = is_nodal_;
   shears_by_bodies_ = is_nodal_ || augmentations == Augmentations::of_pressures;
   const bool solved = settle(Rubbing::by_law, iterations);
@@ -172,7 +188,8 @@ bool CondensedNewton::settle(Rubbing rubbing, int& iterations, Patience patience
   led_away_ = is_lost_ = false;
   visited_.clear();
   double last = 0.0, before_last = 0.0;
-  for (std::size_t p = 0; p < state_.statuses.size(); ++p) state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
+  for (std::size_t p = 0; p < state_.statuses.size(); ++p)
+    state_.statuses[p] = restricted(state_.statuses[p], problem_.points[p]);
   for (int iteration = 0; iteration < problem_.max_iterations; ++iteration) {
     ++iterations;
     number_unknowns();
@@ -186,7 +203,8 @@ bool CondensedNewton::settle(Rubbing rubbing, int& iterations, Patience patience
     if (problem_.components == 1) continue;
     if (one_at_a_time_) return false;  // with friction a cycle stays one
     if (rubbing_ != Rubbing::by_law) continue;
-    led_away_ = patience == Patience::short_of_growth && iteration >= (is_nodal_ ? free_iterations_on_nodes : free_iterations) && residual_ > before_last;
+    led_away_ = patience == Patience::short_of_growth &&
+                iteration >= (is_nodal_ ? free_iterations_on_nodes : free_iterations) && residual_ > before_last;
     if (led_away_) return false;
     before_last = last;
     // Where nothing is left with statuses that change, it says nothing of what will be.
@@ -227,7 +245,8 @@ double CondensedNewton::correct_partly() {
     number_unknowns();
     evaluate();
     adapt_statuses();
-    if (remainder_ < (1.0 - least_decrease * share) * before || share < least_share || !std::isfinite(remainder_)) return share;
+    if (remainder_ < (1.0 - least_decrease * share) * before || share < least_share || !std::isfinite(remainder_))
+      return share;
   }
 }
 
@@ -337,7 +356,8 @@ std::optional<Eigen::VectorXd> CondensedNewton::solved(NodalStep& step, const Ei
   const auto count = static_cast<int>(unknown_rows_.size());
   if (count > direct_rows_) {
     NearInverse& near = problem_.near_inverse ? *problem_.near_inverse : own_near_inverse_;
-    const auto jumps = step.solve_by_products(schur_, balance, near, {.tolerance = product_tolerance, .most_products = problem_.most_products});
+    const auto jumps = step.solve_by_products(
+        schur_, balance, near, {.tolerance = product_tolerance, .most_products = problem_.most_products});
     if (jumps || count > problem_.most_direct_rows) return jumps;
   }
   return step.solve(schur_, balance);
@@ -346,14 +366,17 @@ std::optional<Eigen::VectorXd> CondensedNewton::solved(NodalStep& step, const Ei
 Eigen::VectorXd CondensedNewton::unbalanced_jumps() {
   const Eigen::VectorXd balanced = balanced_jumps();
   Eigen::VectorXd result(static_cast<Index>(unknown_rows_.size()));
-  for (std::size_t k = 0; k < unknown_rows_.size(); ++k) result[static_cast<Index>(k)] = jumps_[unknown_rows_[k]] - balanced[unknown_rows_[k]];
+  for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
+    result[static_cast<Index>(k)] = jumps_[unknown_rows_[k]] - balanced[unknown_rows_[k]];
   return result;
 }
 
 Eigen::VectorXd CondensedNewton::solved(const InterpolatedStep& equations, const Eigen::VectorXd& balance) {
   InterpolatedSolver& solver = problem_.interpolated_solver ? *problem_.interpolated_solver : own_interpolated_solver_;
   if (static_cast<int>(unknown_rows_.size()) > direct_rows_)
-    if (const auto step = solver.solve_by_products(equations, schur_, balance, {.tolerance = product_tolerance, .most_products = problem_.most_products})) return *step;
+    if (const auto step = solver.solve_by_products(
+            equations, schur_, balance, {.tolerance = product_tolerance, .most_products = problem_.most_products}))
+      return *step;
   return solver.solve(equations, schur_, balance);
 }
 
@@ -365,17 +388,22 @@ void CondensedNewton::add_point(std::size_t p, InterpolatedStep& equations, Eige
   add_laws(point, value, equations, balance);
 }
 
-void CondensedNewton::add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations) const {
+void CondensedNewton::add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value,
+                                               InterpolatedStep& equations) const {
   for (int a = 0; a < point.rows; ++a) {
     const int place = row_unknowns_[point.first_row + a];
-    for (int b = 0; b < point.rows; ++b) equations.add_force_derivative(place, row_unknowns_[point.first_row + b], point.weight * value.traction_by_jump(a, b));
+    for (int b = 0; b < point.rows; ++b)
+      equations.add_force_derivative(place, row_unknowns_[point.first_row + b],
+                                     point.weight * value.traction_by_jump(a, b));
     for (int i = 0; i < point.node_count; ++i)
       for (int b = 0; b < problem_.components; ++b)
-        equations.add_force_derivative(place, multiplier_unknowns_[multiplier_index(point.nodes[i], b)], point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
+        equations.add_force_derivative(place, multiplier_unknowns_[multiplier_index(point.nodes[i], b)],
+                                       point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
   }
 }
 
-void CondensedNewton::add_laws(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations, Eigen::VectorXd& balance) const {
+void CondensedNewton::add_laws(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations,
+                               Eigen::VectorXd& balance) const {
   for (int i = 0; i < point.node_count; ++i)
     for (int a = 0; a < problem_.components; ++a) {
       const int equation = multiplier_unknowns_[multiplier_index(point.nodes[i], a)];
@@ -383,10 +411,13 @@ void CondensedNewton::add_laws(const CondensedPoint& point, const ContactLawValu
       const double weight = point.weight * point.shape[i];
       balance[equation] += weight * value.residual[a];
       equations.add_law_weight(equation, std::abs(weight));
-      for (int b = 0; b < point.rows; ++b) equations.add_law_derivative(equation, row_unknowns_[point.first_row + b], weight * value.residual_by_jump(a, b));
+      for (int b = 0; b < point.rows; ++b)
+        equations.add_law_derivative(equation, row_unknowns_[point.first_row + b],
+                                     weight * value.residual_by_jump(a, b));
       for (int j = 0; j < point.node_count; ++j)
         for (int b = 0; b < problem_.components; ++b)
-          equations.add_law_derivative(equation, multiplier_unknowns_[multiplier_index(point.nodes[j], b)], weight * point.shape[j] * value.residual_by_multiplier(a, b));
+          equations.add_law_derivative(equation, multiplier_unknowns_[multiplier_index(point.nodes[j], b)],
+                                       weight * point.shape[j] * value.residual_by_multiplier(a, b));
     }
 }
 
@@ -417,11 +448,13 @@ void CondensedNewton::evaluate() {
   }
   for (const CondensedSpring& spring : problem_.springs) forces_[spring.row] += spring.stiffness * jumps_[spring.row];
   const Eigen::VectorXd balanced = balanced_jumps();
-  scale_ = std::max({rounding_scale * problem_.displacement, largest_component(problem_.free), largest_component(balanced - problem_.free)});
+  scale_ = std::max({rounding_scale * problem_.displacement, largest_component(problem_.free),
+                     largest_component(balanced - problem_.free)});
   measure(law, balanced);
   for (Index row = 0; row < balanced.size(); ++row)
     if (row_unknowns_[row] < 0) jumps_[row] = balanced[row];
-  if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite()) residual_ = remainder_ = std::numeric_limits<double>::infinity();
+  if (is_lost_ || !jumps_.allFinite() || !state_.multipliers.allFinite())
+    residual_ = remainder_ = std::numeric_limits<double>::infinity();
 }
 
 void CondensedNewton::measure(const LawBalance& law, const Eigen::VectorXd& balanced) {
@@ -445,7 +478,8 @@ void CondensedNewton::measure(const LawBalance& law, const Eigen::VectorXd& bala
 
 double CondensedNewton::largest_pressure() const {
   double largest = 0.0;
-  for (int node = 0; node < problem_.node_count; ++node) largest = std::max(largest, std::abs(state_.multipliers[multiplier_index(node, 0)]));
+  for (int node = 0; node < problem_.node_count; ++node)
+    largest = std::max(largest, std::abs(state_.multipliers[multiplier_index(node, 0)]));
   return largest;
 }
 
@@ -473,7 +507,8 @@ Vector3d CondensedNewton::law_rounding(std::size_t p) const {
   const CondensedPoint& point = problem_.points[p];
   Vector3d sums = Vector3d::Zero();
   for (int i = 0; i < point.node_count; ++i)
-    for (int c = 0; c < problem_.components; ++c) sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
+    for (int c = 0; c < problem_.components; ++c)
+      sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
   const ContactLaw law = law_of(p);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double normal = state_.statuses[p] == ContactStatus::open ? epsilon / law.augmentation : 0.0;
@@ -510,7 +545,8 @@ bool CondensedNewton::is_meant(std::size_t p, ContactStatus now, ContactStatus w
   const Vector3d multiplier = multiplier_at(point);
   const Vector3d jump = jump_at(point);
   const double pressure = trial_pressure(law, multiplier, jump);
-  if (now == ContactStatus::open) return pressure > law.augmentation * std::max(status_tolerance * scale_, pressure_roundings * law_rounding(p)[0]);
+  if (now == ContactStatus::open)
+    return pressure > law.augmentation * std::max(status_tolerance * scale_, pressure_roundings * law_rounding(p)[0]);
   if (wanted == ContactStatus::open) return -pressure > status_tolerance * pressure_scale_;
   const double beyond = std::abs(shear_beyond_limit(law, multiplier, jump));
   return beyond > status_tolerance * problem_.points[p].law.friction * pressure_scale_;
@@ -521,11 +557,13 @@ ContactStatus CondensedNewton::wanted_status(std::size_t p) const {
   const ContactStatus now = state_.statuses[p];
   if (point.rows == 0) return ContactStatus::open;
   const bool stays_closed = point.bilateral && now != ContactStatus::open;
-  const ContactStatus wanted = restricted(contact_status(law_of(p), stays_closed, multiplier_at(point), jump_at(point)), point);
+  const ContactStatus wanted =
+      restricted(contact_status(law_of(p), stays_closed, multiplier_at(point), jump_at(point)), point);
   return wanted == now || is_meant(p, now, wanted) ? wanted : now;
 }
 
-/// At nodes, where sliding is linearised such that iterations come nearer, statuses come back before all of them are right: not a cycle while less is left than then.
+/// At nodes, where sliding is linearised such that iterations come nearer, statuses come back before all of them are
+/// right: not a cycle while less is left than then.
 bool CondensedNewton::is_cycle(const std::vector<ContactStatus>& next) {
   if (const auto now = visited_.find(state_.statuses); now != visited_.end()) now->second = residual_;
   const auto [before, is_new] = visited_.try_emplace(next, 0.0);

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -27,7 +27,8 @@ struct CondensedPlace {
 
 bool has_penalty(const CondensedProblem& problem);
 
-/// Ways from one place to a solution. They begin where the one before has ended; `iterations` count on. Multipliers and statuses are those of `state`.
+/// Ways from one place to a solution. They begin where the one before has ended; `iterations` count on. Multipliers and
+/// statuses are those of `state`.
 class CondensedNewton {
  public:
   /// What closed points do along the surface.
@@ -39,16 +40,19 @@ class CondensedNewton {
 
   CondensedPlace place() const { return {state_, jumps_, forces_}; }
   void go_to(const CondensedPlace& place);
-  /// Jumps as the multipliers have them: those that bodies come to under their forces, and at penalties those that ask for these forces.
+  /// Jumps as the multipliers have them: those that bodies come to under their forces, and at penalties those that ask
+  /// for these forces.
   void balance_jumps();
-  /// Laws that are smooth at first need no statuses. On nodes augmentations are not in the solution, and those of the bodies lead there.
+  /// Laws that are smooth at first need no statuses. On nodes augmentations are not in the solution, and those of the
+  /// bodies lead there.
   bool follow_smoothed(int& iterations, Augmentations augmentations);
   /// By fixed-point iterations (see relaxation.hpp).
   bool relax();
   /// Iterates until statuses stay and nothing is left of the equations; counts on.
   bool settle(Rubbing rubbing, int& iterations, Patience patience = Patience::to_the_end);
-  /// Newton's method on statuses, jumps and multipliers together: each correction is halved until less is left of the equations with the statuses that it brings
-  /// (a damped semismooth method; T. De Luca, F. Facchinei, C. Kanzow, Mathematical Programming 75, 1996).
+  /// Newton's method on statuses, jumps and multipliers together: each correction is halved until less is left of the
+  /// equations with the statuses that it brings (a damped semismooth method; T. De Luca, F. Facchinei, C. Kanzow,
+  /// Mathematical Programming 75, 1996).
   bool descend(int& iterations);
   void correct_once();
   /// The statuses that the law asks for after one correction.
@@ -80,7 +84,9 @@ class CondensedNewton {
   ContactStatus restricted(ContactStatus status, const CondensedPoint& point) const;
   int multiplier_index(int node, int component) const { return node * problem_.components + component; }
   bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
-  Eigen::Vector3d multiplier_at(const CondensedPoint& point) const { return solver::multiplier_at(problem_, state_, point); }
+  Eigen::Vector3d multiplier_at(const CondensedPoint& point) const {
+    return solver::multiplier_at(problem_, state_, point);
+  }
   Eigen::Vector3d jump_at(const CondensedPoint& point) const;
   ContactLawValue law_at(std::size_t p) const;
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
@@ -89,17 +95,21 @@ class CondensedNewton {
   void require_columns();
   /// One step of Newton's method for the jumps of closed points and springs and for the multipliers.
   void correct();
-  /// The same with the multipliers eliminated point by point: half the unknowns. False where a law leaves its multiplier open.
+  /// The same with the multipliers eliminated point by point: half the unknowns. False where a law leaves its
+  /// multiplier open.
   bool correct_at_nodes();
-  /// Many rows by products with the compliance; where these lead nowhere and for few rows, directly. Nothing where that takes too long as well.
+  /// Many rows by products with the compliance; where these lead nowhere and for few rows, directly. Nothing where that
+  /// takes too long as well.
   std::optional<Eigen::VectorXd> solved(NodalStep& step, const Eigen::VectorXd& balance);
   /// What jumps of unknown rows exceed those that go with the forces by.
   Eigen::VectorXd unbalanced_jumps();
   /// Many rows by products with the compliance where these lead anywhere.
   Eigen::VectorXd solved(const InterpolatedStep& equations, const Eigen::VectorXd& balance);
   void add_point(std::size_t p, InterpolatedStep& equations, Eigen::VectorXd& balance);
-  void add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations) const;
-  void add_laws(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations, Eigen::VectorXd& balance) const;
+  void add_traction_derivatives(const CondensedPoint& point, const ContactLawValue& value,
+                                InterpolatedStep& equations) const;
+  void add_laws(const CondensedPoint& point, const ContactLawValue& value, InterpolatedStep& equations,
+                Eigen::VectorXd& balance) const;
   /// The jumps that go with the present forces.
   Eigen::VectorXd balanced_jumps();
   /// What is left of the law at a multiplier, and what a length is measured by there.
@@ -115,7 +125,8 @@ class CondensedNewton {
   /// What forces of one sign could do to a jump: jumps are exact to some roundings of it.
   double largest_response() const;
   bool is_solved();
-  /// Of lengths at a point that are differences of pressures or shears over an augmentation, which may be small beside the stiffness of the bodies.
+  /// Of lengths at a point that are differences of pressures or shears over an augmentation, which may be small beside
+  /// the stiffness of the bodies.
   Eigen::Vector3d law_rounding(std::size_t p) const;
   /// The largest of what that makes of the equations of a multiplier.
   double law_rounding() const;
@@ -153,7 +164,8 @@ class CondensedNewton {
   bool is_lost_ = false;
   Rubbing rubbing_ = Rubbing::by_law;
   double friction_share_ = 1.0, penalty_share_ = 1.0;
-  bool pressures_by_bodies_ = false, shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
+  bool pressures_by_bodies_ = false,
+       shears_by_bodies_ = false;  ///< whose augmentations are those of the bodies, not of the law
   std::vector<PointStiffness> bodies_;
   std::map<std::vector<ContactStatus>, double> visited_;  ///< what was left with them
 };

@@ -10,7 +10,8 @@ using Eigen::Vector3d;
 Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point) {
   Vector3d value = Vector3d::Zero();
   for (int i = 0; i < point.node_count; ++i)
-    for (int c = 0; c < problem.components; ++c) value[c] += point.shape[i] * state.multipliers[point.nodes[i] * problem.components + c];
+    for (int c = 0; c < problem.components; ++c)
+      value[c] += point.shape[i] * state.multipliers[point.nodes[i] * problem.components + c];
   return value;
 }
 
@@ -24,8 +25,10 @@ Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const Condens
     const CondensedPoint& point = problem.points[p];
     if (point.rows == 0 || state.statuses[p] == ContactStatus::open) continue;
     const Vector3d multiplier = multiplier_at(problem, state, point);
-    const double of_shear = point.law.share_pressure > 0.0 ? std::max(0.0, multiplier[0]) / point.law.share_pressure : 1.0;
-    for (int c = 0; c < point.rows; ++c) forces[point.first_row + c] = (c == 0 ? 1.0 : -of_shear) * point.weight * multiplier[c];
+    const double of_shear =
+        point.law.share_pressure > 0.0 ? std::max(0.0, multiplier[0]) / point.law.share_pressure : 1.0;
+    for (int c = 0; c < point.rows; ++c)
+      forces[point.first_row + c] = (c == 0 ? 1.0 : -of_shear) * point.weight * multiplier[c];
   }
   return forces;
 }

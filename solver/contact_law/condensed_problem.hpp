@@ -18,18 +18,21 @@ namespace comma::solver {
 /// A point of the condensed system. Its jumps (gap, slips) are `rows` consecutive rows of the Schur complement.
 struct CondensedPoint {
   int first_row = -1;
-  int rows = 0;                                 ///< as many as components; 0: nothing can touch it
-  int components = 1;                           ///< of its traction: 1 without friction, 2 or 3 with it
-  std::array<int, max_facet_nodes> nodes{};     ///< of the multipliers
+  int rows = 0;                              ///< as many as components; 0: nothing can touch it
+  int components = 1;                        ///< of its traction: 1 without friction, 2 or 3 with it
+  std::array<int, max_facet_nodes> nodes{};  ///< of the multipliers
   std::array<double, max_facet_nodes> shape{};
   int node_count = 0;
   double weight = 0.0;
   ContactLaw law;
-  double stiffness = 0.0;  ///< of the bodies at a point on a node (a pressure a length): what penalties are stiffer by, multipliers bring; 0: not known, and penalties bring all
-  /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length (see shared_friction.hpp).
+  double stiffness = 0.0;  ///< of the bodies at a point on a node (a pressure a length): what penalties are stiffer by,
+                           ///< multipliers bring; 0: not known, and penalties bring all
+  /// Positive: shears are shares of the limit of friction, and this one's augmentation or penalty, a unit of length
+  /// (see shared_friction.hpp).
   double share_augmentation = 0.0;
-  bool bilateral = false;                       ///< once closed it stays closed
-  double idle_friction = 0.0;  ///< Coulomb's coefficient where conditions hold both bodies along the surface: such friction moves nothing, and the law has none
+  bool bilateral = false;      ///< once closed it stays closed
+  double idle_friction = 0.0;  ///< Coulomb's coefficient where conditions hold both bodies along the surface: such
+                               ///< friction moves nothing, and the law has none
 };
 
 /// A row whose force is `stiffness` times its own jump: springs that were added to the bodies come off again with it.
@@ -38,8 +41,9 @@ struct CondensedSpring {
   double stiffness = 0.0;
 };
 
-/// What earlier searches for shares of friction say about the next (see shared_friction.hpp): the search from nowhere in particular, which is long, comes first
-/// where it was what found the last solution, and is left out the longer, the oftener it has failed in a row.
+/// What earlier searches for shares of friction say about the next (see shared_friction.hpp): the search from nowhere
+/// in particular, which is long, comes first where it was what found the last solution, and is left out the longer, the
+/// oftener it has failed in a row.
 struct ShareSearch {
   bool found_last = false;
   int failures = 0, left_out = 0;
@@ -54,26 +58,34 @@ inline constexpr double farthest_motion = 1e3;
 struct CondensedProblem {
   std::vector<CondensedPoint> points;
   std::vector<CondensedSpring> springs;
-  Eigen::VectorXd free;         ///< jumps that go with the forces `held` (a length a row)
-  Eigen::VectorXd held;         ///< forces on the rows
-  Eigen::VectorXd begin;        ///< jumps that Newton's method begins with, near those of the solution: the free ones may be far away, since a body that contact alone holds hardly resists; empty: the free ones
-  double displacement = 0.0;    ///< the largest (a length): what its rounding makes of jumps is nothing
-  double farthest = std::numeric_limits<double>::infinity();  ///< jumps beyond are those of bodies that nothing holds (a length)
+  Eigen::VectorXd free;   ///< jumps that go with the forces `held` (a length a row)
+  Eigen::VectorXd held;   ///< forces on the rows
+  Eigen::VectorXd begin;  ///< jumps that Newton's method begins with, near those of the solution: the free ones may be
+                          ///< far away, since a body that contact alone holds hardly resists; empty: the free ones
+  double displacement = 0.0;  ///< the largest (a length): what its rounding makes of jumps is nothing
+  double farthest =
+      std::numeric_limits<double>::infinity();  ///< jumps beyond are those of bodies that nothing holds (a length)
   int node_count = 0;
-  int components = 1;           ///< of a multiplier: 1, 2 or 3
-  std::vector<char> smooth;     ///< one a node: whether its shear vanishes; empty: nowhere by itself
-  int max_iterations = 200;     ///< of each attempt
-  int direct_rows = 900;        ///< more unknown rows are solved for by products with S, where points lie on nodes and jumps alone bring no force of a penalty (solver/contact_law/nodal_step.hpp)
-  int direct_rows_between = 200;  ///< the same where points lie between nodes: a direct system has all jumps and multipliers there, one by products the multipliers alone (solver/contact_law/interpolated_step.hpp)
-  int most_products = 150;      ///< a system
-  int most_direct_rows = 6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
-  bool indefinite = false;      ///< S may be: no active-set method on it
-  bool one_step = false;        ///< the law is solved as it is with the statuses given, which stay
-  Eigen::VectorXd expected;     ///< multipliers to begin with where there is friction, besides those of the state; empty: none
+  int components = 1;        ///< of a multiplier: 1, 2 or 3
+  std::vector<char> smooth;  ///< one a node: whether its shear vanishes; empty: nowhere by itself
+  int max_iterations = 200;  ///< of each attempt
+  int direct_rows = 900;  ///< more unknown rows are solved for by products with S, where points lie on nodes and jumps
+                          ///< alone bring no force of a penalty (solver/contact_law/nodal_step.hpp)
+  int direct_rows_between =
+      200;  ///< the same where points lie between nodes: a direct system has all jumps and multipliers there, one by
+            ///< products the multipliers alone (solver/contact_law/interpolated_step.hpp)
+  int most_products = 150;  ///< a system
+  int most_direct_rows =
+      6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
+  bool indefinite = false;  ///< S may be: no active-set method on it
+  bool one_step = false;    ///< the law is solved as it is with the statuses given, which stay
+  Eigen::VectorXd
+      expected;  ///< multipliers to begin with where there is friction, besides those of the state; empty: none
   NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
-  InterpolatedSolver* interpolated_solver = nullptr;  ///< of those whose points lie between nodes, if one is to serve them all
+  InterpolatedSolver* interpolated_solver =
+      nullptr;                          ///< of those whose points lie between nodes, if one is to serve them all
   ShareSearch* share_search = nullptr;  ///< of shares of friction, if searches are to learn from each other
-  ActiveSetMemory* memory = nullptr;  ///< of solutions without friction, if they are to begin from each other
+  ActiveSetMemory* memory = nullptr;    ///< of solutions without friction, if they are to begin from each other
 };
 
 struct CondensedState {
@@ -82,7 +94,8 @@ struct CondensedState {
 };
 
 /// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
-Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point);
+Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state,
+                              const CondensedPoint& point);
 
 /// How far a point slips where the rows have these jumps; 0 without friction.
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);

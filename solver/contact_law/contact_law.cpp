@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 double pressure_share(const ContactLaw& law) { return law.penalised ? law.pressure_share : 1.0; }
 double shear_share(const ContactLaw& law) { return law.friction_penalised ? law.shear_share : 1.0; }
 
-/// The pressure that limits shear is the multiplier itself, without the augmentation (R5.03.52): the gap vanishes in the mean alone
-/// where points lie between nodes.
+/// The pressure that limits shear is the multiplier itself, without the augmentation (R5.03.52): the gap vanishes in
+/// the mean alone where points lie between nodes.
 double limiting_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
   return std::max(0.0, law.penalised ? trial_pressure(law, multiplier, jump) : multiplier[0]);
 }
@@ -33,17 +33,20 @@ struct Shear {
   Vector2d by_pressure = Vector2d::Zero();
 };
 
-/// Of a shear that slides at the limit. Pointwise the multiplier, as far as it is within the limit, stands for the shear that it is to be.
+/// Of a shear that slides at the limit. Pointwise the multiplier, as far as it is within the limit, stands for the
+/// shear that it is to be.
 Matrix2d sliding_by_trial(const ContactLaw& law, double limit, const Vector2d& trial, const Vector2d& multiplier) {
   const double size = trial.norm();
   const Vector2d direction = trial / size;
-  if (!law.pointwise || !(shear_share(law) > 0.0) || !(limit > 0.0)) return limit / size * (Matrix2d::Identity() - direction * direction.transpose());
+  if (!law.pointwise || !(shear_share(law) > 0.0) || !(limit > 0.0))
+    return limit / size * (Matrix2d::Identity() - direction * direction.transpose());
   const Vector2d share = multiplier / std::max(limit, multiplier.norm());
   const double against = std::max(0.0, -share.dot(direction));
   return limit / size * (Matrix2d::Identity() - share * direction.transpose() / (1.0 + against));
 }
 
-Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, const Vector2d& multiplier, const Vector2d& trial) {
+Shear shear_of(const ContactLaw& law, ContactStatus status, double pressure, const Vector2d& multiplier,
+               const Vector2d& trial) {
   Shear shear;
   if (status == ContactStatus::sticking) {
     shear.value = trial;
@@ -77,29 +80,36 @@ void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multip
 }
 
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
-void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure, const Vector3d& multiplier, const Vector3d& jump,
-                         ContactLawValue& value) {
+void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure,
+                         const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
   const double augmentation = law.friction_augmentation;
   const bool is_held = law.held_share > 0.0;
   const double present = pressure / law.share_pressure;
-  Shear shear{.value = present * unit.value, .by_trial = present * unit.by_trial, .by_pressure = pressure > 0.0 ? Vector2d(unit.value / law.share_pressure) : Vector2d::Zero()};
-  if (is_held && status == ContactStatus::sticking) shear = {.value = law.held_share * unit.value, .by_trial = law.held_share * unit.by_trial};
+  Shear shear{.value = present * unit.value,
+              .by_trial = present * unit.by_trial,
+              .by_pressure = pressure > 0.0 ? Vector2d(unit.value / law.share_pressure) : Vector2d::Zero()};
+  if (is_held && status == ContactStatus::sticking)
+    shear = {.value = law.held_share * unit.value, .by_trial = law.held_share * unit.by_trial};
   add_traction(law, shear, value);
 
   // Sticking points slip by nothing: said without the shear, of any size, that it takes.
   const bool sticks = status == ContactStatus::sticking && !law.friction_penalised;
-  const Vector2d left = sticks ? Vector2d(jump.tail<2>()) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
+  const Vector2d left =
+      sticks ? Vector2d(jump.tail<2>()) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
   const bool counts_by_pressure = status != ContactStatus::open && !law.friction_penalised;
   const double weight = !counts_by_pressure ? 1.0 : is_held ? law.held_share : std::max(present, least_pressure_share);
   value.residual.tail<2>() = weight * left;
-  value.residual_by_multiplier.bottomRightCorner<2, 2>() = weight / augmentation * (shear_share(law) * unit.by_trial - Matrix2d::Identity());
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() =
+      weight / augmentation * (shear_share(law) * unit.by_trial - Matrix2d::Identity());
   value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
   if (!counts_by_pressure || is_held || present <= least_pressure_share) return;
   value.residual_by_multiplier.bottomLeftCorner<2, 1>() = pressure_share(law) / law.share_pressure * left;
-  value.residual_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
+  value.residual_by_jump.bottomLeftCorner<2, 1>() =
+      (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
-ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
+                         const Vector3d& jump) {
   ContactLawValue value;
   if (status != ContactStatus::open) {
     value.traction[0] = trial_pressure(law, multiplier, jump);
@@ -112,7 +122,8 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
   const double limiting = limiting_pressure(law, multiplier, jump);
-  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), multiplier.tail<2>(), trial_shear(law, multiplier, jump));
+  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), multiplier.tail<2>(),
+                               trial_shear(law, multiplier, jump));
   if (law.share_pressure > 0.0) {
     add_shear_by_shares(law, status, shear, limiting, multiplier, jump, value);
     return value;
@@ -124,7 +135,9 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
 
 }  // namespace
 
-double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) { return pressure_share(law) * multiplier[0] - law.augmentation * jump[0]; }
+double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return pressure_share(law) * multiplier[0] - law.augmentation * jump[0];
+}
 
 Vector3d live_part(const ContactLaw& law, Vector3d value) {
   value.tail<2>() -= law.dead.dot(value.tail<2>()) * law.dead;
@@ -134,13 +147,15 @@ Vector3d live_part(const ContactLaw& law, Vector3d value) {
 void leave_out_dead(const ContactLaw& law, const Vector3d& multiplier, ContactLawValue& value) {
   if (law.dead.isZero()) return;
   const Matrix2d dead = law.dead * law.dead.transpose(), live = Matrix2d::Identity() - dead;
-  for (Eigen::Matrix3d* derivative : {&value.traction_by_multiplier, &value.traction_by_jump, &value.residual_by_multiplier, &value.residual_by_jump})
+  for (Eigen::Matrix3d* derivative :
+       {&value.traction_by_multiplier, &value.traction_by_jump, &value.residual_by_multiplier, &value.residual_by_jump})
     derivative->rightCols<2>() *= live;
   value.residual.tail<2>() -= dead * multiplier.tail<2>() / law.friction_augmentation;
   value.residual_by_multiplier.bottomRightCorner<2, 2>() -= dead / law.friction_augmentation;
 }
 
-ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
+                            const Vector3d& jump) {
   ContactLawValue value = live_law(law, status, live_part(law, multiplier), live_part(law, jump));
   leave_out_dead(law, multiplier, value);
   return value;
@@ -154,7 +169,8 @@ ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d&
 }
 
 double shear_beyond_limit(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return trial_shear(law, live_part(law, multiplier), live_part(law, jump)).norm() - law.friction * pressure_that_limits(law, multiplier, jump);
+  return trial_shear(law, live_part(law, multiplier), live_part(law, jump)).norm() -
+         law.friction * pressure_that_limits(law, multiplier, jump);
 }
 
 }  // namespace comma::solver

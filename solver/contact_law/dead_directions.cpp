@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "solver/error.hpp"
 
@@ -27,8 +27,10 @@ void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPo
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(squares);
     const Eigen::VectorXd along = motions.eigenvectors().col(0).tail(point.rows - 1);
     const bool shear_is_dead = motions.eigenvalues()[0] <= dead && along.norm() >= least_along;
-    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead)) point.idle_friction = std::exchange(point.law.friction, 0.0);
-    else if (shear_is_dead) point.law.dead = along.normalized();
+    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead))
+      point.idle_friction = std::exchange(point.law.friction, 0.0);
+    else if (shear_is_dead)
+      point.law.dead = along.normalized();
   }
 }
 
@@ -38,8 +40,12 @@ std::optional<Eigen::Vector3d> excluded_direction(const MixedZone& zone, const C
   const auto is_left_out = [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); };
   const auto& direction = zone.frictionless_direction;
   if (point.node < 0 && direction && std::ranges::any_of(mesh.cell(point.cell), is_left_out))
-    throw Error("unsupported", fmt::format("slave face {} has points between its nodes, and DIRE_EXCL_FROT is known of points at nodes", mesh.cell_name(point.cell)),
-                "take linear faces with INTEGRATION='AUTO', or leave DIRE_EXCL_FROT out: then these nodes have no friction at all");
+    throw Error(
+        "unsupported",
+        fmt::format("slave face {} has points between its nodes, and DIRE_EXCL_FROT is known of points at nodes",
+                    mesh.cell_name(point.cell)),
+        "take linear faces with INTEGRATION='AUTO', or leave DIRE_EXCL_FROT out: then these nodes have no friction at "
+        "all");
   if (!is_nearest_to(point, mesh, is_left_out)) return {};
   return direction ? Eigen::Vector3d(direction->data()) : Eigen::Vector3d::Zero();
 }

@@ -11,7 +11,8 @@ using Eigen::Index;
 
 /// Changes of the active set, one row at a time, a row.
 constexpr int changes_a_row = 30;
-/// Rounds with springs that follow the body, and the change of their forces, as a share of the largest of contact, at which they are at rest.
+/// Rounds with springs that follow the body, and the change of their forces, as a share of the largest of contact, at
+/// which they are at rest.
 constexpr int most_rounds = 200;
 constexpr double at_rest = 1e-13;
 /// Below this share they are at rest where they shrink no more: products of many rows round them.
@@ -20,8 +21,8 @@ constexpr double nearly_at_rest = 1e-9;
 constexpr double never = -std::numeric_limits<double>::max() / 4.0;
 
 bool is_one_of_a_kind(const CondensedPoint& point) {
-  return point.node_count == 1 && point.shape[0] == 1.0 && point.components == 1 && !point.bilateral && !point.law.penalised &&
-         !(point.law.friction > 0.0);
+  return point.node_count == 1 && point.shape[0] == 1.0 && point.components == 1 && !point.bilateral &&
+         !point.law.penalised && !(point.law.friction > 0.0);
 }
 
 bool is_frictionless(const CondensedProblem& problem) {
@@ -42,12 +43,14 @@ ActiveSetProblem inequalities(SchurComplement& schur, const CondensedProblem& pr
   result.scale.array() += std::max(problem.displacement, std::numeric_limits<double>::min());
   result.max_iterations = changes_a_row * static_cast<int>(problem.free.size());
   for (std::size_t p = 0; p < problem.points.size(); ++p)
-    if (problem.points[p].rows > 0 && state.statuses[p] != ContactStatus::open) result.guess.push_back(problem.points[p].first_row);
+    if (problem.points[p].rows > 0 && state.statuses[p] != ContactStatus::open)
+      result.guess.push_back(problem.points[p].first_row);
   return result;
 }
 
 /// `forces`: on all rows.
-CondensedSolution conclude(const ActiveSetSolution& solution, Eigen::VectorXd forces, int iterations, const CondensedProblem& problem, CondensedState& state) {
+CondensedSolution conclude(const ActiveSetSolution& solution, Eigen::VectorXd forces, int iterations,
+                           const CondensedProblem& problem, CondensedState& state) {
   std::vector<char> closed(static_cast<std::size_t>(forces.size()), 0);
   for (const int row : solution.active) closed[static_cast<std::size_t>(row)] = 1;
   CondensedSolution result;
@@ -72,12 +75,14 @@ Eigen::VectorXd spring_forces(const CondensedProblem& problem, const Eigen::Vect
   return forces;
 }
 
-/// While the same rows are active a round takes the forces of the springs F to G F + c: what they change by until they are at rest, (1 - G)^-1 times what they
-/// change by in one round; that change itself where there is no such place.
-Eigen::VectorXd change_to_rest(SchurComplement& schur, const CondensedProblem& problem, const std::vector<int>& active, const Eigen::VectorXd& change) {
+/// While the same rows are active a round takes the forces of the springs F to G F + c: what they change by until they
+/// are at rest, (1 - G)^-1 times what they change by in one round; that change itself where there is no such place.
+Eigen::VectorXd change_to_rest(SchurComplement& schur, const CondensedProblem& problem, const std::vector<int>& active,
+                               const Eigen::VectorXd& change) {
   std::vector<int> rows = active;
   for (const CondensedSpring& spring : problem.springs) rows.push_back(spring.row);
-  const auto count = static_cast<Index>(rows.size()), touching = static_cast<Index>(active.size()), springs = count - touching;
+  const auto count = static_cast<Index>(rows.size()), touching = static_cast<Index>(active.size()),
+             springs = count - touching;
   Eigen::SparseMatrix<double> one_each(count, count);
   one_each.setIdentity();
   schur.require(rows);
@@ -102,15 +107,18 @@ Eigen::VectorXd change_to_rest(SchurComplement& schur, const CondensedProblem& p
 
 }  // namespace
 
-std::optional<CondensedSolution> solve_frictionless(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+std::optional<CondensedSolution> solve_frictionless(SchurComplement& schur, const CondensedProblem& problem,
+                                                    CondensedState& state) {
   if (!problem.springs.empty() || !is_frictionless(problem)) return std::nullopt;
   ActiveSetMemory own;
-  const ActiveSetSolution solution = solve_active_set(schur, inequalities(schur, problem, state), problem.memory ? *problem.memory : own);
+  const ActiveSetSolution solution =
+      solve_active_set(schur, inequalities(schur, problem, state), problem.memory ? *problem.memory : own);
   if (solution.verdict != ActiveSetVerdict::solved) return std::nullopt;
   return conclude(solution, solution.multipliers, solution.iterations + 1, problem, state);
 }
 
-std::optional<CondensedSolution> solve_afloat(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state) {
+std::optional<CondensedSolution> solve_afloat(SchurComplement& schur, const CondensedProblem& problem,
+                                              CondensedState& state) {
   if (problem.springs.empty() || !is_frictionless(problem)) return std::nullopt;
   ActiveSetProblem asked = inequalities(schur, problem, state);
   const Eigen::VectorXd without = asked.excess;
@@ -124,7 +132,8 @@ std::optional<CondensedSolution> solve_afloat(SchurComplement& schur, const Cond
     const ActiveSetSolution solution = solve_active_set(schur, asked, memory);
     if (solution.verdict != ActiveSetVerdict::solved) return std::nullopt;
     iterations += solution.iterations + 1;
-    const Eigen::VectorXd change = spring_forces(problem, schur.times(forces + solution.multipliers) - without) - forces;
+    const Eigen::VectorXd change =
+        spring_forces(problem, schur.times(forces + solution.multipliers) - without) - forces;
     const double left = change.lpNorm<Eigen::Infinity>(), size = solution.multipliers.lpNorm<Eigen::Infinity>();
     if (left <= at_rest * size || (left <= nearly_at_rest * size && left >= 0.5 * last))
       return conclude(solution, solution.multipliers + forces, iterations, problem, state);

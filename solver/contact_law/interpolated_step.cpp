@@ -39,7 +39,8 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
     MatrixXd all(step.unknowns(), step.unknowns());
     all.topRows(rows) = -schur.responses(step.rows(), step.forces());
     all.topLeftCorner(rows, rows).diagonal().array() += 1.0;
-    // Laws as lengths: where points are open, multipliers would else be scaled by the area of a face, and what they share with others by its square.
+    // Laws as lengths: where points are open, multipliers would else be scaled by the area of a face, and what they
+    // share with others by its square.
     all.bottomRows(step.law_count()) = step.weights().cwiseInverse().asDiagonal() * step.laws();
     all_.emplace(std::move(all));
   }
@@ -55,10 +56,13 @@ VectorXd InterpolatedSolver::WithoutAugmentation::solve(const VectorXd& of_jumps
   return x;
 }
 
-std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedStep& step, SchurComplement& schur, const VectorXd& b, double tolerance) const {
+std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedStep& step, SchurComplement& schur,
+                                                            const VectorXd& b, double tolerance) const {
   const Index rows = step.row_count(), laws = step.law_count();
   const auto most = static_cast<int>(laws / multipliers_a_product);
-  if (most < 2 || !without_augmentation_ || version_ != schur.version() || !step_.has_unknowns_of(step) || step_ == step) return std::nullopt;
+  if (most < 2 || !without_augmentation_ || version_ != schur.version() || !step_.has_unknowns_of(step) ||
+      step_ == step)
+    return std::nullopt;
   const SparseColumns forces = step.forces(), law = step.laws(), last_by_multipliers = step_.forces().rightCols(laws);
   const auto product = [&](const VectorXd& x) {
     VectorXd result(rows + laws);
@@ -66,17 +70,20 @@ std::optional<VectorXd> InterpolatedSolver::solve_near_last(const InterpolatedSt
     return step.in_lengths(std::move(result));
   };
   const auto precondition = [&](const VectorXd& lengths) {
-    const VectorXd multipliers = without_augmentation_->multipliers(lengths.head(rows), lengths.tail(laws).cwiseProduct(step.weights()));
+    const VectorXd multipliers =
+        without_augmentation_->multipliers(lengths.head(rows), lengths.tail(laws).cwiseProduct(step.weights()));
     VectorXd x(rows + laws);
     x << lengths.head(rows) + schur.times_roughly(step.rows(), last_by_multipliers * multipliers), multipliers;
     return x;
   };
-  GmresSolution solution = solve_gmres(product, precondition, step.in_lengths(b), {.tolerance = tolerance, .most_products = most});
+  GmresSolution solution =
+      solve_gmres(product, precondition, step.in_lengths(b), {.tolerance = tolerance, .most_products = most});
   if (!solution.reached) return std::nullopt;
   return std::move(solution.x);
 }
 
-std::optional<VectorXd> InterpolatedSolver::solve_by_products(const InterpolatedStep& step, SchurComplement& schur, const VectorXd& b, const GmresOptions& options) {
+std::optional<VectorXd> InterpolatedSolver::solve_by_products(const InterpolatedStep& step, SchurComplement& schur,
+                                                              const VectorXd& b, const GmresOptions& options) {
   const Index rows = step.row_count(), laws = step.law_count();
   if (laws == 0) return std::nullopt;
   if (auto x = solve_near_last(step, schur, b, options.tolerance)) return x;
@@ -85,17 +92,21 @@ std::optional<VectorXd> InterpolatedSolver::solve_by_products(const Interpolated
     const SparseColumns forces = step.forces(), law = step.laws(), law_by_jumps = law.leftCols(rows);
     MatrixXd by_multipliers = schur.responses(step.rows(), forces.rightCols(laws));
     DenseLu factor(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
-    without_augmentation_.emplace(WithoutAugmentation{forces.leftCols(rows), law_by_jumps, std::move(by_multipliers), std::move(factor)});
+    without_augmentation_.emplace(
+        WithoutAugmentation{forces.leftCols(rows), law_by_jumps, std::move(by_multipliers), std::move(factor)});
   }
   const WithoutAugmentation& without = *without_augmentation_;
-  const auto left_by = [&](const VectorXd& x) { return schur.times_roughly(step.rows(), without.by_jumps * x.head(rows)); };
+  const auto left_by = [&](const VectorXd& x) {
+    return schur.times_roughly(step.rows(), without.by_jumps * x.head(rows));
+  };
   const VectorXd none = VectorXd::Zero(laws);
   VectorXd x = without.solve(b.head(rows), b.tail(laws));
   if (!x.allFinite()) return std::nullopt;
   const VectorXd left = left_by(x);
   if (left.norm() <= options.tolerance * x.head(rows).norm()) return x;
-  const GmresSolution solution = solve_gmres(
-      [&](const VectorXd& jumps) { return VectorXd(jumps - left_by(without.solve(jumps, none))); }, [](const VectorXd& jumps) { return jumps; }, left, options);
+  const GmresSolution solution =
+      solve_gmres([&](const VectorXd& jumps) { return VectorXd(jumps - left_by(without.solve(jumps, none))); },
+                  [](const VectorXd& jumps) { return jumps; }, left, options);
   if (!solution.reached) return std::nullopt;
   x += without.solve(solution.x, none);
   return x;

@@ -14,18 +14,22 @@
 
 namespace comma::solver {
 
-/// The linearised problem of condensed_problem.hpp with jumps d and multipliers as unknowns x together, jumps first: d - S F x = b_d with the forces F x on
-/// unknown rows of the compliance S, and the laws L x = b_l, one a multiplier.
+/// The linearised problem of condensed_problem.hpp with jumps d and multipliers as unknowns x together, jumps first: d
+/// - S F x = b_d with the forces F x on unknown rows of the compliance S, and the laws L x = b_l, one a multiplier.
 class InterpolatedStep {
  public:
   InterpolatedStep() = default;
   /// `rows`: those of S that are unknown.
-  InterpolatedStep(std::vector<int> rows, int unknowns) : rows_(std::move(rows)), unknowns_(unknowns), weights_(Eigen::VectorXd::Zero(law_count())) {}
+  InterpolatedStep(std::vector<int> rows, int unknowns)
+      : rows_(std::move(rows)), unknowns_(unknowns), weights_(Eigen::VectorXd::Zero(law_count())) {}
 
-  /// Of the force on a row, at its place among the unknown ones. Derivatives by nothing that is unknown (-1) are left out.
+  /// Of the force on a row, at its place among the unknown ones. Derivatives by nothing that is unknown (-1) are left
+  /// out.
   void add_force_derivative(int place, int unknown, double derivative) { add(forces_, place, unknown, derivative); }
   /// Of the law that is equation `equation` of all.
-  void add_law_derivative(int equation, int unknown, double derivative) { add(laws_, equation - row_count(), unknown, derivative); }
+  void add_law_derivative(int equation, int unknown, double derivative) {
+    add(laws_, equation - row_count(), unknown, derivative);
+  }
   /// By which the law is a length, as jumps are.
   void add_law_weight(int equation, double weight) { weights_[equation - row_count()] += weight; }
 
@@ -42,8 +46,12 @@ class InterpolatedStep {
   Eigen::VectorXd in_lengths(Eigen::VectorXd all) const;
 
   /// Of the equations.
-  bool operator==(const InterpolatedStep& other) const { return rows_ == other.rows_ && unknowns_ == other.unknowns_ && forces_ == other.forces_ && laws_ == other.laws_; }
-  bool has_unknowns_of(const InterpolatedStep& other) const { return rows_ == other.rows_ && unknowns_ == other.unknowns_; }
+  bool operator==(const InterpolatedStep& other) const {
+    return rows_ == other.rows_ && unknowns_ == other.unknowns_ && forces_ == other.forces_ && laws_ == other.laws_;
+  }
+  bool has_unknowns_of(const InterpolatedStep& other) const {
+    return rows_ == other.rows_ && unknowns_ == other.unknowns_;
+  }
 
  private:
   struct Entry {
@@ -66,15 +74,17 @@ class InterpolatedStep {
   Eigen::VectorXd weights_;
 };
 
-/// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step with other right-hand sides, and the next iteration of Newton's
-/// method for one that is little different.
+/// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step
+/// with other right-hand sides, and the next iteration of Newton's method for one that is little different.
 class InterpolatedSolver {
  public:
   /// x for b (one an unknown, jumps first); columns of S must have been required.
   Eigen::VectorXd solve(const InterpolatedStep& step, const SchurComplement& schur, const Eigen::VectorXd& b);
-  /// The same for many rows by products with S, in single precision; nothing where the tolerance is not reached. Fast where multipliers carry most of the forces, and
-  /// augmentations by jumps little: without them only as many equations as multipliers are left, which precondition the others.
-  std::optional<Eigen::VectorXd> solve_by_products(const InterpolatedStep& step, SchurComplement& schur, const Eigen::VectorXd& b, const GmresOptions& options);
+  /// The same for many rows by products with S, in single precision; nothing where the tolerance is not reached. Fast
+  /// where multipliers carry most of the forces, and augmentations by jumps little: without them only as many equations
+  /// as multipliers are left, which precondition the others.
+  std::optional<Eigen::VectorXd> solve_by_products(const InterpolatedStep& step, SchurComplement& schur,
+                                                   const Eigen::VectorXd& b, const GmresOptions& options);
 
  private:
   /// The equations without the forces that jumps bring by themselves.
@@ -82,12 +92,16 @@ class InterpolatedSolver {
     InterpolatedStep::SparseColumns by_jumps, law_by_jumps;
     Eigen::MatrixXd by_multipliers;
     DenseLu laws;
-    Eigen::VectorXd multipliers(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const { return laws.solve(of_laws - law_by_jumps * of_jumps); }
+    Eigen::VectorXd multipliers(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const {
+      return laws.solve(of_laws - law_by_jumps * of_jumps);
+    }
     Eigen::VectorXd solve(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const;
   };
 
-  /// With the factors at hand for a preconditioner. Nothing where they are of other unknowns, or too much has changed for new ones to take longer.
-  std::optional<Eigen::VectorXd> solve_near_last(const InterpolatedStep& step, SchurComplement& schur, const Eigen::VectorXd& b, double tolerance) const;
+  /// With the factors at hand for a preconditioner. Nothing where they are of other unknowns, or too much has changed
+  /// for new ones to take longer.
+  std::optional<Eigen::VectorXd> solve_near_last(const InterpolatedStep& step, SchurComplement& schur,
+                                                 const Eigen::VectorXd& b, double tolerance) const;
   void take(const InterpolatedStep& step, const SchurComplement& schur);
 
   InterpolatedStep step_;

@@ -18,10 +18,14 @@ constexpr double much = 0.5;
 
 bool differs(const Matrix3d& now, const Matrix3d& before) { return (now - before).norm() > much * before.norm(); }
 
-bool differs(const ForceBlock& now, const ForceBlock& before) { return differs(now.by_force, before.by_force) || differs(now.by_jump, before.by_jump); }
+bool differs(const ForceBlock& now, const ForceBlock& before) {
+  return differs(now.by_force, before.by_force) || differs(now.by_jump, before.by_jump);
+}
 
 bool have_same_rows(const std::vector<ForceBlock>& a, const std::vector<ForceBlock>& b) {
-  return std::ranges::equal(a, b, [](const ForceBlock& one, const ForceBlock& other) { return one.row == other.row && one.size == other.size; });
+  return std::ranges::equal(a, b, [](const ForceBlock& one, const ForceBlock& other) {
+    return one.row == other.row && one.size == other.size;
+  });
 }
 
 }  // namespace
@@ -48,7 +52,10 @@ std::vector<int> NearInverse::nearest(const SchurComplement& schur, int block) c
   const SchurComplement::Column column = schur.column(blocks_[static_cast<std::size_t>(block)].row);
   std::vector<std::pair<double, int>> couplings(blocks_.size());
   for (int other = 0; other < static_cast<int>(blocks_.size()); ++other)
-    couplings[static_cast<std::size_t>(other)] = {other == block ? -std::numeric_limits<double>::infinity() : -std::abs(column[blocks_[static_cast<std::size_t>(other)].row]), other};
+    couplings[static_cast<std::size_t>(other)] = {other == block
+                                                      ? -std::numeric_limits<double>::infinity()
+                                                      : -std::abs(column[blocks_[static_cast<std::size_t>(other)].row]),
+                                                  other};
   const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(blocks_.size(), neighbours + 1));
   std::nth_element(couplings.begin(), couplings.begin() + count - 1, couplings.end());
   std::vector<int> result;

@@ -46,7 +46,8 @@ bool NodalStep::add_point(int first, const CondensedPoint& point, const ContactL
   }
   const int n = point.rows;
   MatrixXd by_multiplier(2 * n, n);
-  by_multiplier << added.law.traction_by_multiplier.topLeftCorner(n, n), added.law.residual_by_multiplier.topLeftCorner(n, n);
+  by_multiplier << added.law.traction_by_multiplier.topLeftCorner(n, n),
+      added.law.residual_by_multiplier.topLeftCorner(n, n);
   const Eigen::ColPivHouseholderQR<MatrixXd> factor(by_multiplier);
   const VectorXd diagonal = factor.matrixR().diagonal().head(n).cwiseAbs();
   if (!(diagonal[n - 1] > open_multiplier * diagonal[0])) return false;
@@ -120,8 +121,8 @@ VectorXd NodalStep::combined(const VectorXd& forces, const VectorXd& jumps) cons
   VectorXd result(forces.size());
   for (const Point& point : points_) {
     const int first = point.first, n = point.rows;
-    result.segment(first, n) =
-        point.weight * (point.by_force.topLeftCorner(n, n) * forces.segment(first, n) + point.by_jump.topLeftCorner(n, n) * jumps.segment(first, n));
+    result.segment(first, n) = point.weight * (point.by_force.topLeftCorner(n, n) * forces.segment(first, n) +
+                                               point.by_jump.topLeftCorner(n, n) * jumps.segment(first, n));
   }
   return result;
 }
@@ -129,12 +130,16 @@ VectorXd NodalStep::combined(const VectorXd& forces, const VectorXd& jumps) cons
 std::vector<ForceBlock> NodalStep::blocks() const {
   std::vector<ForceBlock> result;
   for (const Point& point : points_)
-    result.push_back({.place = point.first, .row = rows_[static_cast<std::size_t>(point.first)], .size = point.rows,
-                      .by_force = point.weight * point.by_force, .by_jump = point.weight * point.by_jump});
+    result.push_back({.place = point.first,
+                      .row = rows_[static_cast<std::size_t>(point.first)],
+                      .size = point.rows,
+                      .by_force = point.weight * point.by_force,
+                      .by_jump = point.weight * point.by_jump});
   return result;
 }
 
-std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, const VectorXd& balance, NearInverse& near, const GmresOptions& options) {
+std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, const VectorXd& balance, NearInverse& near,
+                                                     const GmresOptions& options) {
   std::vector<VectorXd> responses;
   // A spring as stiff as the body that comes off again leaves nothing of single precision.
   const auto product = [&](const VectorXd& forces) -> VectorXd {
@@ -152,7 +157,8 @@ std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, con
       [&](const VectorXd& b) { return near(b); }, weighted(rhs(balance)), options);
   if (!solution.reached) return std::nullopt;
   VectorXd jumps = balance;
-  for (Index k = 0; k < solution.shares.size(); ++k) jumps += solution.shares[k] * responses[static_cast<std::size_t>(k)];
+  for (Index k = 0; k < solution.shares.size(); ++k)
+    jumps += solution.shares[k] * responses[static_cast<std::size_t>(k)];
   take_multipliers(solution.x, jumps);
   return jumps;
 }
@@ -164,7 +170,8 @@ void NodalStep::take_multipliers(const VectorXd& forces, const VectorXd& jumps) 
     force.head(point.rows) = forces.segment(point.first, point.rows);
     jump.head(point.rows) = jumps.segment(point.first, point.rows);
     Eigen::Matrix<double, 6, 1> left;
-    left << force / point.weight - point.law.traction_by_jump * jump, point.law.residual - point.law.residual_by_jump * jump;
+    left << force / point.weight - point.law.traction_by_jump * jump,
+        point.law.residual - point.law.residual_by_jump * jump;
     changes_[p].value = point.inverse * left;
   }
 }

@@ -15,10 +15,11 @@ namespace comma::solver {
 /// Whether each multiplier belongs to one point, with as many components as the point has rows.
 bool has_points_on_nodes(const CondensedProblem& problem);
 
-/// The linearised problem of condensed_problem.hpp, jumps d - S f = balance with forces f = w t(multiplier, d) and r(multiplier, d) = 0, one row
-/// of the compliance S an unknown: at each point the linearised traction and residual are six equations for three multipliers, so
-/// three combinations are free of them, which is what is left, A_f f + A_d d = b. With d = balance + S f it is a system for the forces alone, half
-/// the unknowns of jumps and multipliers together. All values are what Newton's method subtracts.
+/// The linearised problem of condensed_problem.hpp, jumps d - S f = balance with forces f = w t(multiplier, d) and
+/// r(multiplier, d) = 0, one row of the compliance S an unknown: at each point the linearised traction and residual are
+/// six equations for three multipliers, so three combinations are free of them, which is what is left, A_f f + A_d d =
+/// b. With d = balance + S f it is a system for the forces alone, half the unknowns of jumps and multipliers together.
+/// All values are what Newton's method subtracts.
 class NodalStep {
  public:
   struct Change {
@@ -36,8 +37,10 @@ class NodalStep {
 
   /// The jumps (one an unknown row) for what exceeds them now; columns of S must have been required.
   Eigen::VectorXd solve(const SchurComplement& schur, const Eigen::VectorXd& balance);
-  /// The same by products with S, in single precision where there are no springs; nothing where the tolerance is not reached.
-  std::optional<Eigen::VectorXd> solve_by_products(SchurComplement& schur, const Eigen::VectorXd& balance, NearInverse& near, const GmresOptions& options);
+  /// The same by products with S, in single precision where there are no springs; nothing where the tolerance is not
+  /// reached.
+  std::optional<Eigen::VectorXd> solve_by_products(SchurComplement& schur, const Eigen::VectorXd& balance,
+                                                   NearInverse& near, const GmresOptions& options);
   /// After a solution.
   const std::vector<Change>& multiplier_changes() const { return changes_; }
 
@@ -49,7 +52,7 @@ class NodalStep {
     Eigen::Matrix3d by_force, by_jump;
     Eigen::Vector3d constant;
     double weight = 1.0;
-    ContactLawValue law;          ///< residual and its derivatives as pressures
+    ContactLawValue law;                  ///< residual and its derivatives as pressures
     Eigen::Matrix<double, 3, 6> inverse;  ///< (traction, residual) -> multiplier
   };
 

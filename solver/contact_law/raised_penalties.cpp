@@ -9,8 +9,8 @@
 namespace comma::solver {
 namespace {
 
-/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and at least this much,
-/// so that a few rounds do.
+/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and
+/// at least this much, so that a few rounds do.
 constexpr double raise_margin = 1.1;
 constexpr double least_raise = 2.0;
 
@@ -22,13 +22,17 @@ struct Wording {
 
 /// `most`: the largest factor of a zone.
 template <class Most>
-bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, const Most& most, const Wording& wording) {
+bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, const Most& most,
+                   const Wording& wording) {
   bool raised = false;
   for (std::size_t zone = 0; zone < excess.size(); ++zone) {
     if (excess[zone] <= 1.0) continue;
     factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
     if (factors[zone] > most(zone))
-      throw Error("no-convergence", fmt::format("a {} {:.2g} times the one given does not keep {} than allowed", wording.penalty, most(zone), wording.what), wording.hint);
+      throw Error("no-convergence",
+                  fmt::format("a {} {:.2g} times the one given does not keep {} than allowed", wording.penalty,
+                              most(zone), wording.what),
+                  wording.hint);
     raised = true;
   }
   return raised;
@@ -42,11 +46,15 @@ void RaisedPenalties::limit_depth(double depth, double most) {
 }
 
 bool RaisedPenalties::raise(const Excess& excess) {
-  const auto most = [&](std::size_t zone) { return most_.value_or(most_beside_bodies * (excess.softness.empty() ? 1.0 : std::max(1.0, excess.softness[zone]))); };
-  const bool pressed = raise_factors(contact_, excess.depth, most,
-                                     {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
+  const auto most = [&](std::size_t zone) {
+    return most_.value_or(most_beside_bodies * (excess.softness.empty() ? 1.0 : std::max(1.0, excess.softness[zone])));
+  };
+  const bool pressed = raise_factors(
+      contact_, excess.depth, most,
+      {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
   const bool rubbed = raise_factors(friction_, excess.slip, most,
-                                    {"penalty of friction", "points that stick from slipping more", "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
+                                    {"penalty of friction", "points that stick from slipping more",
+                                     "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
   return pressed || rubbed;
 }
 

@@ -9,15 +9,17 @@
 
 namespace comma::solver {
 
-/// What is too much in each zone: the deepest point and the one that slips furthest while it sticks, as multiples of what is allowed.
+/// What is too much in each zone: the deepest point and the one that slips furthest while it sticks, as multiples of
+/// what is allowed.
 struct Excess {
   std::vector<double> depth;
   std::vector<double> slip;
-  std::vector<double> softness{};  ///< the stiffness of the bodies over the penalty given, of contact or friction, where that is the softer; empty: 1
+  std::vector<double> softness{};  ///< the stiffness of the bodies over the penalty given, of contact or friction,
+                                   ///< where that is the softer; empty: 1
 };
 
-/// The penalties of the zones of a contact are raised by one factor a zone (U4.44.11: ADAPTATION='ADAPT_COEF' with PENE_MAXI and
-/// GLIS_MAXI; U4.34.03: ACTION='ADAPT_COEF_PENA' of the event INTERPENETRATION), and never lowered.
+/// The penalties of the zones of a contact are raised by one factor a zone (U4.44.11: ADAPTATION='ADAPT_COEF' with
+/// PENE_MAXI and GLIS_MAXI; U4.34.03: ACTION='ADAPT_COEF_PENA' of the event INTERPENETRATION), and never lowered.
 class RaisedPenalties {
  public:
   /// Beyond, rounding of the gaps makes pressures.
@@ -28,20 +30,26 @@ class RaisedPenalties {
   /// From now on all zones allow this depth (a length) in place of their own, and no factor goes beyond `most`.
   void limit_depth(double depth, double most);
   /// How deep points of a zone may go; nothing where nothing limits them.
-  std::optional<double> allowed_depth(const MixedZone& zone) const { return depth_limit_ ? depth_limit_ : zone.largest_depth; }
+  std::optional<double> allowed_depth(const MixedZone& zone) const {
+    return depth_limit_ ? depth_limit_ : zone.largest_depth;
+  }
 
   /// Whether any is not as it was given.
   bool are_raised() const;
   /// Those of a zone raised as much as in others; what limits them stays.
   void go_on_from(const RaisedPenalties& others, std::size_t zone);
 
-  /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence` where factors have
-  /// become too large.
+  /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence`
+  /// where factors have become too large.
   bool raise(const Excess& excess);
   /// Gives the law of a point of the zone its penalties as they are now.
   void apply(const MixedZone& zone, int number, CondensedPoint& point) const;
-  double contact_penalty(const MixedZone& zone, int number) const { return zone.augmentation * contact_[static_cast<std::size_t>(number)]; }
-  double friction_penalty(const MixedZone& zone, int number) const { return zone.friction_penalty * friction_[static_cast<std::size_t>(number)]; }
+  double contact_penalty(const MixedZone& zone, int number) const {
+    return zone.augmentation * contact_[static_cast<std::size_t>(number)];
+  }
+  double friction_penalty(const MixedZone& zone, int number) const {
+    return zone.friction_penalty * friction_[static_cast<std::size_t>(number)];
+  }
 
  private:
   std::vector<double> contact_;   ///< by which the penalty of each zone is raised, >= 1

@@ -25,7 +25,11 @@ constexpr double held_compliance = 1e-9;
 class Relaxation {
  public:
   Relaxation(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state)
-      : schur_(schur), problem_(problem), state_(state), forces_(Eigen::VectorXd::Zero(problem.free.size())), jumps_(problem.free) {}
+      : schur_(schur),
+        problem_(problem),
+        state_(state),
+        forces_(Eigen::VectorXd::Zero(problem.free.size())),
+        jumps_(problem.free) {}
 
   Eigen::VectorXd run() {
     start();
@@ -52,7 +56,8 @@ class Relaxation {
       if (problem_.held[row] != 0.0) rows.push_back(static_cast<int>(row));
     schur_.require(rows);
     for (const CondensedPoint& point : problem_.points)
-      if (point.rows > 0) largest_compliance_ = std::max(largest_compliance_, schur_.column(point.first_row)[point.first_row]);
+      if (point.rows > 0)
+        largest_compliance_ = std::max(largest_compliance_, schur_.column(point.first_row)[point.first_row]);
     for (Index row = 0; row < problem_.held.size(); ++row)
       if (problem_.held[row] != 0.0) jumps_ -= problem_.held[row] * schur_.column(static_cast<int>(row));
     for (const CondensedPoint& point : problem_.points)
@@ -92,10 +97,12 @@ class Relaxation {
   }
 
   /// As it stands now: solved for, the force would have no bound where contact has not yet taken the body's weight.
-  void visit(const CondensedSpring& spring) { add_force(spring.row, spring.stiffness * jumps_[spring.row] - forces_[spring.row]); }
+  void visit(const CondensedSpring& spring) {
+    add_force(spring.row, spring.stiffness * jumps_[spring.row] - forces_[spring.row]);
+  }
 
-  static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others, const Vector3d& present,
-                              bool stays_closed, ContactStatus& status) {
+  static Vector3d local_force(const CondensedPoint& point, const Matrix3d& own, const Vector3d& others,
+                              const Vector3d& present, bool stays_closed, ContactStatus& status) {
     const ContactLaw& law = point.law;
     const double normal = own(0, 0) + (law.penalised ? 1.0 / (point.weight * law.augmentation) : 0.0);
     status = ContactStatus::open;
@@ -111,7 +118,8 @@ class Relaxation {
     return sliding_force(point, own, normal, others, present);
   }
 
-  static Vector3d sticking_force(const CondensedPoint& point, const Matrix3d& own, double normal, const Vector3d& others) {
+  static Vector3d sticking_force(const CondensedPoint& point, const Matrix3d& own, double normal,
+                                 const Vector3d& others) {
     Matrix3d matrix = own;
     matrix(0, 0) = normal;
     if (point.law.friction_penalised)
@@ -121,9 +129,10 @@ class Relaxation {
     return force;
   }
 
-  /// Projections on the cone of friction of what would undo the jump (De Saxce and Feng, Mathematical and Computer Modelling 28,
-  /// 1998), which come to rest at the law of Coulomb.
-  static Vector3d sliding_force(const CondensedPoint& point, Matrix3d own, double normal, const Vector3d& others, Vector3d force) {
+  /// Projections on the cone of friction of what would undo the jump (De Saxce and Feng, Mathematical and Computer
+  /// Modelling 28, 1998), which come to rest at the law of Coulomb.
+  static Vector3d sliding_force(const CondensedPoint& point, Matrix3d own, double normal, const Vector3d& others,
+                                Vector3d force) {
     own(0, 0) = normal;
     if (point.law.friction_penalised)
       for (int c = 1; c < point.rows; ++c) own(c, c) += 1.0 / (point.weight * point.law.friction_augmentation);
@@ -156,7 +165,8 @@ class Relaxation {
     if (state_.statuses[p] == ContactStatus::open || point.rows == 0) return;
     const auto by_penalty = [&](int row, double augmentation) { return -forces_[row] / (point.weight * augmentation); };
     jumps_[point.first_row] = point.law.penalised ? by_penalty(point.first_row, point.law.augmentation) : 0.0;
-    for (int row = point.first_row + 1; row < point.first_row + point.rows && state_.statuses[p] == ContactStatus::sticking; ++row)
+    for (int row = point.first_row + 1;
+         row < point.first_row + point.rows && state_.statuses[p] == ContactStatus::sticking; ++row)
       jumps_[row] = point.law.friction_penalised ? by_penalty(row, point.law.friction_augmentation) : 0.0;
   }
 
@@ -165,7 +175,8 @@ class Relaxation {
     for (const CondensedPoint& point : problem_.points) {
       if (point.node_count == 0) continue;
       const int first = point.nodes[0] * problem_.components;
-      for (int c = 0; c < point.rows; ++c) state_.multipliers[first + c] = (c == 0 ? 1.0 : -1.0) * forces_[point.first_row + c] / point.weight;
+      for (int c = 0; c < point.rows; ++c)
+        state_.multipliers[first + c] = (c == 0 ? 1.0 : -1.0) * forces_[point.first_row + c] / point.weight;
     }
   }
 
@@ -179,8 +190,10 @@ class Relaxation {
 
 }  // namespace
 
-bool relax_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state, Eigen::VectorXd& jumps) {
-  const bool on_nodes = std::ranges::all_of(problem.points, [](const CondensedPoint& point) { return point.rows == 0 || point.node_count == 1; });
+bool relax_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state,
+                     Eigen::VectorXd& jumps) {
+  const bool on_nodes = std::ranges::all_of(
+      problem.points, [](const CondensedPoint& point) { return point.rows == 0 || point.node_count == 1; });
   if (!on_nodes) return false;
   jumps = Relaxation(schur, problem, state).run();
   return true;

@@ -24,13 +24,16 @@ constexpr double same_pressure = 1e-6;
 enum class Turn : std::uint8_t { near, anew };
 enum class Shears : std::uint8_t { none, as_they_are, by_shares };
 
-/// The largest pressure of each surface: of the nodes that points tie together, one after the other, so that what happens elsewhere does not count.
+/// The largest pressure of each surface: of the nodes that points tie together, one after the other, so that what
+/// happens elsewhere does not count.
 class SurfacePressures {
  public:
-  explicit SurfacePressures(const CondensedProblem& problem) : components_(problem.components), values_(static_cast<std::size_t>(problem.node_count), 0.0) {
+  explicit SurfacePressures(const CondensedProblem& problem)
+      : components_(problem.components), values_(static_cast<std::size_t>(problem.node_count), 0.0) {
     DisjointSets surfaces(problem.node_count);
     for (const CondensedPoint& point : problem.points)
-      for (int i = 1; i < point.node_count; ++i) surfaces.join(point.nodes.front(), point.nodes[static_cast<std::size_t>(i)]);
+      for (int i = 1; i < point.node_count; ++i)
+        surfaces.join(point.nodes.front(), point.nodes[static_cast<std::size_t>(i)]);
     for (int node = 0; node < problem.node_count; ++node) surface_.push_back(surfaces.root(node));
   }
 
@@ -69,13 +72,20 @@ class SurfacePressures {
 std::vector<char> nodes_with_shares(const CondensedProblem& problem) {
   std::vector<char> result(static_cast<std::size_t>(problem.node_count), 0);
   for (const CondensedPoint& point : problem.points)
-    for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i) result[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+    for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i)
+      result[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
   return result;
 }
 
 class SharedFriction {
  public:
-  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods) : given_(problem), problem_(problem), methods_(methods), shared_(nodes_with_shares(problem)), pressures_(problem), search_(problem.share_search ? *problem.share_search : own_search_) {
+  SharedFriction(const CondensedProblem& problem, const CondensedMethods& methods)
+      : given_(problem),
+        problem_(problem),
+        methods_(methods),
+        shared_(nodes_with_shares(problem)),
+        pressures_(problem),
+        search_(problem.share_search ? *problem.share_search : own_search_) {
     problem_.expected.resize(0);  // shears, not shares
   }
 
@@ -120,7 +130,8 @@ class SharedFriction {
     return solution.verdict == CondensedVerdict::solved && shares_follow(state, solution);
   }
 
-  /// Where points of a node are open and others closed, the law there depends on the pressure of shares: it is to be the largest of the solution on its surface, whatever that was found from.
+  /// Where points of a node are open and others closed, the law there depends on the pressure of shares: it is to be
+  /// the largest of the solution on its surface, whatever that was found from.
   void take_own_pressure(CondensedState& state, CondensedSolution& solution) {
     for (int turn = 0; turn < most_turns && is_partly_open(state); ++turn) {
       const SurfacePressures before = pressures_;
@@ -137,7 +148,8 @@ class SharedFriction {
     for (std::size_t p = 0; p < given_.points.size(); ++p) {
       const CondensedPoint& point = given_.points[p];
       std::vector<char>& touched = state.statuses[p] == ContactStatus::open ? open : closed;
-      for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i) touched[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
+      for (int i = 0; i < point.node_count && point.share_augmentation > 0.0; ++i)
+        touched[static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)])] = 1;
     }
     for (std::size_t node = 0; node < open.size(); ++node)
       if (open[node] && closed[node]) return true;
@@ -145,7 +157,9 @@ class SharedFriction {
   }
 
   bool lets_creep() const {
-    return std::ranges::any_of(given_.points, [](const CondensedPoint& point) { return point.share_augmentation > 0.0 && point.law.friction_penalised; });
+    return std::ranges::any_of(given_.points, [](const CondensedPoint& point) {
+      return point.share_augmentation > 0.0 && point.law.friction_penalised;
+    });
   }
 
   void take(Shears shears) {
@@ -155,7 +169,8 @@ class SharedFriction {
       point.law = given_.points[p].law;
       if (shears == Shears::none) point.law.friction = 0.0;
       const double pressure = pressures_.at(point.nodes.front());
-      point.law.friction_augmentation = point.share_augmentation * (point.law.friction > 0.0 ? point.law.friction : 1.0) * pressure;
+      point.law.friction_augmentation =
+          point.share_augmentation * (point.law.friction > 0.0 ? point.law.friction : 1.0) * pressure;
       point.law.share_pressure = shears == Shears::by_shares ? pressure : 0.0;
     }
   }
@@ -217,7 +232,8 @@ class SharedFriction {
     return true;
   }
 
-  /// With shears that are augmented as the bodies ask for, with the augmentation of shares, and with that of pressures, which a penalty has large.
+  /// With shears that are augmented as the bodies ask for, with the augmentation of shares, and with that of pressures,
+  /// which a penalty has large.
   CondensedSolution solve_by_shears(CondensedState& state) {
     const CondensedState start = state;
     take(Shears::as_they_are);
@@ -242,8 +258,11 @@ class SharedFriction {
     return true;
   }
 
-  /// Shares of the limit that the pressures of the solution weigh: at once from the pressures at hand, or in turns. Whether that leads anywhere; if not, the state stays.
-  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) { return solve_at_once(state, solution) || solve_in_turns(state, solution, Turn::near); }
+  /// Shares of the limit that the pressures of the solution weigh: at once from the pressures at hand, or in turns.
+  /// Whether that leads anywhere; if not, the state stays.
+  bool solve_by_shares(CondensedState& state, CondensedSolution& solution) {
+    return solve_at_once(state, solution) || solve_in_turns(state, solution, Turn::near);
+  }
 
   bool solve_at_once(CondensedState& state, CondensedSolution& solution) {
     CondensedState tried = in_shares(state);
@@ -302,7 +321,9 @@ class SharedFriction {
       CondensedPoint& point = problem_.points[p];
       if (!(point.share_augmentation > 0.0)) continue;
       const bool open = state.statuses[p] == ContactStatus::open;
-      const double share = open ? least_pressure_share : std::max(least_pressure_share, multiplier_at(problem_, state, point)[0] / pressures_.at(point.nodes.front()));
+      const double share = open ? least_pressure_share
+                                : std::max(least_pressure_share, multiplier_at(problem_, state, point)[0] /
+                                                                     pressures_.at(point.nodes.front()));
       change = std::max(change, std::abs(share - point.law.held_share));
       point.law.held_share = share;
     }
@@ -327,11 +348,13 @@ class SharedFriction {
       if (!shared_[static_cast<std::size_t>(node)]) continue;
       const Index first = Index{node} * given_.components;
       const double pressure = state.multipliers[first];
-      state.multipliers.segment(first + 1, given_.components - 1) *= pressure > 0.0 ? factor(pressure, pressures_.at(node)) : 0.0;
+      state.multipliers.segment(first + 1, given_.components - 1) *=
+          pressure > 0.0 ? factor(pressure, pressures_.at(node)) : 0.0;
     }
   }
 
-  CondensedSolution counted(const CondensedState& start, const CondensedState& state, CondensedSolution solution) const {
+  CondensedSolution counted(const CondensedState& start, const CondensedState& state,
+                            CondensedSolution solution) const {
     solution.iterations = iterations_;
     solution.changes = 0;
     for (std::size_t p = 0; p < start.statuses.size(); ++p) solution.changes += start.statuses[p] != state.statuses[p];
@@ -352,10 +375,12 @@ class SharedFriction {
 }  // namespace
 
 bool has_shared_friction(const CondensedProblem& problem) {
-  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.rows > 1 && point.share_augmentation > 0.0; });
+  return std::ranges::any_of(
+      problem.points, [](const CondensedPoint& point) { return point.rows > 1 && point.share_augmentation > 0.0; });
 }
 
-CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state, const CondensedMethods& methods) {
+CondensedSolution solve_shared_friction(const CondensedProblem& problem, CondensedState& state,
+                                        const CondensedMethods& methods) {
   return SharedFriction(problem, methods).run(state);
 }
 

@@ -9,7 +9,8 @@
 
 namespace comma::solver {
 
-/// What a point resists by along its normal and along the surface, through the bodies and its penalty: a pressure over a length, or 0.
+/// What a point resists by along its normal and along the surface, through the bodies and its penalty: a pressure over
+/// a length, or 0.
 struct PointStiffness {
   double normal = 0.0, along = 0.0;
 };
@@ -17,12 +18,13 @@ struct PointStiffness {
 /// Which augmentations between nodes are those of the law at last; shears otherwise keep those of the bodies.
 enum class Augmentations : std::uint8_t { of_law, of_pressures };
 
-/// A smoothing Newton method (C. Chen and O. L. Mangasarian, Computational Optimization and Applications 5, 1996): pressures and limits of friction are rounded off by a
-/// pressure that goes to zero, each solution being the start of the next one. Overwrites statuses, multipliers and jumps by what it finds, which is the solution but for
-/// roundings. The augmentations are first as stiff as the bodies (`stiffness`, one a point, is set to them); where points lie between nodes, which has the augmentations
-/// in the solution, they then change to those of the law, and on nodes they stay.
-/// Returns false where it loses its way, or the system has too many unknowns.
-bool smooth_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state, Eigen::VectorXd& jumps, std::vector<PointStiffness>& stiffness,
-                      Augmentations augmentations);
+/// A smoothing Newton method (C. Chen and O. L. Mangasarian, Computational Optimization and Applications 5, 1996):
+/// pressures and limits of friction are rounded off by a pressure that goes to zero, each solution being the start of
+/// the next one. Overwrites statuses, multipliers and jumps by what it finds, which is the solution but for roundings.
+/// The augmentations are first as stiff as the bodies (`stiffness`, one a point, is set to them); where points lie
+/// between nodes, which has the augmentations in the solution, they then change to those of the law, and on nodes they
+/// stay. Returns false where it loses its way, or the system has too many unknowns.
+bool smooth_condensed(SchurComplement& schur, const CondensedProblem& problem, CondensedState& state,
+                      Eigen::VectorXd& jumps, std::vector<PointStiffness>& stiffness, Augmentations augmentations);
 
 }  // namespace comma::solver

@@ -44,34 +44,46 @@ std::vector<int> stiff_cells(const Model& model) {
 CellGroups group_cells(const BlockInput& input, const std::vector<int>& cells) {
   CellGroups groups;
   for (const int cell : cells)
-    groups[{input.model.formulations[cell], input.model.mesh->cell_types[cell], input.behaviour_of(cell)}].push_back(cell);
+    groups[{input.model.formulations[cell], input.model.mesh->cell_types[cell], input.behaviour_of(cell)}].push_back(
+        cell);
   return groups;
 }
 
 bool is_of_springs(Relation relation) {
-  return relation == Relation::contact_spring || relation == Relation::bilinear_spring || relation == Relation::hardening_spring;
+  return relation == Relation::contact_spring || relation == Relation::bilinear_spring ||
+         relation == Relation::hardening_spring;
 }
 
 std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<int> cells) {
   const Formulation formulation = input.model.formulations[cells.front()];
   const bool is_discrete = discrete_components(formulation) > 0;
   if (is_of_springs(input.behaviour_of(cells.front()).relation) && !is_discrete)
-    throw Error("unsupported", fmt::format("cell {}: laws of springs, and of contact and friction inside them, are for discrete elements", input.model.mesh->cell_name(cells.front())),
-                "give RELATION='DIS_...' to the groups of discrete elements alone");
+    throw Error(
+        "unsupported",
+        fmt::format("cell {}: laws of springs, and of contact and friction inside them, are for discrete elements",
+                    input.model.mesh->cell_name(cells.front())),
+        "give RELATION='DIS_...' to the groups of discrete elements alone");
   if (continuum_dimension(formulation) > 0) return make_continuum_block(input, std::move(cells));
   const Relation relation = input.behaviour_of(cells.front()).relation;
   if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
   if (is_of_springs(relation)) return make_discrete_law_block(input, std::move(cells));
   const bool flows = relation != Relation::elastic;
-  if ((flows || input.behaviour_of(cells.front()).from_initial_state) && is_bar(formulation)) return make_inelastic_bar_block(input, std::move(cells));
+  if ((flows || input.behaviour_of(cells.front()).from_initial_state) && is_bar(formulation))
+    return make_inelastic_bar_block(input, std::move(cells));
   if (flows)
-    throw Error("unsupported", fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
-                "give these cells RELATION='ELAS'");
+    throw Error(
+        "unsupported",
+        fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
+        "give these cells RELATION='ELAS'");
   if (is_discrete) return make_discrete_block(input, std::move(cells));
   const Kinematics kinematics = input.behaviour_of(cells.front()).kinematics;
-  if (kinematics == Kinematics::large_rotations && is_beam(formulation)) return make_rotating_beam_block(input, std::move(cells));
+  if (kinematics == Kinematics::large_rotations && is_beam(formulation))
+    return make_rotating_beam_block(input, std::move(cells));
   if (kinematics != Kinematics::small)
-    throw Error("unsupported", fmt::format("cell {}: bars and plates know small displacements only, and beams besides large rotations (DEFORMATION='GROT_GDEP')", input.model.mesh->cell_name(cells.front())),
+    throw Error("unsupported",
+                fmt::format("cell {}: bars and plates know small displacements only, and beams besides large rotations "
+                            "(DEFORMATION='GROT_GDEP')",
+                            input.model.mesh->cell_name(cells.front())),
                 "give these cells small strains (DEFORMATION='PETIT')");
   if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
   return make_slender_block(input, std::move(cells));
@@ -84,7 +96,9 @@ std::vector<std::string> variable_names(int count) {
   return names;
 }
 
-std::vector<std::string> stress_names(const ElementBlock& block) { return {block.stress_names().begin(), block.stress_names().end()}; }
+std::vector<std::string> stress_names(const ElementBlock& block) {
+  return {block.stress_names().begin(), block.stress_names().end()};
+}
 
 std::vector<int> starts_of(const std::vector<int>& counts) {
   std::vector<int> starts(counts.size() + 1, 0);
@@ -93,7 +107,8 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
 }
 
 /// Values of one block (cells x points x names) into a field whose components are those of all blocks.
-void write_block(const ElementBlock& block, const std::vector<std::string>& names, const std::vector<double>& values, ElementField& field) {
+void write_block(const ElementBlock& block, const std::vector<std::string>& names, const std::vector<double>& values,
+                 ElementField& field) {
   std::vector<int> columns;
   for (const auto& name : names) columns.push_back(field.component(name));
   const double* value = values.data();
@@ -106,20 +121,24 @@ void write_block(const ElementBlock& block, const std::vector<std::string>& name
 }
 
 /// The way back; empty without a field.
-std::vector<double> read_block(const ElementBlock& block, const std::vector<std::string>& names, const ElementField* field, const Mesh& mesh) {
+std::vector<double> read_block(const ElementBlock& block, const std::vector<std::string>& names,
+                               const ElementField* field, const Mesh& mesh) {
   if (field == nullptr) return {};
   std::vector<double> values;
   values.reserve(block.cells().size() * static_cast<std::size_t>(block.point_count()) * names.size());
   for (const int cell : block.cells()) {
     if (field->points(cell) != block.point_count()) {
-      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}", field->quantity, field->points(cell),
-                                                    mesh.cell_name(cell), block.point_count()));
+      throw Error("incompatible-field",
+                  fmt::format("the field {} has {} points on cell {}, where the element has {}", field->quantity,
+                              field->points(cell), mesh.cell_name(cell), block.point_count()));
     }
     for (int point = 0; point < block.point_count(); ++point) {
       for (const auto& name : names) {
         const int column = field->component(name);
         const double value = column < 0 ? absent : field->at(cell, point, column);
-        if (std::isnan(value)) throw Error("incompatible-field", fmt::format("the field {} has no {} on cell {}", field->quantity, name, mesh.cell_name(cell)));
+        if (std::isnan(value))
+          throw Error("incompatible-field",
+                      fmt::format("the field {} has no {} on cell {}", field->quantity, name, mesh.cell_name(cell)));
         values.push_back(value);
       }
     }
@@ -127,12 +146,16 @@ std::vector<double> read_block(const ElementBlock& block, const std::vector<std:
   return values;
 }
 
-/// The values of a field on some cells, point after point, in the order of the components of `layout`, which has as many values a cell; NaN without one.
-std::vector<double> values_on(std::span<const int> cells, const ElementField& layout, const ElementField& field, const Mesh& mesh) {
+/// The values of a field on some cells, point after point, in the order of the components of `layout`, which has as
+/// many values a cell; NaN without one.
+std::vector<double> values_on(std::span<const int> cells, const ElementField& layout, const ElementField& field,
+                              const Mesh& mesh) {
   std::vector<double> values;
   for (const int cell : cells) {
     if (field.points(cell) != layout.points(cell))
-      throw Error("incompatible-field", fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity, field.points(cell), mesh.cell_name(cell), layout.points(cell)));
+      throw Error("incompatible-field",
+                  fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity,
+                              field.points(cell), mesh.cell_name(cell), layout.points(cell)));
     for (int point = 0; point < field.points(cell); ++point)
       for (const auto& name : layout.components) {
         const int column = field.component(name);
@@ -153,7 +176,8 @@ std::vector<double> read_initial_stresses(const ElementBlock& block, const Eleme
   for (const int cell : block.cells()) {
     const int points = field.points(cell);
     if (points != 0 && points != block.point_count())
-      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}", field.quantity, points, mesh.cell_name(cell), block.point_count()));
+      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}",
+                                                    field.quantity, points, mesh.cell_name(cell), block.point_count()));
     for (int point = 0; point < block.point_count(); ++point)
       for (const int column : columns) {
         const double value = points == 0 || column < 0 ? absent : field.at(cell, point, column);
@@ -168,8 +192,10 @@ constexpr double initial_stress_tolerance = 1e-6;
 /// Of the largest of all: below, nothing is left of what cancels.
 constexpr double stress_rounding = 1e-12;
 
-std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state, const ImposedStrains* imposed) {
-  std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) * block.stress_names().size());
+std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state,
+                                const ImposedStrains* imposed) {
+  std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) *
+                             block.stress_names().size());
   block.stresses(u, state, values);
   if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
   return values;
@@ -184,8 +210,9 @@ Eigen::VectorXd rounded(const std::vector<long double>& sums) {
 }  // namespace
 
 void throw_no_energies(std::string_view elements, const std::string& cell) {
-  throw Error("unsupported", fmt::format("comma does not compute energies of {}, such as {}", elements, cell),
-              "take ENEL_ELGA of CALC_CHAMP, which other cells have, and integrate it over those (POST_ELEM, INTEGRALE)");
+  throw Error(
+      "unsupported", fmt::format("comma does not compute energies of {}, such as {}", elements, cell),
+      "take ENEL_ELGA of CALC_CHAMP, which other cells have, and integrate it over those (POST_ELEM, INTEGRALE)");
 }
 
 void throw_unsupported_element(const Model& model, int cell) {
@@ -204,11 +231,16 @@ CellMaterial elastic_material(const BlockInput& input, int cell) {
 }
 
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
-  const auto* isotropic = std::get_if<IsotropicElasticity>(cell_material(input.model, input.materials, input.properties, cell).elasticity);
+  const auto* isotropic =
+      std::get_if<IsotropicElasticity>(cell_material(input.model, input.materials, input.properties, cell).elasticity);
   if (isotropic == nullptr) {
     const bool is_continuum = continuum_dimension(input.model.formulations[static_cast<std::size_t>(cell)]) > 0;
-    throw Error("unsupported", fmt::format("the {} on cell {} has an anisotropic material, but needs an isotropic one", is_continuum ? "element" : "bar, beam or plate", input.model.mesh->cell_name(cell)),
-                is_continuum ? "in continua without pressure as an unknown anisotropic elasticity goes with DEFORMATION='PETIT', and with 'GREEN_LAGRANGE' but for plane stress" : "");
+    throw Error("unsupported",
+                fmt::format("the {} on cell {} has an anisotropic material, but needs an isotropic one",
+                            is_continuum ? "element" : "bar, beam or plate", input.model.mesh->cell_name(cell)),
+                is_continuum ? "in continua without pressure as an unknown anisotropic elasticity goes with "
+                               "DEFORMATION='PETIT', and with 'GREEN_LAGRANGE' but for plane stress"
+                             : "");
   }
   if (isotropic->young.is_constant() && isotropic->poisson.is_constant()) moduli(*isotropic, MaterialPoint());
   return *isotropic;
@@ -236,12 +268,14 @@ void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableS
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
 }
 
-void ElementBlock::add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>, double*) const {
+void ElementBlock::add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>,
+                                           double*) const {
   throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
 }
 
 struct Assembler::Blocks {
-  using StiffnessTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, std::span<const int>, double*) const;
+  using StiffnessTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, std::span<const int>,
+                                               double*) const;
   using ForceTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, ForceSum) const;
 
   SparsePattern pattern;
@@ -259,8 +293,8 @@ struct Assembler::Blocks {
   }
 };
 
-Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties, const DofMap& dofs,
-                     const BehaviourOfCells* behaviours)
+Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties,
+                     const DofMap& dofs, const BehaviourOfCells* behaviours)
     : model_(model), materials_(materials), properties_(properties), dofs_(dofs) {
   const std::vector<int> cells = stiff_cells(model);
   blocks_.reset(new Blocks{SparsePattern(*model.mesh, cells, dofs), {}});
@@ -272,7 +306,8 @@ Assembler::~Assembler() = default;
 
 void Assembler::set_time(double time) {
   state_ = VariableState(*model_.mesh, materials_.variables, time);
-  const bool constant = std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_constant(); });
+  const bool constant =
+      std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_constant(); });
   if (!constant) ++version_;
 }
 
@@ -283,13 +318,21 @@ void Assembler::impose_strains(std::span<const AppliedLoad> loads, double time) 
   imposed_ = std::move(strains);
 }
 
-SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_stiffness, u, state_); }
+SymmetricMatrix Assembler::stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->sum(&ElementBlock::add_stiffness, u, state_);
+}
 
-SymmetricMatrix Assembler::symmetric_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_symmetric_stiffness, u, state_); }
+SymmetricMatrix Assembler::symmetric_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->sum(&ElementBlock::add_symmetric_stiffness, u, state_);
+}
 
-SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_); }
+SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_);
+}
 
-SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const { return blocks_->sum(&ElementBlock::add_starting_stiffness, u, state_); }
+SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->sum(&ElementBlock::add_starting_stiffness, u, state_);
+}
 
 SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
   SymmetricMatrix matrix = blocks_->pattern.zero_matrix();
@@ -301,25 +344,33 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
       try {
         block->add_geometric_stiffness(stresses_in(*block, u, imposed_.get()), state_, starts, matrix.valuePtr());
       } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)), error.hint());
+        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)),
+                    error.hint());
       }
       continue;
     }
     if (block->stress_names().size() > solid_stress_count)
-      throw Error("unsupported", fmt::format("cell {}: the stiffness that stresses add is not known of cells with one point of integration", model_.mesh->cell_name(cell)));
+      throw Error(
+          "unsupported",
+          fmt::format("cell {}: the stiffness that stresses add is not known of cells with one point of integration",
+                      model_.mesh->cell_name(cell)));
     const int nodes = static_cast<int>(model_.mesh->cell(cell).size());
-    const ElementMap map(blocks_->pattern, dofs_, model_.components_of(cell), nodes, gather_nodes(*model_.mesh, block->cells()));
-    add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map, stresses_of(*block, u, state_, imposed_.get()), starts, matrix.valuePtr());
+    const ElementMap map(blocks_->pattern, dofs_, model_.components_of(cell), nodes,
+                         gather_nodes(*model_.mesh, block->cells()));
+    add_continuum_geometric_stiffness(*model_.mesh, formulation, block->cells(), map,
+                                      stresses_of(*block, u, state_, imposed_.get()), starts, matrix.valuePtr());
   }
   return matrix;
 }
 
 bool Assembler::is_symmetric() const {
-  return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_symmetric(); });
+  return std::all_of(blocks_->list.begin(), blocks_->list.end(),
+                     [](const auto& block) { return block->is_symmetric(); });
 }
 
 bool Assembler::has_symmetric_linear_part() const {
-  return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_symmetric() || !block->is_linear(); });
+  return std::all_of(blocks_->list.begin(), blocks_->list.end(),
+                     [](const auto& block) { return block->is_symmetric() || !block->is_linear(); });
 }
 
 SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
@@ -330,16 +381,21 @@ SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
   return matrix;
 }
 
-Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const { return with_initial(blocks_->sum(&ElementBlock::add_internal_forces, u, state_)); }
+Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
+  return with_initial(blocks_->sum(&ElementBlock::add_internal_forces, u, state_));
+}
 
-Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const { return with_initial(blocks_->sum(&ElementBlock::add_starting_forces, u, state_)); }
+Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
+  return with_initial(blocks_->sum(&ElementBlock::add_starting_forces, u, state_));
+}
 
 Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
   if (initial_forces_.size() > 0) forces += initial_forces_;
   return forces;
 }
 
-std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u, const ImposedStrains* imposed) const {
+std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u,
+                                           const ImposedStrains* imposed) const {
   std::vector<double> values = stresses_of(block, u, state_, imposed);
   for (const auto& [other, initial] : initial_stresses_)
     if (other == &block) std::ranges::transform(values, initial, values.begin(), std::plus<>());
@@ -352,7 +408,8 @@ Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
 
 Eigen::VectorXd Assembler::residual_weights() const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(dofs_.size());
-  for (const auto& block : blocks_->list) block->weigh_rows(state_, {weights.data(), static_cast<std::size_t>(weights.size())});
+  for (const auto& block : blocks_->list)
+    block->weigh_rows(state_, {weights.data(), static_cast<std::size_t>(weights.size())});
   if (weights.isZero(0.0)) return {};
   return (weights.array() > 0.0).select(weights, 1.0);
 }
@@ -366,7 +423,8 @@ Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const El
     }
     block->add_internal_forces(u, state_, sums);
     if (!block->takes_initial_stresses()) continue;
-    if (const std::vector<double> excess = excess_of(*block, u, stresses); !excess.empty()) block->add_forces_of_stresses(u, state_, excess, sums);
+    if (const std::vector<double> excess = excess_of(*block, u, stresses); !excess.empty())
+      block->add_forces_of_stresses(u, state_, excess, sums);
   }
   return rounded(sums);
 }
@@ -401,21 +459,29 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
 }
 
 // What the field has beyond the stresses of the displacements; empty where that is nothing.
-std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const {
+std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen::VectorXd& u,
+                                         const ElementField& given) const {
   const bool has_forces = block.force_point_count(PlatePlaces::corners) > 0;
-  const ElementField of_plates = has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get())) : ElementField();
-  std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh) : read_block(block, stress_names(block), &given, *model_.mesh);
-  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh) : stresses_of(block, u, state_, imposed_.get());
+  const ElementField of_plates =
+      has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()))
+                 : ElementField();
+  std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh)
+                                          : read_block(block, stress_names(block), &given, *model_.mesh);
+  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh)
+                                               : stresses_of(block, u, state_, imposed_.get());
   // Forces and moments have units of their own.
   const std::vector<std::string> names = has_forces ? of_plates.components : stress_names(block);
   const auto is_moment = [&](std::size_t k) { return names[k % names.size()].starts_with('M') ? 1 : 0; };
   std::array<double, 2> largest = {0.0, 0.0};
-  for (std::size_t k = 0; k < known.size(); ++k) largest[is_moment(k)] = std::max(largest[is_moment(k)], std::abs(known[k]));
+  for (std::size_t k = 0; k < known.size(); ++k)
+    largest[is_moment(k)] = std::max(largest[is_moment(k)], std::abs(known[k]));
   const double rounding = stress_rounding * std::max(largest[0], largest[1]);
   bool is_all = true;
   for (std::size_t k = 0; k < known.size(); ++k) {
     const double difference = excess[k] - known[k];
-    const bool is_rounding = std::abs(difference) <= std::max(rounding, initial_stress_tolerance * std::max(largest[is_moment(k)], std::abs(excess[k])));
+    const bool is_rounding =
+        std::abs(difference) <=
+        std::max(rounding, initial_stress_tolerance * std::max(largest[is_moment(k)], std::abs(excess[k])));
     excess[k] = is_rounding ? 0.0 : difference;
     is_all = is_all && is_rounding;
   }
@@ -427,19 +493,26 @@ void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::Ve
   if (excess.empty()) return;
   if (!block.takes_initial_stresses()) {
     const std::size_t each = excess.size() / block.cells().size();
-    const auto first = static_cast<std::size_t>(std::ranges::find_if(excess, [](double value) { return value != 0.0; }) - excess.begin());
-    throw Error("unsupported", fmt::format("the initial stress of cell {} is not that of its initial displacements", model_.mesh->cell_name(block.cells()[first / each])),
-                "only isotropic continua in small or logarithmic strains, and bars and beams in small displacements, take up stresses of another origin");
+    const auto first = static_cast<std::size_t>(
+        std::ranges::find_if(excess, [](double value) { return value != 0.0; }) - excess.begin());
+    throw Error("unsupported",
+                fmt::format("the initial stress of cell {} is not that of its initial displacements",
+                            model_.mesh->cell_name(block.cells()[first / each])),
+                "only isotropic continua in small or logarithmic strains, and bars and beams in small displacements, "
+                "take up stresses of another origin");
   }
   initial_stresses_.emplace_back(&block, std::move(excess));
 }
 
 bool Assembler::takes_initial_stresses() const {
-  return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->takes_initial_stresses() && !block->has_memory(); });
+  return std::ranges::any_of(blocks_->list,
+                             [](const auto& block) { return block->takes_initial_stresses() && !block->has_memory(); });
 }
 
 bool Assembler::has_initial_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
-  return std::ranges::any_of(blocks_->list, [&](const auto& block) { return block->takes_initial_stresses() && !block->has_memory() && !excess_of(*block, u, stresses).empty(); });
+  return std::ranges::any_of(blocks_->list, [&](const auto& block) {
+    return block->takes_initial_stresses() && !block->has_memory() && !excess_of(*block, u, stresses).empty();
+  });
 }
 
 ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
@@ -447,20 +520,23 @@ ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
   for (const auto& block : blocks_->list) most = std::max(most, block->variable_count());
   ElementField field = field_at_points("VARI_R", variable_names(most));
   for (const auto& block : blocks_->list) {
-    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count() * block->variable_count()));
+    std::vector<double> values(block->cells().size() *
+                               static_cast<std::size_t>(block->point_count() * block->variable_count()));
     block->variables(u, state_, values);
     write_block(*block, variable_names(block->variable_count()), values, field);
   }
   return field;
 }
 
-ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const ElementField& stresses, const ElementField& variables) const {
+ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const ElementField& stresses,
+                                         const ElementField& variables) const {
   ElementField field = field_at_points("ENER_R", {"TOTALE"});
   for (const auto& block : blocks_->list) {
     if (!block->has_memory()) continue;
     std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count()));
     block->energy_densities(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh),
-                            read_block(*block, variable_names(block->variable_count()), &variables, *model_.mesh), values);
+                            read_block(*block, variable_names(block->variable_count()), &variables, *model_.mesh),
+                            values);
     write_block(*block, field.components, values, field);
   }
   return field;
@@ -477,7 +553,8 @@ Eigen::VectorXd Assembler::external_forces(std::span<const AppliedLoad> loads, d
   return rounded(sums);
 }
 
-void Assembler::add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const {
+void Assembler::add_initial_stress_forces(std::span<const AppliedLoad> loads, double time,
+                                          std::span<long double> sums) const {
   for (const AppliedLoad& applied : loads) {
     const double factor = applied.multiplier ? applied.multiplier(time) : 1.0;
     for (const auto& field : applied.load->initial_stress_fields) {
@@ -520,21 +597,26 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
     }
   }
   ElementField field = field_at_points("SIEF_R", std::move(components));
-  for (const auto& block : blocks_->list) write_block(*block, stress_names(*block), stresses_in(*block, u, imposed), field);
+  for (const auto& block : blocks_->list)
+    write_block(*block, stress_names(*block), stresses_in(*block, u, imposed), field);
   if (!has_plates()) return field;
-  return side_by_side(field, plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed)));
+  return side_by_side(field,
+                      plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed)));
 }
 
 bool Assembler::has_plates() const {
-  return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->force_point_count(PlatePlaces::corners) > 0; });
+  return std::ranges::any_of(blocks_->list,
+                             [](const auto& block) { return block->force_point_count(PlatePlaces::corners) > 0; });
 }
 
-ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads, double time) const {
+ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads,
+                                     double time) const {
   const ImposedStrains imposed(model_, loads, time);
   return plate_forces(u, places, &imposed);
 }
 
-ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places, const ImposedStrains* imposed) const {
+ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces places,
+                                     const ImposedStrains* imposed) const {
   ElementField field{"SIEF_R", Support::gauss_point, {plate_force_names.begin(), plate_force_names.end()}, {}, {}};
   std::vector<int> counts(static_cast<std::size_t>(model_.mesh->cell_count()), 0);
   for (const auto& block : blocks_->list)
@@ -543,7 +625,8 @@ ElementField Assembler::plate_forces(const Eigen::VectorXd& u, PlatePlaces place
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
   for (const auto& block : blocks_->list) {
     if (block->force_point_count(places) == 0) continue;
-    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->force_point_count(places)) * field.components.size());
+    std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->force_point_count(places)) *
+                               field.components.size());
     block->forces(places, u, imposed, state_, values);
     write_block(*block, field.components, values, field);
   }

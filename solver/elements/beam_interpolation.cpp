@@ -27,8 +27,7 @@ void interpolate_bending(Interpolation& h, double s, double length, double softe
 
 }  // namespace
 
-BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material,
-                                           double length) {
+BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material, double length) {
   const double shear_modulus = material.young / (2.0 * (1.0 + material.poisson));
   const double scale = 12.0 * material.young / (shear_modulus * section.area * length * length);
   return {length, scale * section.inertia_z * section.shear_y, scale * section.inertia_y * section.shear_z};

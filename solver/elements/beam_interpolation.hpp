@@ -18,8 +18,7 @@ struct BeamInterpolation {
   double softening_z = 0.0;
 };
 
-BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material,
-                                           double length);
+BeamInterpolation timoshenko_interpolation(const BeamSection& section, const IsotropicModuli& material, double length);
 
 /// Displacements and rotations in own axes at x = position * length, position in [0, 1], from those of the ends: the
 /// exact solution for a beam that is loaded at its ends alone.

@@ -8,7 +8,9 @@
 
 namespace comma::solver {
 
-/// With its axes, and with what its formulation does not ask for out of the plane. Throws Error `missing-material` naming the cell.
-CellMaterial cell_material(const Model& model, const MaterialField& materials, const ElementProperties& properties, int cell);
+/// With its axes, and with what its formulation does not ask for out of the plane. Throws Error `missing-material`
+/// naming the cell.
+CellMaterial cell_material(const Model& model, const MaterialField& materials, const ElementProperties& properties,
+                           int cell);
 
 }  // namespace comma::solver

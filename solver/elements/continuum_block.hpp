@@ -1,5 +1,6 @@
-// Solids and plane or axisymmetric bodies in small strains: one template on dimension, number of nodes and axisymmetry. Only
-// large_strain_block.hpp, which builds on it, and through that continuum_plane.cpp and continuum_solid.cpp include it.
+// Solids and plane or axisymmetric bodies in small strains: one template on dimension, number of nodes and axisymmetry.
+// Only large_strain_block.hpp, which builds on it, and through that continuum_plane.cpp and continuum_solid.cpp include
+// it.
 #pragma once
 
 #include <algorithm>
@@ -63,14 +64,17 @@ class ContinuumBlock : public ElementBlock {
   void add_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
     for_each_in_batches<Stiffness>(
-        map_.element_count(), evaluates_no_function(state), [&](int element, Stiffness& k) { element_stiffness(element, state, k); },
+        map_.element_count(), evaluates_no_function(state),
+        [&](int element, Stiffness& k) { element_stiffness(element, state, k); },
         [&](int element, const Stiffness& k) { map_.add(element, k.data(), column_starts, values); });
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for_each_in_batches<Coordinates>(
         map_.element_count(), evaluates_no_function(state),
-        [&](int element, Coordinates& force) { force = element_forces(element, relative_displacements(u, dofs_of(element)), state); },
+        [&](int element, Coordinates& force) {
+          force = element_forces(element, relative_displacements(u, dofs_of(element)), state);
+        },
         [&](int element, const Coordinates& force) { scatter_forces(force, dofs_of(element), forces); });
   }
 
@@ -82,7 +86,8 @@ class ContinuumBlock : public ElementBlock {
   }
   bool is_linear() const override { return true; }
   bool is_constant() const override {
-    return std::all_of(materials_.begin(), materials_.end(), [](const MaterialInUse& material) { return material.constant; });
+    return std::all_of(materials_.begin(), materials_.end(),
+                       [](const MaterialInUse& material) { return material.constant; });
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -117,7 +122,8 @@ class ContinuumBlock : public ElementBlock {
     }
   }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
+                                 ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
@@ -148,7 +154,8 @@ class ContinuumBlock : public ElementBlock {
     }
   }
 
-  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state,
+                                 std::span<double> out) const override {
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) {
@@ -164,8 +171,8 @@ class ContinuumBlock : public ElementBlock {
   }
 
  protected:
-  /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing. The
-  /// radial displacement is absolute as well, for the hoop strain.
+  /// Displacements of the nodes relative to the last one, along the directions in which a translation strains nothing.
+  /// The radial displacement is absolute as well, for the hoop strain.
   struct Displacements {
     Coordinates relative;
     Eigen::Matrix<double, Nodes, 1> radial;
@@ -189,7 +196,8 @@ class ContinuumBlock : public ElementBlock {
 
   /// Whether no property is a function of the user's, which may not be evaluated on several threads at once.
   bool evaluates_no_function(const VariableState& state) const {
-    return std::ranges::all_of(materials_, [&](const MaterialInUse& material) { return material.constant && !material.strained(state); });
+    return std::ranges::all_of(
+        materials_, [&](const MaterialInUse& material) { return material.constant && !material.strained(state); });
   }
 
   /// Hooke's law at one integration point, and the strain that command variables cause there.
@@ -209,7 +217,9 @@ class ContinuumBlock : public ElementBlock {
         if (used.constant) return;
         own = make_law(used.material, block.formulation_, at);
       } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), block.mesh_.cell_name(block.cells_[element])), error.hint());
+        throw Error(error.code(),
+                    fmt::format("{} (cell {})", error.what(), block.mesh_.cell_name(block.cells_[element])),
+                    error.hint());
       }
       law = &own;
     }
@@ -233,7 +243,8 @@ class ContinuumBlock : public ElementBlock {
     for (const int cell : cells_) {
       CellMaterial material = elastic_material(input, cell);
       if (std::holds_alternative<IsotropicElasticity>(*material.elasticity)) material.axes = nullptr;
-      const auto [entry, is_new] = known.try_emplace({material.elasticity, material.axes}, static_cast<int>(materials_.size()));
+      const auto [entry, is_new] =
+          known.try_emplace({material.elasticity, material.axes}, static_cast<int>(materials_.size()));
       if (is_new) {
         const bool constant = solver::is_constant(*material.elasticity);
         materials_.push_back({material, constant, solver::expands(*material.elasticity),
@@ -244,10 +255,12 @@ class ContinuumBlock : public ElementBlock {
   }
 
   static Law make_law(const CellMaterial& material, Formulation formulation, const MaterialPoint& at) {
-    if constexpr (Dim == 3) return solid_stiffness(material, at);
+    if constexpr (Dim == 3)
+      return solid_stiffness(material, at);
     else if (formulation == Formulation::plane_stress || formulation == Formulation::plane_stress_reduced)
       return plane_stress_stiffness(material, at);
-    else return plane_strain_stiffness(material, at);
+    else
+      return plane_strain_stiffness(material, at);
   }
 
   Coordinates coordinates(int element) const {
@@ -266,8 +279,9 @@ class ContinuumBlock : public ElementBlock {
     for (const Sample& sample : samples_) {
       const double jacobian = (sample.derivatives.transpose() * x).eval().determinant();
       if (!(jacobian * sign > 0.0 || (sign == 0.0 && jacobian != 0.0))) {
-        throw Error("distorted-cell", fmt::format("cell {} is flat or folded: its Jacobian is {} at an integration point",
-                                                  mesh_.cell_name(cells_[element]), jacobian));
+        throw Error("distorted-cell",
+                    fmt::format("cell {} is flat or folded: its Jacobian is {} at an integration point",
+                                mesh_.cell_name(cells_[element]), jacobian));
       }
       sign = jacobian;
       if (Axisymmetric && !(sample.values.dot(x.col(0)) > 0.0)) {
@@ -333,8 +347,10 @@ class ContinuumBlock : public ElementBlock {
   /// B^T stress, a node a row.
   static void add_forces(const Strain& stress, const Sample& sample, const Point& point, Coordinates& force) {
     Eigen::Matrix<double, Dim, Dim> tensor;
-    if constexpr (Dim == 3) tensor << stress(0), stress(3), stress(4), stress(3), stress(1), stress(5), stress(4), stress(5), stress(2);
-    else tensor << stress(0), stress(3), stress(3), stress(1);
+    if constexpr (Dim == 3)
+      tensor << stress(0), stress(3), stress(4), stress(3), stress(1), stress(5), stress(4), stress(5), stress(2);
+    else
+      tensor << stress(0), stress(3), stress(3), stress(1);
     force.noalias() += point.gradients * tensor;
     if constexpr (Axisymmetric) force.col(0) += sample.values * (stress(2) / point.radius);
   }
@@ -390,7 +406,8 @@ class ContinuumBlock : public ElementBlock {
     return e;
   }
 
-  Strain imposed_stress(const ImposedStrains& imposed, int element, int g, const Coordinates& x, const VariableState& state) const {
+  Strain imposed_stress(const ImposedStrains& imposed, int element, int g, const Coordinates& x,
+                        const VariableState& state) const {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     at.head<Dim>() = x.transpose() * samples_[g].values;
     const Behaviour behaviour(*this, element, g, x, state);
@@ -418,7 +435,8 @@ class ContinuumBlock : public ElementBlock {
         forces[dofs[a * Dim + j]] += force(a, j);
         sum += force(a, j);
       }
-      forces[dofs[(Nodes - 1) * Dim + j]] += invariant_directions()[j] ? -sum : static_cast<long double>(force(Nodes - 1, j));
+      forces[dofs[(Nodes - 1) * Dim + j]] +=
+          invariant_directions()[j] ? -sum : static_cast<long double>(force(Nodes - 1, j));
     }
   }
 

@@ -6,7 +6,8 @@ namespace comma::solver {
 
 std::unique_ptr<ElementBlock> make_plane_block(const BlockInput& input, std::vector<int> cells) {
   return make_for_plane_cells(input, std::move(cells), []<int Nodes>(const BlockInput& of, std::vector<int> its) {
-    if (is_axisymmetric(of.model.formulations[its.front()])) return make_elastic_block<2, Nodes, true>(of, std::move(its));
+    if (is_axisymmetric(of.model.formulations[its.front()]))
+      return make_elastic_block<2, Nodes, true>(of, std::move(its));
     return make_elastic_block<2, Nodes, false>(of, std::move(its));
   });
 }

@@ -13,8 +13,7 @@ namespace {
 
 class DiscreteBlock final : public DiscreteElements {
  public:
-  DiscreteBlock(const BlockInput& input, std::vector<int> cells)
-      : DiscreteElements(input, std::move(cells)) {
+  DiscreteBlock(const BlockInput& input, std::vector<int> cells) : DiscreteElements(input, std::move(cells)) {
     for (const int cell : cells_) {
       const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
       stiffnesses_.push_back(&stiffness);
@@ -35,7 +34,8 @@ class DiscreteBlock final : public DiscreteElements {
 
   bool is_symmetric() const override { return symmetric_; }
 
-  void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&, std::vector<Eigen::Triplet<double>>& entries) const override {
+  void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&,
+                          std::vector<Eigen::Triplet<double>>& entries) const override {
     if (symmetric_) return;
     std::array<int, max_size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -63,8 +63,8 @@ class DiscreteBlock final : public DiscreteElements {
 
   int point_count() const override { return static_cast<int>(ends_.size()); }
 
-  /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where those at both ends are not alike (a full
-  /// matrix, such as that of a beam), at each end, as of a beam.
+  /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where
+  /// those at both ends are not alike (a full matrix, such as that of a beam), at each end, as of a beam.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
     std::array<int, max_size> dofs;
@@ -76,7 +76,8 @@ class DiscreteBlock final : public DiscreteElements {
         const double sign = end == node_count_ - 1 ? 1.0 : -1.0;
         std::array<double, component_count> force{};
         for (int i = 0; i < k; ++i) {
-          for (int j = 0; j < stiffness.matrix.cols(); ++j) force[i] += sign * stiffness.matrix(end * k + i, j) * u[dofs[j]];
+          for (int j = 0; j < stiffness.matrix.cols(); ++j)
+            force[i] += sign * stiffness.matrix(end * k + i, j) * u[dofs[j]];
         }
         to_local(force.data(), stiffness.axes, translations_, target);
         if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);

@@ -13,8 +13,10 @@ namespace {
 
 constexpr int most_components = component_count;
 using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_components, 1>;
-using ComponentMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_components, most_components>;
-using EndMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * most_components, 2 * most_components>;
+using ComponentMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_components, most_components>;
+using EndMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * most_components, 2 * most_components>;
 
 class DiscreteLaw final : public DiscreteElements {
  public:
@@ -23,30 +25,40 @@ class DiscreteLaw final : public DiscreteElements {
     for (const int cell : cells_) members_.push_back(member(input, cell));
   }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
-    for (int element = 0; element < map_.element_count(); ++element) add(element, answer(element, u, state).tangent, column_starts, values);
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add(element, answer(element, u, state).tangent, column_starts, values);
   }
-  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts, double* values) const override {
-    for (int element = 0; element < map_.element_count(); ++element) add(element, elastic(element, state), column_starts, values);
+  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add(element, elastic(element, state), column_starts, values);
   }
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    for (int element = 0; element < map_.element_count(); ++element) add(element, answer(element, u, state).force, forces);
+    for (int element = 0; element < map_.element_count(); ++element)
+      add(element, answer(element, u, state).force, forces);
   }
-  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
+  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported,
+                              ForceSum forces) const override {
     const int k = map_.components();
-    for (int element = 0; element < map_.element_count(); ++element) add(element, Eigen::Map<const Components>(reported.data() + element * k, k), forces);
+    for (int element = 0; element < map_.element_count(); ++element)
+      add(element, Eigen::Map<const Components>(reported.data() + element * k, k), forces);
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     const int k = map_.components();
-    for (int element = 0; element < map_.element_count(); ++element) Eigen::Map<Components>(out.data() + element * k, k) = answer(element, u, state).force;
+    for (int element = 0; element < map_.element_count(); ++element)
+      Eigen::Map<Components>(out.data() + element * k, k) = answer(element, u, state).force;
   }
 
   bool is_linear() const override { return false; }
   bool is_elastically_linear() const override { return is_constant(); }
   bool is_constant() const override {
     return std::ranges::all_of(members_, [&](const Member& each) {
-      return std::ranges::all_of(each.laws->bilinear, [](const auto& law) { return !law || (law->first.is_constant() && law->last.is_constant()); });
+      return std::ranges::all_of(each.laws->bilinear, [](const auto& law) {
+        return !law || (law->first.is_constant() && law->last.is_constant());
+      });
     });
   }
   bool has_memory() const override { return true; }
@@ -56,32 +68,39 @@ class DiscreteLaw final : public DiscreteElements {
     const int count = variable_count();
     for (int element = 0; element < map_.element_count(); ++element) {
       const Answer reached = answer(element, u, state);
-      for (int c = 0; c < count; ++c) out[static_cast<std::size_t>(element * count + c)] = is_bilinear() ? stage(element, c, reached) : reached.plastic[c];
+      for (int c = 0; c < count; ++c)
+        out[static_cast<std::size_t>(element * count + c)] =
+            is_bilinear() ? stage(element, c, reached) : reached.plastic[c];
     }
   }
 
   void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
     throw_no_energies("discrete elements with a law", mesh_.cell_name(cells_.front()));
   }
-  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
+  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>,
+                        std::span<double> out) const override {
     std::ranges::fill(out, absent);
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
-    for (int element = 0; element < map_.element_count(); ++element) members_[static_cast<std::size_t>(element)].plastic = answer(element, u, state).plastic;
+    for (int element = 0; element < map_.element_count(); ++element)
+      members_[static_cast<std::size_t>(element)].plastic = answer(element, u, state).plastic;
   }
 
   /// Without variables the force tells what is plastic.
-  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, std::span<const double> variables) override {
+  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
+              std::span<const double> variables) override {
     if (is_bilinear()) return;
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element) {
       Member& own = members_[static_cast<std::size_t>(element)];
-      if (!variables.empty()) own.plastic = Eigen::Map<const Components>(variables.data() + element * k, k);
+      if (!variables.empty())
+        own.plastic = Eigen::Map<const Components>(variables.data() + element * k, k);
       else if (!reported.empty()) {
         const Components moved = displacement(element, u);
         for (int c = 0; c < k; ++c)
-          if (hardening(element, c) != nullptr) own.plastic[c] = moved[c] - reported[static_cast<std::size_t>(element * k + c)] / own.stiffness[c];
+          if (hardening(element, c) != nullptr)
+            own.plastic[c] = moved[c] - reported[static_cast<std::size_t>(element * k + c)] / own.stiffness[c];
       }
     }
   }
@@ -89,9 +108,9 @@ class DiscreteLaw final : public DiscreteElements {
  private:
   struct Member {
     const SpringLaws* laws;
-    ComponentMatrix turn;   ///< from the components in global axes to those in own ones
-    Components stiffness;   ///< of each component, in own axes
-    Components plastic;     ///< where the step began
+    ComponentMatrix turn;  ///< from the components in global axes to those in own ones
+    Components stiffness;  ///< of each component, in own axes
+    Components plastic;    ///< where the step began
   };
   struct Answer {
     Components force, tangent, plastic;
@@ -115,19 +134,30 @@ class DiscreteLaw final : public DiscreteElements {
 
   Member member(const BlockInput& input, int cell) const {
     const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
-    const Material* material = input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[static_cast<std::size_t>(cell)].get();
+    const Material* material =
+        input.materials.by_cell.empty() ? nullptr : input.materials.by_cell[static_cast<std::size_t>(cell)].get();
     if (material == nullptr || (is_bilinear() ? !material->knows_bilinear_springs : !material->knows_hardening_springs))
-      throw Error("missing-material", fmt::format("the discrete element on cell {} has a law that its material lacks", mesh_.cell_name(cell)),
-                  fmt::format("give it {} in DEFI_MATERIAU", is_bilinear() ? "DIS_BILI_ELAS" : "DIS_ECRO_CINE"));
+      throw Error(
+          "missing-material",
+          fmt::format("the discrete element on cell {} has a law that its material lacks", mesh_.cell_name(cell)),
+          fmt::format("give it {} in DEFI_MATERIAU", is_bilinear() ? "DIS_BILI_ELAS" : "DIS_ECRO_CINE"));
     const int k = map_.components();
     Member made{&material->springs, turn_of(stiffness.axes), Components::Zero(k), Components::Zero(k)};
     const ComponentMatrix own = made.turn * stiffness.matrix.topLeftCorner(k, k) * made.turn.transpose();
     made.stiffness = own.diagonal();
     if (!is_diagonal(stiffness.matrix, made))
-      throw Error("unsupported", fmt::format("the discrete element on cell {} has a law for each component, and a stiffness that couples them", mesh_.cell_name(cell)), "give it a diagonal stiffness in its own axes (REPERE='LOCAL')");
+      throw Error(
+          "unsupported",
+          fmt::format("the discrete element on cell {} has a law for each component, and a stiffness that couples them",
+                      mesh_.cell_name(cell)),
+          "give it a diagonal stiffness in its own axes (REPERE='LOCAL')");
     for (int c = 0; c < k; ++c)
-      if (!is_bilinear() && material->springs.hardening[static_cast<std::size_t>(axis(c))] && !(made.stiffness[c] > 0.0))
-        throw Error("invalid-material", fmt::format("the discrete element on cell {} hardens in a component without elastic stiffness", mesh_.cell_name(cell)), "give it one in AFFE_CARA_ELEM");
+      if (!is_bilinear() && material->springs.hardening[static_cast<std::size_t>(axis(c))] &&
+          !(made.stiffness[c] > 0.0))
+        throw Error("invalid-material",
+                    fmt::format("the discrete element on cell {} hardens in a component without elastic stiffness",
+                                mesh_.cell_name(cell)),
+                    "give it one in AFFE_CARA_ELEM");
     return made;
   }
 

@@ -9,9 +9,10 @@
 
 namespace comma::solver {
 
-/// Calls compute(element, item) for each of `count` elements and then add(element, item), in the order of the elements: sums are the same
-/// whatever the number of threads. While one batch is added the next one is computed, on all threads if `concurrent` says that compute()
-/// bears it. `Item`: what an element computes; without pointers, made once for each place of a batch.
+/// Calls compute(element, item) for each of `count` elements and then add(element, item), in the order of the elements:
+/// sums are the same whatever the number of threads. While one batch is added the next one is computed, on all threads
+/// if `concurrent` says that compute() bears it. `Item`: what an element computes; without pointers, made once for each
+/// place of a batch.
 template <class Item, class Compute, class Add>
 void for_each_in_batches(int count, bool concurrent, Compute&& compute, Add&& add) {
   // Two batches stay in the caches; a thread costs some 0.05 ms to start, which so many elements outweigh.

@@ -44,37 +44,49 @@ class ElementBlock {
                              double* values) const = 0;
   virtual void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const = 0;
   /// The tangent as if the material could only answer elastically from here on.
-  virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+  virtual void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                                     std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
   /// The tangent and the internal forces from which a step starts, nothing having moved yet (PointLaw::begin).
-  virtual void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+  virtual void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                                      std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
-  virtual void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const { add_internal_forces(u, state, forces); }
-  /// The forces at u with which the elastic material would hold up the strains of the command variables; 0 of elements with a memory that know none.
-  virtual void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const;
-  /// What stresses, laid out as in stresses(), add to the stiffness when the element turns, in small displacements (R7.05.01). Throws Error
-  /// `unsupported` where the element knows none.
-  virtual void add_geometric_stiffness(std::span<const double> stresses, const VariableState& state, std::span<const int> column_starts, double* values) const;
-  /// By what the rows that are no forces are multiplied to be of the size of forces; other rows are left alone.
-  virtual void weigh_rows(const VariableState&, std::span<double>) const {}
-  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no memory. In plane stress
-  /// with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
-  virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>, ForceSum forces) const {
+  virtual void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
     add_internal_forces(u, state, forces);
   }
-  /// Whether an element without a memory may start from stresses that are not those of its displacements, and has them beside these from there on:
-  /// add_forces_of_stresses() then takes the stresses for what they are.
+  /// The forces at u with which the elastic material would hold up the strains of the command variables; 0 of elements
+  /// with a memory that know none.
+  virtual void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const;
+  /// What stresses, laid out as in stresses(), add to the stiffness when the element turns, in small displacements
+  /// (R7.05.01). Throws Error `unsupported` where the element knows none.
+  virtual void add_geometric_stiffness(std::span<const double> stresses, const VariableState& state,
+                                       std::span<const int> column_starts, double* values) const;
+  /// By what the rows that are no forces are multiplied to be of the size of forces; other rows are left alone.
+  virtual void weigh_rows(const VariableState&, std::span<double>) const {}
+  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no
+  /// memory. In plane stress with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that
+  /// they miss balance by the change of thickness.
+  virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>,
+                                      ForceSum forces) const {
+    add_internal_forces(u, state, forces);
+  }
+  /// Whether an element without a memory may start from stresses that are not those of its displacements, and has them
+  /// beside these from there on: add_forces_of_stresses() then takes the stresses for what they are.
   virtual bool takes_initial_stresses() const { return false; }
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
-  /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent unless an element knows a better one.
-  virtual void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const {
+  /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent
+  /// unless an element knows a better one.
+  virtual void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                                       std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
-  /// Appends the skew-symmetric part (K - K^T) / 2 of the tangent: its entries below the diagonal, by degree of freedom.
-  virtual void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&, std::vector<Eigen::Triplet<double>>&) const {}
+  /// Appends the skew-symmetric part (K - K^T) / 2 of the tangent: its entries below the diagonal, by degree of
+  /// freedom.
+  virtual void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&,
+                                  std::vector<Eigen::Triplet<double>>&) const {}
 
   virtual std::span<const int> cells() const = 0;
   /// Stresses have this many points a cell ...
@@ -83,10 +95,11 @@ class ElementBlock {
   virtual std::span<const std::string_view> stress_names() const = 0;
   /// Writes the stresses of all elements, cell after cell, point after point (cells x points x names).
   virtual void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
-  /// Plates have forces a length in the place of stresses(): how many of these places there are a cell (0 of other elements), and the forces there (cells x
-  /// places x plate_force_names), less those of the imposed strains.
+  /// Plates have forces a length in the place of stresses(): how many of these places there are a cell (0 of other
+  /// elements), and the forces there (cells x places x plate_force_names), less those of the imposed strains.
   virtual int force_point_count(PlatePlaces) const { return 0; }
-  virtual void forces(PlatePlaces, const Eigen::VectorXd&, const ImposedStrains*, const VariableState&, std::span<double>) const {}
+  virtual void forces(PlatePlaces, const Eigen::VectorXd&, const ImposedStrains*, const VariableState&,
+                      std::span<double>) const {}
   /// Writes the elastic energy of each element (one value a cell); absent where the material has a memory.
   virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
   virtual bool is_linear() const = 0;
@@ -98,33 +111,38 @@ class ElementBlock {
   /// Internal variables at each point; elasticity has one, which stays zero (U4.51.11).
   virtual int variable_count() const { return 1; }
   /// Writes them (cells x points x variables).
-  virtual void variables(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const { std::ranges::fill(out, 0.0); }
+  virtual void variables(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const {
+    std::ranges::fill(out, 0.0);
+  }
   /// Whether stresses depend on more than the displacements of the moment.
   virtual bool has_memory() const { return false; }
-  /// Of materials with a memory: writes the elastic energy for an initial volume at each point (cells x points), of stresses and variables laid
-  /// out as above.
-  virtual void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double>) const {}
+  /// Of materials with a memory: writes the elastic energy for an initial volume at each point (cells x points), of
+  /// stresses and variables laid out as above.
+  virtual void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>,
+                                std::span<const double>, std::span<double>) const {}
   /// A step has converged at u: the next begins there.
   virtual void accept(const Eigen::VectorXd&, const VariableState&) {}
-  /// From now on stiffness and internal forces are those of plastic strains that go on growing, `ratio` times as much as in the last step
-  /// (PointLaw::respond_extrapolated); nothing: as they are.
+  /// From now on stiffness and internal forces are those of plastic strains that go on growing, `ratio` times as much
+  /// as in the last step (PointLaw::respond_extrapolated); nothing: as they are.
   virtual void extrapolate(std::optional<double>) {}
   /// A step begins at u with stresses and variables laid out as above; zero where empty.
   virtual void resume(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>) {}
 
   /// From now on the strain that a law with a memory sees is less by these, until others are given; null: by none.
   virtual void impose(const ImposedStrains*) {}
-  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart; none where impose() gave them.
+  /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart; none
+  /// where impose() gave them.
   virtual void add_imposed_strain_forces(const ImposedStrains&, const VariableState&, ForceSum) const {}
-  /// Adds the forces with which initial stresses, laid out as in stresses() and absent in cells without, push the nodes apart on the initial geometry.
-  /// Throws Error `unsupported` where the element knows none.
+  /// Adds the forces with which initial stresses, laid out as in stresses() and absent in cells without, push the nodes
+  /// apart on the initial geometry. Throws Error `unsupported` where the element knows none.
   virtual void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const;
   /// Takes those stresses away from `out`, laid out as in stresses().
   virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
 };
 
-/// Whether like cells get an element with a memory: not anisotropic elasticity, which follows from displacements alone whatever it starts from; but
-/// Green and Lagrange's strains in plane stress do, though elastic, for the element knows plane stress in large strains.
+/// Whether like cells get an element with a memory: not anisotropic elasticity, which follows from displacements alone
+/// whatever it starts from; but Green and Lagrange's strains in plane stress do, though elastic, for the element knows
+/// plane stress in large strains.
 bool keeps_memory(const BlockInput& input, std::span<const int> cells);
 
 /// Blocks for cells that share type and formulation.
@@ -141,8 +159,8 @@ std::unique_ptr<ElementBlock> make_discrete_block(const BlockInput& input, std::
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells);
 std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells);
 
-/// The elastic material of a cell, checked where its constants are known. Throws Error `missing-material` naming the cell,
-/// `invalid-material`.
+/// The elastic material of a cell, checked where its constants are known. Throws Error `missing-material` naming the
+/// cell, `invalid-material`.
 CellMaterial elastic_material(const BlockInput& input, int cell);
 /// The same for bars, beams and plates, which need an isotropic one. Throws Error `unsupported` for others.
 const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell);

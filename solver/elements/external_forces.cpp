@@ -18,9 +18,11 @@ void check_pressure(const Model& model, const PressureLoad& load) {
   const int body = continuum_dimension(model.formulations[load.cell]);
   const bool plate = is_plate(model.formulations[load.cell]) && !model.is_skin(load.cell);
   if (!plate && (body == 0 || skin != body - 1)) {
-    throw Error("not-a-skin",
-                fmt::format("pressure is applied to cell {}, a {}, which is neither on the boundary of a body of the model nor a plate",
-                            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
+    throw Error(
+        "not-a-skin",
+        fmt::format(
+            "pressure is applied to cell {}, a {}, which is neither on the boundary of a body of the model nor a plate",
+            mesh.cell_name(load.cell), name_of(mesh.cell_types[load.cell])));
   }
   if (skin == 2 && (load.shear != 0.0 || load.shear_function)) {
     throw Error("unsupported", fmt::format("shear is given on face {}, but it is defined on plane edges alone",
@@ -32,7 +34,8 @@ namespace {
 
 double interpolated(const NodalFunction& function, std::span<const int> nodes, const CellSample& sample, double time) {
   double value = 0.0;
-  for (std::size_t a = 0; a < nodes.size(); ++a) value += sample.values[static_cast<Eigen::Index>(a)] * function(nodes[a], time);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    value += sample.values[static_cast<Eigen::Index>(a)] * function(nodes[a], time);
   return value;
 }
 
@@ -106,7 +109,8 @@ class CellIntegrator {
   void add(const DistributedForce& load, double factor) {
     check_distributed_force(input_.model, load);
     const int cell_dimension = dimension(mesh_.cell_types[load.cell]);
-    // Forces in a body are integrated where its stresses are (ssnv263c), those on a plate as its pressure; gravity and centrifugal forces with the mass.
+    // Forces in a body are integrated where its stresses are (ssnv263c), those on a plate as its pressure; gravity and
+    // centrifugal forces with the mass.
     const CellType type = mesh_.cell_types[load.cell];
     const Formulation formulation = input_.model.formulations[load.cell];
     const bool on_surface = input_.model.is_skin(load.cell) || is_plate(formulation);
@@ -114,7 +118,8 @@ class CellIntegrator {
     integrate(load.cell, samples, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
       Eigen::Vector3d density = values_at(load.force, load.functions, to_point(point.at), time_);
       for (int c = 0; c < 3; ++c)
-        if (const NodalFunction& function = load.functions_at_nodes[static_cast<std::size_t>(c)]) density[c] = interpolated(function, mesh_.cell(load.cell), sample, time_);
+        if (const NodalFunction& function = load.functions_at_nodes[static_cast<std::size_t>(c)])
+          density[c] = interpolated(function, mesh_.cell(load.cell), sample, time_);
       return factor * point.measure(cell_dimension) * density;
     });
   }
@@ -125,7 +130,8 @@ class CellIntegrator {
     const Eigen::Matrix3d to_mesh = load.in_own_axes ? Eigen::Matrix3d(axes.transpose()) : Eigen::Matrix3d::Identity();
     const Eigen::Vector3d arm = height_of(load.level, section) * axes.row(2).transpose();
     const auto density = [&](const CellPoint& point) -> Vector6 {
-      const Vector6 given = point.measure(2) * factor * values_at(load.force, load.functions, to_point(point.at), time_);
+      const Vector6 given =
+          point.measure(2) * factor * values_at(load.force, load.functions, to_point(point.at), time_);
       Vector6 acting;
       acting.head<3>() = to_mesh * given.head<3>();
       acting.tail<3>() = to_mesh * given.tail<3>() + arm.cross(acting.head<3>());
@@ -136,7 +142,9 @@ class CellIntegrator {
     for (const CellSample& sample : of_skin(load.cell)) {
       const Vector6 acting = sample.weight * density(locate(places, sample));
       for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (int c = 0; c < 6; ++c) forces_[input_.dofs.dof(nodes[a], static_cast<Component>(c))] += sample.values[static_cast<Eigen::Index>(a)] * acting[c];
+        for (int c = 0; c < 6; ++c)
+          forces_[input_.dofs.dof(nodes[a], static_cast<Component>(c))] +=
+              sample.values[static_cast<Eigen::Index>(a)] * acting[c];
     }
   }
 
@@ -154,16 +162,23 @@ class CellIntegrator {
   const PlateSection& plate_section(int cell) const {
     const auto found = input_.properties.plates.find(cell);
     if (found != input_.properties.plates.end()) return found->second;
-    throw Error("missing-properties", fmt::format("a force in the thickness or in the own axes of a plate acts on cell {}, which has no thickness", mesh_.cell_name(cell)));
+    throw Error(
+        "missing-properties",
+        fmt::format("a force in the thickness or in the own axes of a plate acts on cell {}, which has no thickness",
+                    mesh_.cell_name(cell)));
   }
 
   /// From the surface of the mesh, along the normal.
   static double height_of(PlateLevel level, const PlateSection& section) {
     switch (level) {
-      case PlateLevel::mesh: break;
-      case PlateLevel::middle: return section.offset;
-      case PlateLevel::upper: return section.offset + 0.5 * section.thickness;
-      case PlateLevel::lower: return section.offset - 0.5 * section.thickness;
+      case PlateLevel::mesh:
+        break;
+      case PlateLevel::middle:
+        return section.offset;
+      case PlateLevel::upper:
+        return section.offset + 0.5 * section.thickness;
+      case PlateLevel::lower:
+        return section.offset - 0.5 * section.thickness;
     }
     return 0.0;
   }

@@ -20,11 +20,12 @@ struct ForceInput {
   const VariableState* state = nullptr;  ///< command variables, on which densities and moduli may depend
 };
 
-/// Throws Error `not-a-skin` for a pressure on a cell that is neither a skin cell of a continuum nor a plate, `unsupported` for shear on a
-/// face.
+/// Throws Error `not-a-skin` for a pressure on a cell that is neither a skin cell of a continuum nor a plate,
+/// `unsupported` for shear on a face.
 void check_pressure(const Model& model, const PressureLoad& load);
 
-/// The pressure of a load (without its multiplier) at a sample of its cell, which lies at `at`, the place that functions are given.
+/// The pressure of a load (without its multiplier) at a sample of its cell, which lies at `at`, the place that
+/// functions are given.
 double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample& sample, const Point& at, double time);
 
 /// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,
@@ -35,11 +36,12 @@ double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample&
 /// which points out of a body whose boundary runs counter-clockwise; a face has its normal by the right-hand rule.
 /// Pressure p and shear q act as the traction -p n + q t (U4.44.01, PRES_REP). Axisymmetric loads are per radian.
 ///
-/// Pressures and distributed forces on plates act on the surface of the mesh, on translations alone, which are linear between nodes;
-/// a PlateForce acts at any level of the thickness, its height making a moment.
+/// Pressures and distributed forces on plates act on the surface of the mesh, on translations alone, which are linear
+/// between nodes; a PlateForce acts at any level of the thickness, its height making a moment.
 ///
-/// Gravity and centrifugal forces are those of the mass of continua, bars, beams, plates (about their middle) and discrete elements; what they have
-/// across the plane of a plane model is left to the supports that such a model implies.
+/// Gravity and centrifugal forces are those of the mass of continua, bars, beams, plates (about their middle) and
+/// discrete elements; what they have across the plane of a plane model is left to the supports that such a model
+/// implies.
 ///
 /// Throws Error `unknown-dof` for a force on a component that its node does not carry, `not-a-skin` for a pressure on a
 /// cell that is no skin cell, `not-a-beam` for a beam's force elsewhere, `unsupported` for shear on a face, for a

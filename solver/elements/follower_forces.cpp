@@ -11,7 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-double value_of(double number, const FieldFunction& function, const CellPoint& initial, const CellPoint& now, double time) {
+double value_of(double number, const FieldFunction& function, const CellPoint& initial, const CellPoint& now,
+                double time) {
   if (!function) return number;
   return function(to_point(is_of_deformed_place(function) ? now.at : initial.at), time);
 }
@@ -30,7 +31,8 @@ Matrix3d normal_change(const CellPoint& now, const CellSample& sample, Eigen::In
     turn(1, 0) = -sample.derivatives(b, 0);
     return turn;
   }
-  return sample.derivatives(b, 1) * cross_matrix(now.tangents.col(0)) - sample.derivatives(b, 0) * cross_matrix(now.tangents.col(1));
+  return sample.derivatives(b, 1) * cross_matrix(now.tangents.col(0)) -
+         sample.derivatives(b, 0) * cross_matrix(now.tangents.col(1));
 }
 
 }  // namespace
@@ -72,18 +74,21 @@ void FollowerForces::each_point(const Eigen::VectorXd& u, Visit&& visit) const {
   }
 }
 
-FollowerForces::Traction FollowerForces::traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial, const CellPoint& now) const {
+FollowerForces::Traction FollowerForces::traction(const PressureLoad& load, const CellSample& sample, double factor,
+                                                  const CellPoint& initial, const CellPoint& now) const {
   Traction traction;
   const bool deformed = is_of_deformed_place(load.pressure_function);
   traction.pressure = factor * pressure_at(load, *model_.mesh, sample, to_point(deformed ? now.at : initial.at), time_);
   traction.shear = factor * value_of(load.shear, load.shear_function, initial, now, time_);
-  traction.force = traction.shear * now.tangents.col(0) - traction.pressure * now.normal(dimension(model_.mesh->cell_types[load.cell]));
+  traction.force = traction.shear * now.tangents.col(0) -
+                   traction.pressure * now.normal(dimension(model_.mesh->cell_types[load.cell]));
   return traction;
 }
 
 Eigen::VectorXd FollowerForces::at(const Eigen::VectorXd& u) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
+  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial,
+                    const CellPoint& now) {
     const double radius = is_axisymmetric(model_.formulations[load.cell]) ? now.at[0] : 1.0;
     const Vector3d force = radius * sample.weight * traction(load, sample, factor, initial, now).force;
     const auto nodes = model_.mesh->cell(load.cell);
@@ -110,14 +115,17 @@ Vector3d FollowerForces::pressure_gradient(const PressureLoad& load, double fact
     Vector3d before = now.at, after = now.at;
     before[c] -= step;
     after[c] += step;
-    gradient[c] = factor * (load.pressure_function(to_point(after), time_) - load.pressure_function(to_point(before), time_)) / (2.0 * step);
+    gradient[c] = factor *
+                  (load.pressure_function(to_point(after), time_) - load.pressure_function(to_point(before), time_)) /
+                  (2.0 * step);
   }
   return gradient;
 }
 
 Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) const {
   std::vector<Eigen::Triplet<double>> entries;
-  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial, const CellPoint& now) {
+  each_point(u, [&](const CellSample& sample, const PressureLoad& load, double factor, const CellPoint& initial,
+                    const CellPoint& now) {
     const bool axisymmetric = is_axisymmetric(model_.formulations[load.cell]);
     const double radius = axisymmetric ? now.at[0] : 1.0;
     const Traction acting = traction(load, sample, factor, initial, now);
@@ -126,7 +134,8 @@ Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) co
     const auto nodes = model_.mesh->cell(load.cell);
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       const auto column = static_cast<Eigen::Index>(b);
-      Matrix3d change = -acting.pressure * normal_change(now, sample, column) - sample.values[column] * normal * gradient.transpose();
+      Matrix3d change =
+          -acting.pressure * normal_change(now, sample, column) - sample.values[column] * normal * gradient.transpose();
       if (acting.shear != 0.0) change += acting.shear * sample.derivatives(column, 0) * Matrix3d::Identity();
       change *= radius;
       if (axisymmetric) change.col(0) += sample.values[column] * acting.force;
@@ -134,7 +143,8 @@ Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) co
         const double weight = sample.weight * sample.values[static_cast<Eigen::Index>(a)];
         for (int i = 0; i < 3; ++i) {
           for (int j = 0; j < 3; ++j) {
-            const int row = dofs_.dof(nodes[a], static_cast<Component>(i)), other = dofs_.dof(nodes[b], static_cast<Component>(j));
+            const int row = dofs_.dof(nodes[a], static_cast<Component>(i)),
+                      other = dofs_.dof(nodes[b], static_cast<Component>(j));
             if (row >= 0 && other >= 0 && change(i, j) != 0.0) entries.emplace_back(row, other, weight * change(i, j));
           }
         }

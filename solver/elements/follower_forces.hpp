@@ -13,13 +13,14 @@
 
 namespace comma::solver {
 
-/// Pressure p and shear q act as the traction -p n + q t on the boundary as it lies at the displacements u, whose normal n, tangent t and
-/// measure they take (Bonet, Wood, "Nonlinear continuum mechanics for finite element analysis", section 8.5). Functions take the
-/// initial place, or the deformed one where they are of that kind (deformed_place.hpp). Axisymmetric loads are per radian of
-/// the deformed radius.
+/// Pressure p and shear q act as the traction -p n + q t on the boundary as it lies at the displacements u, whose
+/// normal n, tangent t and measure they take (Bonet, Wood, "Nonlinear continuum mechanics for finite element analysis",
+/// section 8.5). Functions take the initial place, or the deformed one where they are of that kind
+/// (deformed_place.hpp). Axisymmetric loads are per radian of the deformed radius.
 class FollowerForces {
  public:
-  /// Keeps references to its arguments. Of the loads the pressures alone count. Throws what check_pressure() throws (external_forces.hpp).
+  /// Keeps references to its arguments. Of the loads the pressures alone count. Throws what check_pressure() throws
+  /// (external_forces.hpp).
   FollowerForces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads);
 
   bool empty() const { return loads_.empty(); }
@@ -27,14 +28,16 @@ class FollowerForces {
 
   /// Forces (one a degree of freedom) at the displacements u.
   Eigen::VectorXd at(const Eigen::VectorXd& u) const;
-  /// Their derivatives by u (n x n), which are not symmetric. The change of a pressure with the deformed place is a difference quotient.
+  /// Their derivatives by u (n x n), which are not symmetric. The change of a pressure with the deformed place is a
+  /// difference quotient.
   Eigen::SparseMatrix<double> tangent(const Eigen::VectorXd& u) const;
 
  private:
   struct Traction;
   template <class Visit>
   void each_point(const Eigen::VectorXd& u, Visit&& visit) const;
-  Traction traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial, const CellPoint& now) const;
+  Traction traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial,
+                    const CellPoint& now) const;
   Eigen::Vector3d pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const;
 
   const Model& model_;

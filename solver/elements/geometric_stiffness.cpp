@@ -19,21 +19,26 @@ PlaneRows plane_rows(double s, double l, double softening) {
   const double scale = 1.0 / (1.0 + softening), half = 0.5 * softening;
   const double first = 6.0 * (s * s - s);
   PlaneRows rows;
-  rows.slope << scale / l * (first - softening), scale * (3 * s * s - (4 + softening) * s + 1 + half), -scale / l * (first - softening),
-      scale * (3 * s * s - (2 - softening) * s - half);
-  rows.rotation << scale / l * first, scale * (3 * s * s - (4 + softening) * s + 1 + softening), -scale / l * first, scale * (3 * s * s - (2 - softening) * s);
-  rows.curvature << scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 4 - softening), -scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 2 + softening);
+  rows.slope << scale / l * (first - softening), scale * (3 * s * s - (4 + softening) * s + 1 + half),
+      -scale / l * (first - softening), scale * (3 * s * s - (2 - softening) * s - half);
+  rows.rotation << scale / l * first, scale * (3 * s * s - (4 + softening) * s + 1 + softening), -scale / l * first,
+      scale * (3 * s * s - (2 - softening) * s);
+  rows.curvature << scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 4 - softening),
+      -scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 2 + softening);
   return rows;
 }
 
 Row placed(const Eigen::Vector4d& plane, const std::array<int, 4>& places, double of_deflections, double of_rotations) {
   Row row = Row::Zero();
-  for (int i = 0; i < 4; ++i) row[places[static_cast<std::size_t>(i)]] = (i % 2 == 0 ? of_deflections : of_rotations) * plane[i];
+  for (int i = 0; i < 4; ++i)
+    row[places[static_cast<std::size_t>(i)]] = (i % 2 == 0 ? of_deflections : of_rotations) * plane[i];
   return row;
 }
 
 /// Adds factor (a b + b a) / 2 to a matrix of twice the energy.
-void add_product(BeamMatrix& k, double factor, const Row& a, const Row& b) { k += 0.5 * factor * (a * b.transpose() + b * a.transpose()); }
+void add_product(BeamMatrix& k, double factor, const Row& a, const Row& b) {
+  k += 0.5 * factor * (a * b.transpose() + b * a.transpose());
+}
 
 struct BeamRows {
   Row v_slope, w_slope, torsion, twist, b, b_slope, c, c_slope;
@@ -66,7 +71,8 @@ Eigen::Matrix3d stress_tensor(const double* s, int dimension) {
 }
 
 /// Adds what the stress at one point makes of one cell's matrix.
-void add_point(const NodeColumns& places, const CellSample& sample, const Eigen::Matrix3d& stress, int dimension, bool axisymmetric, Eigen::MatrixXd& k) {
+void add_point(const NodeColumns& places, const CellSample& sample, const Eigen::Matrix3d& stress, int dimension,
+               bool axisymmetric, Eigen::MatrixXd& k) {
   const CellPoint point = locate(places, sample);
   const double weight = sample.weight * point.measure(dimension) * (axisymmetric ? point.at[0] : 1.0);
   const Eigen::MatrixXd gradients = sample.derivatives * point.tangents.topLeftCorner(dimension, dimension).inverse();
@@ -74,18 +80,21 @@ void add_point(const NodeColumns& places, const CellSample& sample, const Eigen:
   for (Eigen::Index a = 0; a < pairs.rows(); ++a) {
     for (Eigen::Index b = 0; b < pairs.cols(); ++b) {
       for (int c = 0; c < dimension; ++c) k(a * dimension + c, b * dimension + c) += pairs(a, b);
-      if (axisymmetric) k(a * dimension, b * dimension) += weight * stress(2, 2) * sample.values[a] * sample.values[b] / (point.at[0] * point.at[0]);
+      if (axisymmetric)
+        k(a * dimension, b * dimension) +=
+            weight * stress(2, 2) * sample.values[a] * sample.values[b] / (point.at[0] * point.at[0]);
     }
   }
 }
 
 }  // namespace
 
-BeamMatrix beam_geometric_stiffness(const BeamSection& section, const IsotropicModuli& material, double length, bool shear,
-                                    const std::array<SectionForces, 2>& ends) {
+BeamMatrix beam_geometric_stiffness(const BeamSection& section, const IsotropicModuli& material, double length,
+                                    bool shear, const std::array<SectionForces, 2>& ends) {
   const double shear_modulus = material.young / (2 * (1 + material.poisson));
   const double scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
-  const double softening_xy = scale * section.inertia_z * section.shear_y, softening_xz = scale * section.inertia_y * section.shear_z;
+  const double softening_xy = scale * section.inertia_z * section.shear_y,
+               softening_xz = scale * section.inertia_y * section.shear_z;
   const double polar = (section.inertia_y + section.inertia_z) / section.area;
   BeamMatrix k = BeamMatrix::Zero();
   // Polynomials of degree 5 at most: three points of Gauss are exact.
@@ -116,8 +125,9 @@ BeamMatrix beam_geometric_stiffness(const BeamSection& section, const IsotropicM
   return k;
 }
 
-void add_continuum_geometric_stiffness(const Mesh& mesh, Formulation formulation, std::span<const int> cells, const ElementMap& map,
-                                       std::span<const double> stresses, std::span<const int> column_starts, double* values) {
+void add_continuum_geometric_stiffness(const Mesh& mesh, Formulation formulation, std::span<const int> cells,
+                                       const ElementMap& map, std::span<const double> stresses,
+                                       std::span<const int> column_starts, double* values) {
   const int dimension = continuum_dimension(formulation);
   const int components = dimension == 3 ? 6 : 4;
   CellSamples samples;

@@ -12,7 +12,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using StrainRows = Eigen::Matrix<double, 6, 12>;  // xx yy zz, twice xy xz yz
 
-Eigen::Vector4d patterns_at(const ReferencePoint& at) { return {at[1] * at[2], at[0] * at[2], at[0] * at[1], at[0] * at[1] * at[2]}; }
+Eigen::Vector4d patterns_at(const ReferencePoint& at) {
+  return {at[1] * at[2], at[0] * at[2], at[0] * at[1], at[0] * at[1] * at[2]};
+}
 
 /// A pattern a row, a reference coordinate a column.
 Eigen::Matrix<double, 4, 3> pattern_derivatives(const ReferencePoint& at) {
@@ -22,9 +24,12 @@ Eigen::Matrix<double, 4, 3> pattern_derivatives(const ReferencePoint& at) {
   return derivatives;
 }
 
-Matrix3d jacobian(const Hourglass::Places& places, const ReferencePoint& at) { return shape_derivatives(CellType::hexa8, at).transpose() * places; }
+Matrix3d jacobian(const Hourglass::Places& places, const ReferencePoint& at) {
+  return shape_derivatives(CellType::hexa8, at).transpose() * places;
+}
 
-/// The orthonormal axes nearest to the reference axes at the middle, one a row. Whichever corner the cell is numbered from, they are the same but for their names and signs.
+/// The orthonormal axes nearest to the reference axes at the middle, one a row. Whichever corner the cell is numbered
+/// from, they are the same but for their names and signs.
 Matrix3d own_axes(const Matrix3d& jacobian) {
   const Eigen::JacobiSVD<Matrix3d> svd(jacobian.rowwise().normalized(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
@@ -34,8 +39,10 @@ Matrix3d own_axes(const Matrix3d& jacobian) {
 double poisson_of(const Matrix6d& law) { return law(0, 1) / (law(0, 0) + law(0, 1)); }
 
 /// The patterns 1 to 4 that go along an axis with the numbers in `which`, as digits.
-void add(StrainRows& rows, int strain, int axis, const Eigen::Matrix<double, 4, 3>& gradients, int derivative, int which, double factor) {
-  for (; which > 0; which /= 10) rows(strain, 3 * (which % 10 - 1) + axis) += factor * gradients(which % 10 - 1, derivative);
+void add(StrainRows& rows, int strain, int axis, const Eigen::Matrix<double, 4, 3>& gradients, int derivative,
+         int which, double factor) {
+  for (; which > 0; which /= 10)
+    rows(strain, 3 * (which % 10 - 1) + axis) += factor * gradients(which % 10 - 1, derivative);
 }
 
 void add_shears(const Eigen::Matrix<double, 4, 3>& g, StrainRows& rows) {
@@ -67,7 +74,8 @@ void add_bending_patterns(const Eigen::Matrix<double, 4, 3>& g, double poisson, 
 
 void add_deviatoric(const Eigen::Matrix<double, 4, 3>& g, StrainRows& rows) {
   for (int strain = 0; strain < 3; ++strain)
-    for (int axis = 0; axis < 3; ++axis) add(rows, strain, axis, g, axis, 1234, strain == axis ? 2.0 / 3.0 : -1.0 / 3.0);
+    for (int axis = 0; axis < 3; ++axis)
+      add(rows, strain, axis, g, axis, 1234, strain == axis ? 2.0 / 3.0 : -1.0 / 3.0);
 }
 
 }  // namespace
@@ -83,7 +91,8 @@ Hourglass::Hourglass(const Places& places) {
   std::size_t k = 0;
   for (const QuadraturePoint& point : quadrature(CellType::hexa8, "FPG8")) {
     const Matrix3d map = jacobian(places, point.at);
-    points_[k++] = {point.weight * std::abs(map.determinant()), pattern_derivatives(point.at) * map.inverse().transpose() * axes_.transpose()};
+    points_[k++] = {point.weight * std::abs(map.determinant()),
+                    pattern_derivatives(point.at) * map.inverse().transpose() * axes_.transpose()};
   }
 }
 
@@ -94,13 +103,16 @@ Hourglass::Stiffness Hourglass::stiffness(const Matrix6d& law, Projection projec
   for (const Point& point : points_) {
     StrainRows rows = StrainRows::Zero();
     add_shears(point.gradients, rows);
-    if (projection == Projection::bending) add_bending_patterns(point.gradients, poisson_of(own_law), rows);
-    else add_deviatoric(point.gradients, rows);
+    if (projection == Projection::bending)
+      add_bending_patterns(point.gradients, poisson_of(own_law), rows);
+    else
+      add_deviatoric(point.gradients, rows);
     sum += point.weight * rows.transpose() * own_law * rows;
   }
   Stiffness turned;
   for (int row = 0; row < 12; row += 3)
-    for (int column = 0; column < 12; column += 3) turned.block<3, 3>(row, column) = axes_.transpose() * sum.block<3, 3>(row, column) * axes_;
+    for (int column = 0; column < 12; column += 3)
+      turned.block<3, 3>(row, column) = axes_.transpose() * sum.block<3, 3>(row, column) * axes_;
   return turned;
 }
 

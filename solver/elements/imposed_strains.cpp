@@ -21,7 +21,9 @@ void check_continuum(const Model& model, const InitialStrain& load) {
   const int body = continuum_dimension(model.formulations[cell]);
   const bool leads_out = load.strain[4] != 0.0 || load.strain[5] != 0.0 || load.functions[4] || load.functions[5];
   if (body == 2 && leads_out) {
-    throw Error("unknown-component", fmt::format("an initial strain of the plane cell {} has EPXZ or EPYZ, which lead out of the plane", model.mesh->cell_name(cell)),
+    throw Error("unknown-component",
+                fmt::format("an initial strain of the plane cell {} has EPXZ or EPYZ, which lead out of the plane",
+                            model.mesh->cell_name(cell)),
                 "leave them out");
   }
   if (body > 0 && dimension(model.mesh->cell_types[cell]) == body) return;
@@ -46,7 +48,8 @@ void check_slender(const Model& model, const InitialSlenderStrain& load) {
 
 void check_plate(const Model& model, int cell) {
   if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) return;
-  throw Error("unsupported", fmt::format("an initial strain of plates is given in cell {}, which is none", model.mesh->cell_name(cell)));
+  throw Error("unsupported", fmt::format("an initial strain of plates is given in cell {}, which is none",
+                                         model.mesh->cell_name(cell)));
 }
 
 /// The sum of the parts at a place; N components.
@@ -66,7 +69,8 @@ Eigen::Matrix<double, N, 1> sum(const Parts& parts, const Eigen::Vector3d& at, d
 }  // namespace
 
 bool gives_initial_strains(const Load& load) {
-  return !load.initial_strains.empty() || !load.initial_slender_strains.empty() || !load.initial_plate_strains.empty() || !load.initial_strain_fields.empty();
+  return !load.initial_strains.empty() || !load.initial_slender_strains.empty() ||
+         !load.initial_plate_strains.empty() || !load.initial_strain_fields.empty();
 }
 
 ImposedStrains::ImposedStrains(const Model& model, std::span<const AppliedLoad> loads, double time) : time_(time) {
@@ -154,7 +158,9 @@ double ImposedStrains::mean(int cell, std::string_view component) const {
 
 void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell) {
   if (known != nullptr && known->acts_on(cell)) return;
-  throw Error("unsupported", fmt::format("cell {}: initial strains of a material with a memory have no intensity that is sought", mesh.cell_name(cell)),
+  throw Error("unsupported",
+              fmt::format("cell {}: initial strains of a material with a memory have no intensity that is sought",
+                          mesh.cell_name(cell)),
               "leave out TYPE_CHARGE='FIXE_PILO' of the load with PRE_EPSI");
 }
 

@@ -22,11 +22,13 @@ class ImposedStrains {
   bool empty() const { return continuum_.empty() && slender_.empty() && plates_.empty() && fields_.empty(); }
   bool acts_on(int cell) const;
 
-  /// (xx, yy, zz, 2 xy, 2 xz, 2 yz) at an integration point, the one of this number, of a solid or plane cell: shear as angles, as Hooke's law takes it.
+  /// (xx, yy, zz, 2 xy, 2 xz, 2 yz) at an integration point, the one of this number, of a solid or plane cell: shear as
+  /// angles, as Hooke's law takes it.
   Eigen::Matrix<double, 6, 1> continuum(int cell, int point, const Eigen::Vector3d& at) const;
   /// Elongation and the curvatures about the own y and z axes at a point of a bar or beam.
   Eigen::Vector3d slender(int cell, const Eigen::Vector3d& at) const;
-  /// (e_xx, e_yy, 2 e_xy, k_xx, k_yy, 2 k_xy) at a point of a plate, in its own axes about the surface of the mesh; of fields their mean over the cell.
+  /// (e_xx, e_yy, 2 e_xy, k_xx, k_yy, 2 k_xy) at a point of a plate, in its own axes about the surface of the mesh; of
+  /// fields their mean over the cell.
   Eigen::Matrix<double, 6, 1> plate(int cell, const Eigen::Vector3d& at) const;
 
  private:
@@ -56,7 +58,8 @@ class ImposedStrains {
 /// Whether a load gives initial strains of any kind.
 bool gives_initial_strains(const Load& load);
 
-/// Throws Error `unsupported` unless the law of a cell with a memory sees strains less `known` ones there: a law takes no forces in their place.
+/// Throws Error `unsupported` unless the law of a cell with a memory sees strains less `known` ones there: a law takes
+/// no forces in their place.
 void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell);
 
 }  // namespace comma::solver

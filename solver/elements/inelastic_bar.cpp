@@ -38,7 +38,7 @@ struct BarState {
   double back_stress = 0.0;
   double p = 0.0;
   double p_compression = 0.0;  ///< where compression hardens by itself
-  double flow = 0.0;  ///< by which p grew in the step that led here
+  double flow = 0.0;           ///< by which p grew in the step that led here
   bool flowing = false;
   PlasticModuli moduli;
 };
@@ -85,7 +85,8 @@ BarResponse integrate(const BarState& past, const BarMaterial& now, double strai
   return response;
 }
 
-/// A bar that has flowed in the last step goes on by the tangent of the flow (R5.03.81); `duration`: of this step, in those of the last one.
+/// A bar that has flowed in the last step goes on by the tangent of the flow (R5.03.81); `duration`: of this step, in
+/// those of the last one.
 BarResponse extrapolate_flow(const BarState& past, const BarMaterial& now, double strain, double duration) {
   const double young = young_of(now.plastic);
   const double slope = past.flow > 0.0 ? hardening(now.plastic.curve, past.p + duration * past.flow).second : 0.0;
@@ -93,7 +94,8 @@ BarResponse extrapolate_flow(const BarState& past, const BarMaterial& now, doubl
   response.state.strain = strain;
   response.state.expansion = now.expansion;
   const double past_young = past.moduli.shear != 0.0 ? young_of(past.moduli) : 0.0;
-  response.state.stress = ratio_or_one(young, past_young) * past.stress + response.tangent * (strain - past.strain - (now.expansion - past.expansion));
+  response.state.stress = ratio_or_one(young, past_young) * past.stress +
+                          response.tangent * (strain - past.strain - (now.expansion - past.expansion));
   return response;
 }
 
@@ -113,27 +115,33 @@ class InelasticBar final : public ElementBlock {
     for (const int cell : cells_) members_.push_back(member(input, cell));
   }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element)
       map_.add(element, matrix(element, respond(element, u, state).tangent).data(), column_starts, values);
   }
-  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element)
       map_.add(element, matrix(element, young_of(material(element, state).plastic)).data(), column_starts, values);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add_force(element, members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress, forces);
+      add_force(element, members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress,
+                forces);
   }
   void add_variable_forces(const Eigen::VectorXd&, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const BarMaterial now = material(element, state);
-      add_force(element, members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion, forces);
+      add_force(element, members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion,
+                forces);
     }
   }
-  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
-    for (int element = 0; element < map_.element_count(); ++element) add_force(element, reported[static_cast<std::size_t>(element)], forces);
+  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported,
+                              ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add_force(element, reported[static_cast<std::size_t>(element)], forces);
   }
 
   std::span<const int> cells() const override { return cells_; }
@@ -147,13 +155,16 @@ class InelasticBar final : public ElementBlock {
   bool has_memory() const override { return true; }
   void extrapolate(std::optional<double> duration) override {
     if (duration && (behaviour_.relation == Relation::kinematic_linear || is_mixed() || is_asymmetric()))
-      throw Error("unsupported", "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS of bars alone", "take METHODE='NEWTON'");
+      throw Error("unsupported",
+                  "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS of bars alone",
+                  "take METHODE='NEWTON'");
     extrapolation_ = duration;
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      out[static_cast<std::size_t>(element)] = members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress;
+      out[static_cast<std::size_t>(element)] =
+          members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress;
   }
 
   int variable_count() const override {
@@ -179,18 +190,22 @@ class InelasticBar final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element) {
       const Member& own = members_[static_cast<std::size_t>(element)];
       const BarState reached = respond(element, u, state).state;
-      out[static_cast<std::size_t>(element)] = own.length * own.area * reached.stress * reached.stress / (2.0 * young_of(reached.moduli));
+      out[static_cast<std::size_t>(element)] =
+          own.length * own.area * reached.stress * reached.stress / (2.0 * young_of(reached.moduli));
     }
   }
-  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
+  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>,
+                        std::span<double> out) const override {
     std::ranges::fill(out, absent);
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
-    for (int element = 0; element < map_.element_count(); ++element) past_[static_cast<std::size_t>(element)] = respond(element, u, state).state;
+    for (int element = 0; element < map_.element_count(); ++element)
+      past_[static_cast<std::size_t>(element)] = respond(element, u, state).state;
   }
 
-  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+              std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const auto index = static_cast<std::size_t>(element);
       const BarMaterial now = material(element, state);
@@ -225,11 +240,11 @@ class InelasticBar final : public ElementBlock {
     bool constant;
   };
 
-  bool is_mixed() const { return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction; }
-  bool is_asymmetric() const { return behaviour_.relation == Relation::asymmetric_linear; }
-  std::size_t place_of_flow(double stress) const {
-    return is_asymmetric() && stress < 0.0 ? 3 : 1;
+  bool is_mixed() const {
+    return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction;
   }
+  bool is_asymmetric() const { return behaviour_.relation == Relation::asymmetric_linear; }
+  std::size_t place_of_flow(double stress) const { return is_asymmetric() && stress < 0.0 ? 3 : 1; }
   bool moves_centre() const { return behaviour_.relation == Relation::kinematic_linear || is_mixed(); }
   std::size_t place_of_back_stress() const { return is_mixed() ? 2 : 0; }
   /// Kinematic hardening alone shows X of |stress - X| <= SY (R5.03.09), both together that of the tensor.
@@ -238,17 +253,22 @@ class InelasticBar final : public ElementBlock {
   Member member(const BlockInput& input, int cell) const {
     const auto found = input.properties.sections.find(cell);
     if (found == input.properties.sections.end()) {
-      throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", mesh_.cell_name(cell)));
+      throw Error("missing-properties",
+                  fmt::format("the bar or beam on cell {} has no cross-section", mesh_.cell_name(cell)));
     }
     if (!(found->second.area > 0.0)) {
-      throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area", mesh_.cell_name(cell)));
+      throw Error("invalid-properties",
+                  fmt::format("the cross-section of cell {} needs a positive area", mesh_.cell_name(cell)));
     }
     const auto nodes = mesh_.cell(cell);
     Direction way;
-    for (int c = 0; c < Dim; ++c) way[c] = mesh_.nodes[static_cast<std::size_t>(nodes[1])][static_cast<std::size_t>(c)] - mesh_.nodes[static_cast<std::size_t>(nodes[0])][static_cast<std::size_t>(c)];
+    for (int c = 0; c < Dim; ++c)
+      way[c] = mesh_.nodes[static_cast<std::size_t>(nodes[1])][static_cast<std::size_t>(c)] -
+               mesh_.nodes[static_cast<std::size_t>(nodes[0])][static_cast<std::size_t>(c)];
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
     const Plasticity& plasticity = input.materials.by_cell[static_cast<std::size_t>(cell)]->plasticity;
-    return {way.normalized(), way.norm(), found->second.area, &elasticity, &plasticity, solver::is_constant(elasticity, plasticity, behaviour_.relation)};
+    return {way.normalized(), way.norm(),  found->second.area,
+            &elasticity,      &plasticity, solver::is_constant(elasticity, plasticity, behaviour_.relation)};
   }
 
   /// Command variables count by their mean over the two nodes. An error says in which cell.
@@ -260,14 +280,17 @@ class InelasticBar final : public ElementBlock {
       const auto nodes = map_.nodes(element);
       MaterialPoint at;
       state.sample(cells_[index], nodes, middle, VariableState::all_points, at);
-      const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])], &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
-      const Eigen::Vector3d centre = 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
+      const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])],
+                  &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
+      const Eigen::Vector3d centre =
+          0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
       at.place({centre[0], centre[1], centre[2]});
       const double imposed = imposed_ ? imposed_->slender(cells_[index], centre)[0] : 0.0;
       return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
               imposed + (state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at))};
     } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])), error.hint());
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])),
+                  error.hint());
     }
   }
 
@@ -276,7 +299,8 @@ class InelasticBar final : public ElementBlock {
     map_.dofs(element, dofs.data());
     const Member& own = members_[static_cast<std::size_t>(element)];
     double elongation = 0.0;
-    for (int c = 0; c < Dim; ++c) elongation += own.along[c] * (u[dofs[static_cast<std::size_t>(Dim + c)]] - u[dofs[static_cast<std::size_t>(c)]]);
+    for (int c = 0; c < Dim; ++c)
+      elongation += own.along[c] * (u[dofs[static_cast<std::size_t>(Dim + c)]] - u[dofs[static_cast<std::size_t>(c)]]);
     return elongation / own.length;
   }
 
@@ -322,10 +346,13 @@ class InelasticBar final : public ElementBlock {
 std::unique_ptr<ElementBlock> make_inelastic_bar_block(const BlockInput& input, std::vector<int> cells) {
   const CellBehaviour behaviour = input.behaviour_of(cells.front());
   if (behaviour.relation == Relation::hyperelastic || behaviour.kinematics != Kinematics::small) {
-    throw Error("unsupported", fmt::format("cell {}: bars flow in small strains, by von Mises' criterion", input.model.mesh->cell_name(cells.front())),
+    throw Error("unsupported",
+                fmt::format("cell {}: bars flow in small strains, by von Mises' criterion",
+                            input.model.mesh->cell_name(cells.front())),
                 "give these cells DEFORMATION='PETIT' and RELATION='ELAS' or 'VMIS_...'");
   }
-  if (input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::bar_2d) return std::make_unique<InelasticBar<2>>(input, std::move(cells));
+  if (input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::bar_2d)
+    return std::make_unique<InelasticBar<2>>(input, std::move(cells));
   return std::make_unique<InelasticBar<3>>(input, std::move(cells));
 }
 

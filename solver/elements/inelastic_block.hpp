@@ -9,27 +9,28 @@
 
 namespace comma::solver {
 
-/// Keeps what each integration point was when the step began; all that it computes is of a trial from there, until accept() makes one the next
-/// step's beginning. Large strains are on the initial geometry: internal forces F S grad N over the initial volume.
+/// Keeps what each integration point was when the step began; all that it computes is of a trial from there, until
+/// accept() makes one the next step's beginning. Large strains are on the initial geometry: internal forces F S grad N
+/// over the initial volume.
 template <int Dim, int Nodes, bool Axisymmetric>
 class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   using Base = ContinuumBlock<Dim, Nodes, Axisymmetric>;
 
  protected:
+  using Base::size;
+  using Base::strains;
   using typename Base::Coordinates;
   using typename Base::Displacements;
   using typename Base::Point;
   using typename Base::Stiffness;
   using typename Base::Strain;
   using typename Base::StrainRow;
-  using Base::size;
-  using Base::strains;
 
  public:
   InelasticBlock(const BlockInput& input, std::vector<int> cells)
       : Base(input, std::move(cells)),
-        law_(input.behaviour_of(this->cells_.front()),
-             this->formulation_ == Formulation::plane_stress || this->formulation_ == Formulation::plane_stress_reduced) {
+        law_(input.behaviour_of(this->cells_.front()), this->formulation_ == Formulation::plane_stress ||
+                                                           this->formulation_ == Formulation::plane_stress_reduced) {
     collect_constants(input);
     past_.resize(this->cells_.size() * this->samples_.size());
   }
@@ -38,7 +39,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   bool is_elastically_linear() const override { return !law_.is_large(); }
   bool has_memory() const override { return true; }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond);
   }
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
@@ -50,7 +52,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     add_law_forces(u, state, forces, &PointLaw::respond);
   }
 
-  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
@@ -59,11 +62,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       const Constants constants(*this, element, g, x, state);
-      return law_.stress_of_variables({gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
+      return law_.stress_of_variables(
+          {gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
     });
   }
 
-  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+                              ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
       const Vector6d stress = padded(reported.data() + (element * this->point_count() + g) * strains);
       return law_.is_large() ? second_stress_of(gradient, stress) : stress;
@@ -74,7 +79,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : this->cells_) {
       if (!imposed.acts_on(cell)) continue;
-      if (law_.is_large()) throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only", this->mesh_.cell_name(cell)));
+      if (law_.is_large())
+        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
+                                               this->mesh_.cell_name(cell)));
       check_known_to_law(imposed_, this->mesh_, cell);
     }
   }
@@ -99,10 +106,12 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const override { std::ranges::fill(out, absent); }
+  void energies(const Eigen::VectorXd&, const VariableState&, std::span<double> out) const override {
+    std::ranges::fill(out, absent);
+  }
 
-  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables,
-                        std::span<double> out) const override {
+  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+                        std::span<const double> variables, std::span<double> out) const override {
     const auto count = static_cast<std::size_t>(law_.variable_count());
     each_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       const std::size_t index = point_index(element, g);
@@ -127,7 +136,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     remember_materials(state);
   }
 
-  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+              std::span<const double> variables) override {
     const auto count = static_cast<std::size_t>(law_.variable_count());
     remember_materials(state);
     each_point(u, state, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient) {
@@ -147,7 +157,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
  protected:
   using Respond = PointResponse (PointLaw::*)(const PointInput&) const;
 
-  std::size_t point_index(int element, int g) const { return static_cast<std::size_t>(element) * this->samples_.size() + static_cast<std::size_t>(g); }
+  std::size_t point_index(int element, int g) const {
+    return static_cast<std::size_t>(element) * this->samples_.size() + static_cast<std::size_t>(g);
+  }
 
   static Vector6d padded(const double* stress) {
     Vector6d result = Vector6d::Zero();
@@ -175,8 +187,12 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   PlasticMaterial plastic_material(const BlockInput& input, int cell, const Material& material) const {
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
-    PlasticMaterial result{&elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
-    if (result.constant) result.point = located(cell, [&] { return compressible(plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint())); });
+    PlasticMaterial result{
+        &elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
+    if (result.constant)
+      result.point = located(cell, [&] {
+        return compressible(plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint()));
+      });
     return result;
   }
 
@@ -202,7 +218,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     PlasticPoint own;  ///< written when it varies alone
 
     Constants(const InelasticBlock& block, int element, int g, const Coordinates& x, const VariableState& state) {
-      const PlasticMaterial& material = block.plastic_materials_[static_cast<std::size_t>(block.plastic_material_of_element_[static_cast<std::size_t>(element)])];
+      const PlasticMaterial& material = block.plastic_materials_[static_cast<std::size_t>(
+          block.plastic_material_of_element_[static_cast<std::size_t>(element)])];
       const auto& elastic = block.materials_[block.material_of_element_[element]];
       plastic = &material.point;
       const bool strained = elastic.strained(state);
@@ -223,11 +240,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     at.head<Dim>() = x.transpose() * this->samples_[g].values;
     Vector6d strain = Vector6d::Zero();
-    strain.head<strains>() = imposed_->continuum(this->cells_[static_cast<std::size_t>(element)], g, at).template head<strains>();
+    strain.head<strains>() =
+        imposed_->continuum(this->cells_[static_cast<std::size_t>(element)], g, at).template head<strains>();
     return strain;
   }
 
-  PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const VariableState& state, Respond how) const {
+  PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient,
+                        const VariableState& state, Respond how) const {
     return located(this->cells_[static_cast<std::size_t>(element)], [&] {
       const Constants constants(*this, element, g, x, state);
       const PointInput input{gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]};
@@ -248,8 +267,10 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     }
   }
 
-  /// The gradient that the law is given where that of the displacement is H: the same, unless an element has a volume of its own.
-  virtual Eigen::Matrix3d law_gradient(const Eigen::VectorXd&, const VariableState&, int, int, const Coordinates&, const Eigen::Matrix3d& gradient) const {
+  /// The gradient that the law is given where that of the displacement is H: the same, unless an element has a volume
+  /// of its own.
+  virtual Eigen::Matrix3d law_gradient(const Eigen::VectorXd&, const VariableState&, int, int, const Coordinates&,
+                                       const Eigen::Matrix3d& gradient) const {
     return gradient;
   }
 
@@ -262,7 +283,10 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Displacements displacements = Base::relative_displacements(u, dofs);
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g)
-        visitor(element, g, x, law_gradient(u, state, element, g, x, Base::gradient_of_displacement(displacements, this->samples_[g], Base::locate(x, this->samples_[g]))));
+        visitor(element, g, x,
+                law_gradient(u, state, element, g, x,
+                             Base::gradient_of_displacement(displacements, this->samples_[g],
+                                                            Base::locate(x, this->samples_[g]))));
     }
   }
 
@@ -274,21 +298,25 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  /// The variation of the strain that a displacement of node a causes: of Green and Lagrange's at F = I + H in large strains.
+  /// The variation of the strain that a displacement of node a causes: of Green and Lagrange's at F = I + H in large
+  /// strains.
   StrainRow row(const Eigen::Matrix3d& gradient, int g, const Point& point, int a) const {
     if (!law_.is_large()) return Base::strain_row(this->samples_[g], point, a);
     return Base::green_lagrange_row(Eigen::Matrix3d::Identity() + gradient, this->samples_[g], point, a);
   }
 
   void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) { return respond(element, g, x, gradient, state, how).stress; });
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      return respond(element, g, x, gradient, state, how).stress;
+    });
   }
 
   /// `stress_at`(element, g, coordinates, H): the stress whose work on the strain is that of the forces.
   template <class StressAt>
   void add_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, StressAt&& stress_at) const {
     for_each_in_batches<Coordinates>(
-        this->map_.element_count(), may_be_concurrent(state), [&](int element, Coordinates& force) { force = forces_of(element, u, stress_at); },
+        this->map_.element_count(), may_be_concurrent(state),
+        [&](int element, Coordinates& force) { force = forces_of(element, u, stress_at); },
         [&](int element, const Coordinates& force) { Base::scatter_forces(force, this->dofs_of(element), forces); });
   }
 
@@ -306,15 +334,19 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     return force;
   }
 
-  void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values, Respond how) const {
+  void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                double* values, Respond how) const {
     for_each_in_batches<Stiffness>(
         this->map_.element_count(), may_be_concurrent(state),
-        [&](int element, Stiffness& k) { tangent(element, Base::relative_displacements(u, this->dofs_of(element)), state, how, k); },
+        [&](int element, Stiffness& k) {
+          tangent(element, Base::relative_displacements(u, this->dofs_of(element)), state, how, k);
+        },
         [&](int element, const Stiffness& k) { this->map_.add(element, k.data(), column_starts, values); });
   }
 
   bool may_be_concurrent(const VariableState& state) const {
-    return imposed_ == nullptr && this->evaluates_no_function(state) && std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
+    return imposed_ == nullptr && this->evaluates_no_function(state) &&
+           std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
   void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {
@@ -335,10 +367,12 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   /// What the law's tangent adds by the strain rows of the nodes (lower triangle).
-  static void add_material(const typename Base::Law& law, double weight, const std::array<StrainRow, Nodes>& rows, Stiffness& k) {
+  static void add_material(const typename Base::Law& law, double weight, const std::array<StrainRow, Nodes>& rows,
+                           Stiffness& k) {
     for (int b = 0; b < Nodes; ++b) {
       const StrainRow image = weight * (law * rows[b]);
-      for (int a = b; a < Nodes; ++a) k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
+      for (int a = b; a < Nodes; ++a)
+        k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
     }
   }
 
@@ -351,7 +385,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
         auto block = k.template block<Dim, Dim>(a * Dim, b * Dim);
         block.diagonal().array() += point.gradients.row(a).dot(pull);
         if constexpr (Axisymmetric)
-          block(0, 0) += point.weight * second[2] * this->samples_[g].values(a) * this->samples_[g].values(b) / (point.radius * point.radius);
+          block(0, 0) += point.weight * second[2] * this->samples_[g].values(a) * this->samples_[g].values(b) /
+                         (point.radius * point.radius);
       }
     }
   }

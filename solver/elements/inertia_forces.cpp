@@ -52,7 +52,8 @@ void add_plate(const ForceInput& input, int cell, const AccelerationField& field
   if (section == input.properties.plates.end()) {
     throw Error("missing-properties", fmt::format("plate {} has no thickness", mesh.cell_name(cell)));
   }
-  const double per_area = factor * section->second.thickness * density(elasticity_of(input, cell), material_point_of(input, cell));
+  const double per_area =
+      factor * section->second.thickness * density(elasticity_of(input, cell), material_point_of(input, cell));
   const NodeColumns places = node_places(mesh, cell);
   for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::body)) {
     const CellPoint point = locate(places, sample);
@@ -79,11 +80,14 @@ void add_slender(const ForceInput& input, int cell, const AccelerationField& fie
   for (int end = 0; end < 2; ++end) {
     at_ends[end].head<3>() = per_volume * (axes * field.at(place(*input.model.mesh, nodes[end])));
   }
-  const auto load = [&](double s) -> Vector6 { return section_at(section, s).area * ((1.0 - s) * at_ends[0] + s * at_ends[1]); };
+  const auto load = [&](double s) -> Vector6 {
+    return section_at(section, s).area * ((1.0 - s) * at_ends[0] + s * at_ends[1]);
+  };
   add_slender_load(input, cell, load, forces);
 }
 
-/// What a body around a node adds in an acceleration that varies over it: the integrals of G r and of r x G r over its mass.
+/// What a body around a node adds in an acceleration that varies over it: the integrals of G r and of r x G r over its
+/// mass.
 Vector6 force_of_gradient(const Eigen::MatrixXd& mass, const Eigen::Matrix3d& gradient) {
   Vector6 force = Vector6::Zero();
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -129,9 +133,12 @@ void add_discrete(const ForceInput& input, int cell, const AccelerationField& fi
   const auto of_node = size / static_cast<Eigen::Index>(nodes.size());
   if (contains(mask, Component::drz)) {
     for (Eigen::Index first = 0; first < size; first += of_node) {
-      const Vector6 more = factor * force_of_gradient(found->second.block(first, first, of_node, of_node), field.gradient);
-      if (of_node == 3) force.segment<3>(first) += Eigen::Vector3d(more[0], more[1], more[5]);
-      else force.segment<6>(first) += more;
+      const Vector6 more =
+          factor * force_of_gradient(found->second.block(first, first, of_node, of_node), field.gradient);
+      if (of_node == 3)
+        force.segment<3>(first) += Eigen::Vector3d(more[0], more[1], more[5]);
+      else
+        force.segment<6>(first) += more;
     }
   }
   for (Eigen::Index i = 0; i < size; ++i) forces[dofs[i]] += force[i];
@@ -154,7 +161,8 @@ AccelerationField centrifugal_field(const RotationLoad& load, const Model& model
   if (!(given.norm() > 0.0)) throw Error("zero-vector", "the axis of a rotation has no length");
   const Eigen::Vector3d axis = given.normalized();
   const Eigen::Vector3d centre(load.centre.data());
-  const bool about_y = std::hypot(axis[0], axis[2]) <= rounding_of_direction && std::hypot(centre[0], centre[2]) <= rounding_of_direction * centre.norm();
+  const bool about_y = std::hypot(axis[0], axis[2]) <= rounding_of_direction &&
+                       std::hypot(centre[0], centre[2]) <= rounding_of_direction * centre.norm();
   if (!about_y && any_axisymmetric(model, load.cells)) {
     throw Error("unsupported", "an axisymmetric model can only turn about its axis Y",
                 "give the axis (0, 1, 0) and a centre on it");

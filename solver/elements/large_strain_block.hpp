@@ -1,17 +1,20 @@
-// Continua in large displacements and rotations: Green-Lagrange strains on the initial geometry, with the template of small
-// strains beneath.
+// Continua in large displacements and rotations: Green-Lagrange strains on the initial geometry, with the template of
+// small strains beneath.
 #pragma once
 
 #include "solver/elements/continuum_block.hpp"
 
 namespace comma::solver {
 
-/// E = (H + H^T + H^T H) / 2 with H = du/dX, second Piola-Kirchhoff stresses S = D (E - strains of the command variables), internal
-/// forces F S grad N on the initial volume (total Lagrangian; R5.03.22, GREEN_LAGRANGE of U4.51.11). stresses() are Cauchy's, F S F^T / det F.
-/// Made for large rotations; Hooke's law between S and E is a law of small strains.
+/// E = (H + H^T + H^T H) / 2 with H = du/dX, second Piola-Kirchhoff stresses S = D (E - strains of the command
+/// variables), internal forces F S grad N on the initial volume (total Lagrangian; R5.03.22, GREEN_LAGRANGE of
+/// U4.51.11). stresses() are Cauchy's, F S F^T / det F. Made for large rotations; Hooke's law between S and E is a law
+/// of small strains.
 template <int Dim, int Nodes, bool Axisymmetric>
 class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   using Base = ContinuumBlock<Dim, Nodes, Axisymmetric>;
+  using Base::size;
+  using Base::strains;
   using typename Base::Behaviour;
   using typename Base::Coordinates;
   using typename Base::Displacements;
@@ -21,8 +24,6 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   using typename Base::Stiffness;
   using typename Base::Strain;
   using typename Base::StrainRow;
-  using Base::size;
-  using Base::strains;
 
  public:
   using Base::Base;
@@ -30,7 +31,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   bool is_linear() const override { return false; }
   bool is_constant() const override { return false; }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     Stiffness k;
     std::array<int, size> dofs;
     for (int element = 0; element < this->map_.element_count(); ++element) {
@@ -59,7 +61,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : this->cells_)
       if (imposed.acts_on(cell))
-        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only", this->mesh_.cell_name(cell)));
+        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
+                                               this->mesh_.cell_name(cell)));
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -71,7 +74,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g) {
         const Deformed at(*this, element, g, x, displacements, state);
-        const Eigen::Matrix3d cauchy = at.gradient * tensor(at.stress) * at.gradient.transpose() / at.gradient.determinant();
+        const Eigen::Matrix3d cauchy =
+            at.gradient * tensor(at.stress) * at.gradient.transpose() / at.gradient.determinant();
         Eigen::Map<Strain> written(target);
         written = components(cauchy);
         target += strains;
@@ -121,7 +125,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     Strain elastic;  ///< Green-Lagrange's less that of the command variables; shears doubled
     Strain stress;   ///< second Piola-Kirchhoff
 
-    Deformed(const LargeStrainBlock& block, int element, int g, const Coordinates& x, const Displacements& u, const VariableState& state)
+    Deformed(const LargeStrainBlock& block, int element, int g, const Coordinates& x, const Displacements& u,
+             const VariableState& state)
         : sample(block.samples_[g]), point(Base::locate(x, sample)), behaviour(block, element, g, x, state) {
       // From H rather than from F: small strains must not drown in the rounding of 1.
       const Eigen::Matrix3d h = Base::gradient_of_displacement(u, sample, point);
@@ -154,7 +159,8 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
           block.noalias() += rows[a].transpose() * image;
           block.diagonal().array() += at.point.gradients.row(a).dot(pull);
           if constexpr (Axisymmetric)
-            block(0, 0) += weight * at.stress(2) * at.sample.values(a) * at.sample.values(b) / (at.point.radius * at.point.radius);
+            block(0, 0) +=
+                weight * at.stress(2) * at.sample.values(a) * at.sample.values(b) / (at.point.radius * at.point.radius);
         }
       }
     }

@@ -7,7 +7,8 @@ namespace comma::solver {
 namespace {
 
 bool keeps_volume_everywhere(Formulation formulation) {
-  return formulation == Formulation::solid || formulation == Formulation::plane_strain || formulation == Formulation::axisymmetric;
+  return formulation == Formulation::solid || formulation == Formulation::plane_strain ||
+         formulation == Formulation::axisymmetric;
 }
 
 /// Zero where it is not known, or not isotropic.

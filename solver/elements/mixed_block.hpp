@@ -1,4 +1,5 @@
-// Continua that hardly change their volume: the pressure, or the pressure and the swelling, are unknowns at the corners.
+// Continua that hardly change their volume: the pressure, or the pressure and the swelling, are unknowns at the
+// corners.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +13,21 @@
 namespace comma::solver {
 
 inline constexpr std::array<std::string_view, 5> plane_mixed_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIP"};
-inline constexpr std::array<std::string_view, 7> solid_mixed_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP"};
+inline constexpr std::array<std::string_view, 7> solid_mixed_names = {"SIXX", "SIYY", "SIZZ", "SIXY",
+                                                                      "SIXZ", "SIYZ", "SIP"};
 
-/// Displacements are quadratic, the pressure p and the swelling linear (R3.06.08, Taylor and Hood's interpolation). The law is given a strain
-/// with the swelling as its trace; the stress that works is the law's deviator and p. With two fields the three balances are those of
-/// mixed_response(); with p alone the swelling at a point is p / K and the strain of the command variables.
+/// Displacements are quadratic, the pressure p and the swelling linear (R3.06.08, Taylor and Hood's interpolation). The
+/// law is given a strain with the swelling as its trace; the stress that works is the law's deviator and p. With two
+/// fields the three balances are those of mixed_response(); with p alone the swelling at a point is p / K and the
+/// strain of the command variables.
 ///
-/// stresses() are the law's, Cauchy's, on the volume as the displacements have it, and SIP, by which p exceeds their mean in the
-/// balance of the swelling; Code_Aster leaves it at 0 with the multiplicative split.
+/// stresses() are the law's, Cauchy's, on the volume as the displacements have it, and SIP, by which p exceeds their
+/// mean in the balance of the swelling; Code_Aster leaves it at 0 with the multiplicative split.
 template <int Dim, int Nodes, bool Axisymmetric>
 class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   using Base = InelasticBlock<Dim, Nodes, Axisymmetric>;
+  using Base::size;
+  using Base::strains;
   using typename Base::Constants;
   using typename Base::Coordinates;
   using typename Base::Displacements;
@@ -31,8 +36,6 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   using typename Base::Stiffness;
   using typename Base::Strain;
   using typename Base::StrainRow;
-  using Base::size;
-  using Base::strains;
 
   static constexpr int most_corners = 8;
   static constexpr int most_unknowns = 2 * most_corners;
@@ -60,7 +63,8 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     check_behaviour();
     const CellType type = this->mesh_.cell_types[this->cells_.front()];
     const CellType linear = linear_cell(input.model, this->cells_.front());
-    for (const auto& point : quadrature(type, stiffness_family(type, this->formulation_))) at_corners_.push_back(shape_functions(linear, point.at));
+    for (const auto& point : quadrature(type, stiffness_family(type, this->formulation_)))
+      at_corners_.push_back(shape_functions(linear, point.at));
   }
 
   bool has_memory() const override { return solver::has_memory(behaviour_); }
@@ -69,10 +73,12 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     return plane_mixed_names;
   }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond);
   }
-  void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
   }
 
@@ -80,7 +86,8 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     add_law_forces(u, state, forces, &PointLaw::respond);
   }
 
-  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
@@ -103,51 +110,63 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     }
   }
 
-  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, ForceSum forces) const override {
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+                              ForceSum forces) const override {
     if (!has_memory()) return add_internal_forces(u, state, forces);
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      const double* shown = reported.data() + static_cast<std::ptrdiff_t>(this->point_index(element, g)) * stress_count;
-      Vector6d stress = Base::padded(shown);
-      const double mean = stress.head<3>().mean(), volume = volume_ratio(gradient);
-      stress.head<3>().array() += (measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure) - mean;
-      MixedResponse response;
-      response.stress = is_large() ? second_stress_of(gradient, stress) : stress;
-      response.swelling = two_fields() ? law_pressure(mean, volume, fields) - fields.pressure : 0.0;
-      response.pressure = volume_of(gradient, measure_) - fields.swelling;
-      return response;
-    });
+    add_forces(u, state, forces,
+               [&](int element, int g, const Coordinates&, const Eigen::Matrix3d& gradient, const Fields& fields) {
+                 const double* shown =
+                     reported.data() + static_cast<std::ptrdiff_t>(this->point_index(element, g)) * stress_count;
+                 Vector6d stress = Base::padded(shown);
+                 const double mean = stress.head<3>().mean(), volume = volume_ratio(gradient);
+                 stress.head<3>().array() +=
+                     (measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure) - mean;
+                 MixedResponse response;
+                 response.stress = is_large() ? second_stress_of(gradient, stress) : stress;
+                 response.swelling = two_fields() ? law_pressure(mean, volume, fields) - fields.pressure : 0.0;
+                 response.pressure = volume_of(gradient, measure_) - fields.swelling;
+                 return response;
+               });
   }
 
   /// The pressure as an unknown has no part in them.
-  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override { Base::add_initial_stress_forces(law_stresses(stresses), forces); }
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
+    Base::add_initial_stress_forces(law_stresses(stresses), forces);
+  }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     double* target = out.data();
-    each_mixed_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      const PointResponse law = this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, &PointLaw::respond);
-      const double volume = volume_ratio(gradient);
-      const Vector6d stress = law.reported * (ratio_of(fields.swelling) / volume);
-      Eigen::Map<Strain> written(target);
-      written = stress.template head<strains>();
-      target[strains] = measure_ == VolumeMeasure::ratio ? 0.0 : fields.pressure - law_pressure(stress.template head<3>().mean(), volume, fields);
-      target += stress_count;
-    });
+    each_mixed_point(
+        u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
+          const PointResponse law =
+              this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, &PointLaw::respond);
+          const double volume = volume_ratio(gradient);
+          const Vector6d stress = law.reported * (ratio_of(fields.swelling) / volume);
+          Eigen::Map<Strain> written(target);
+          written = stress.template head<strains>();
+          target[strains] = measure_ == VolumeMeasure::ratio
+                                ? 0.0
+                                : fields.pressure - law_pressure(stress.template head<3>().mean(), volume, fields);
+          target += stress_count;
+        });
   }
 
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     if (has_memory()) return Base::energies(u, state, out);
     std::ranges::fill(out, 0.0);
-    each_mixed_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      const Constants constants(*this, element, g, x, state);
-      PointPast at;
-      at.gradient = with_volume(gradient, fields.swelling, measure_);
-      at.stress = this->respond(element, g, x, at.gradient, state, &PointLaw::respond).own;
-      out[static_cast<std::size_t>(element)] += Base::locate(x, this->samples_[g]).weight * this->law_.elastic_energy(at, *constants.plastic);
-    });
+    each_mixed_point(
+        u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
+          const Constants constants(*this, element, g, x, state);
+          PointPast at;
+          at.gradient = with_volume(gradient, fields.swelling, measure_);
+          at.stress = this->respond(element, g, x, at.gradient, state, &PointLaw::respond).own;
+          out[static_cast<std::size_t>(element)] +=
+              Base::locate(x, this->samples_[g]).weight * this->law_.elastic_energy(at, *constants.plastic);
+        });
   }
 
-  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables,
-                        std::span<double> out) const override {
+  void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+                        std::span<const double> variables, std::span<double> out) const override {
     Base::energy_densities(u, state, law_stresses(reported), variables, out);
   }
 
@@ -155,13 +174,14 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     if (has_memory()) Base::accept(u, state);
   }
 
-  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported, std::span<const double> variables) override {
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+              std::span<const double> variables) override {
     Base::resume(u, state, law_stresses(reported), variables);
   }
 
  protected:
-  Eigen::Matrix3d law_gradient(const Eigen::VectorXd& u, const VariableState& state, int element, int g, const Coordinates& x,
-                               const Eigen::Matrix3d& gradient) const override {
+  Eigen::Matrix3d law_gradient(const Eigen::VectorXd& u, const VariableState& state, int element, int g,
+                               const Coordinates& x, const Eigen::Matrix3d& gradient) const override {
     return with_volume(gradient, fields_at(values_of(u, element), element, g, x, state).swelling, measure_);
   }
 
@@ -175,19 +195,26 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
 
   bool is_large() const { return this->law_.is_large(); }
   bool two_fields() const { return unknowns_.fields() == 2; }
-  double volume_ratio(const Eigen::Matrix3d& gradient) const { return is_large() ? 1.0 + volume_of(gradient, VolumeMeasure::ratio) : 1.0; }
+  double volume_ratio(const Eigen::Matrix3d& gradient) const {
+    return is_large() ? 1.0 + volume_of(gradient, VolumeMeasure::ratio) : 1.0;
+  }
   double ratio_of(double swelling) const {
     if (!is_large()) return 1.0;
     return measure_ == VolumeMeasure::ratio ? 1.0 + swelling : std::exp(swelling);
   }
   /// The mean of Cauchy's stresses as the balance of the swelling has it.
-  double law_pressure(double mean, double volume, const Fields& fields) const { return mean * volume * logarithm_slope(fields.swelling, measure_); }
+  double law_pressure(double mean, double volume, const Fields& fields) const {
+    return mean * volume * logarithm_slope(fields.swelling, measure_);
+  }
 
   void check_behaviour() const {
     const Kinematics kinematics = behaviour_.kinematics;
-    if (kinematics == Kinematics::small || kinematics == Kinematics::logarithmic || (kinematics == Kinematics::multiplicative && two_fields())) return;
+    if (kinematics == Kinematics::small || kinematics == Kinematics::logarithmic ||
+        (kinematics == Kinematics::multiplicative && two_fields()))
+      return;
     throw Error("unsupported",
-                fmt::format("cell {}: an element with the pressure as an unknown has small or logarithmic strains, with the swelling besides also the multiplicative split",
+                fmt::format("cell {}: an element with the pressure as an unknown has small or logarithmic strains, "
+                            "with the swelling besides also the multiplicative split",
                             this->mesh_.cell_name(this->cells_.front())),
                 "take DEFORMATION='PETIT' or 'GDEF_LOG', or 'SIMO_MIEHE' with an INCO_UPG modelisation");
   }
@@ -212,9 +239,10 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     return fields;
   }
 
-  MixedResponse response_at(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields, const VariableState& state,
-                       Respond how) const {
-    const PointResponse law = this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, how);
+  MixedResponse response_at(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient,
+                            const Fields& fields, const VariableState& state, Respond how) const {
+    const PointResponse law =
+        this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, how);
     MixedResponse response = mixed_response(gradient, fields.swelling, fields.pressure, law, measure_);
     if (!two_fields()) eliminate_swelling(fields.bulk, response);
     return response;
@@ -237,25 +265,31 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       const Coordinates x = this->coordinates(element);
       const Unknowns values = values_of(u, element);
       for (int g = 0; g < this->point_count(); ++g)
-        visitor(element, g, x, this->gradient_of_displacement(displacements, this->samples_[g], Base::locate(x, this->samples_[g])), fields_at(values, element, g, x, state));
+        visitor(element, g, x,
+                this->gradient_of_displacement(displacements, this->samples_[g], Base::locate(x, this->samples_[g])),
+                fields_at(values, element, g, x, state));
     }
   }
 
   /// `response_at`(element, g, coordinates, H, fields): what works on strain, swelling and pressure.
   template <class ResponseAt>
-  void add_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum sums, const ResponseAt& response_at) const {
+  void add_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum sums,
+                  const ResponseAt& response_at) const {
     for_each_in_batches<Forces>(
-        this->map_.element_count(), this->may_be_concurrent(state), [&](int element, Forces& forces) { forces_of(element, u, state, response_at, forces); },
+        this->map_.element_count(), this->may_be_concurrent(state),
+        [&](int element, Forces& forces) { forces_of(element, u, state, response_at, forces); },
         [&](int element, const Forces& forces) {
           Base::scatter_forces(forces.displacements, this->dofs_of(element), sums);
           std::array<int, most_unknowns> dofs;
           unknowns_.dofs(this->map_.nodes(element), dofs.data());
-          for (int k = 0; k < unknowns_.count(); ++k) sums[static_cast<std::size_t>(dofs[static_cast<std::size_t>(k)])] += forces.own[k];
+          for (int k = 0; k < unknowns_.count(); ++k)
+            sums[static_cast<std::size_t>(dofs[static_cast<std::size_t>(k)])] += forces.own[k];
         });
   }
 
   template <class ResponseAt>
-  void forces_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at, Forces& forces) const {
+  void forces_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at,
+                 Forces& forces) const {
     const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
     const Coordinates x = this->coordinates(element);
     const Unknowns values = values_of(u, element);
@@ -266,28 +300,34 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
       const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, this->samples_[g], point);
       const MixedResponse response = response_at(element, g, x, gradient, fields_at(values, element, g, x, state));
       const Strain stress = point.weight * response.stress.template head<strains>();
-      for (int a = 0; a < Nodes; ++a) forces.displacements.row(a) += (this->row(gradient, g, point, a).transpose() * stress).transpose();
+      for (int a = 0; a < Nodes; ++a)
+        forces.displacements.row(a) += (this->row(gradient, g, point, a).transpose() * stress).transpose();
       forces.own.head(corners_) += point.weight * response.pressure * at_corners_[g];
       if (two_fields()) forces.own.segment(corners_, corners_) += point.weight * response.swelling * at_corners_[g];
     }
   }
 
   void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
-    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-      return response_at(element, g, x, gradient, fields, state, how);
-    });
+    add_forces(u, state, forces,
+               [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
+                 return response_at(element, g, x, gradient, fields, state, how);
+               });
   }
 
-  void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values, Respond how) const {
+  void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                double* values, Respond how) const {
     for_each_in_batches<Tangent>(
-        this->map_.element_count(), this->may_be_concurrent(state), [&](int element, Tangent& tangent) { tangent_of(element, u, state, how, tangent); },
+        this->map_.element_count(), this->may_be_concurrent(state),
+        [&](int element, Tangent& tangent) { tangent_of(element, u, state, how, tangent); },
         [&](int element, const Tangent& tangent) {
           this->map_.add(element, tangent.displacements.data(), column_starts, values);
-          unknowns_.add(this->map_.nodes(element), this->dofs_of(element), tangent.coupling.data(), tangent.own.data(), most_unknowns, column_starts, values);
+          unknowns_.add(this->map_.nodes(element), this->dofs_of(element), tangent.coupling.data(), tangent.own.data(),
+                        most_unknowns, column_starts, values);
         });
   }
 
-  void tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how, Tangent& tangent) const {
+  void tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how,
+                  Tangent& tangent) const {
     const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
     const Coordinates x = this->coordinates(element);
     const Unknowns values = values_of(u, element);
@@ -303,18 +343,20 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     make_translation_exact<Nodes, Dim>(tangent.displacements, Base::invariant_directions());
   }
 
-  void add_point(int element, int g, const Coordinates& x, const Point& point, const Eigen::Matrix3d& gradient, const Fields& fields,
-                 const VariableState& state, Respond how, Tangent& tangent) const {
+  void add_point(int element, int g, const Coordinates& x, const Point& point, const Eigen::Matrix3d& gradient,
+                 const Fields& fields, const VariableState& state, Respond how, Tangent& tangent) const {
     const MixedResponse response = response_at(element, g, x, gradient, fields, state, how);
     std::array<StrainRow, Nodes> rows;
     for (int a = 0; a < Nodes; ++a) rows[a] = this->row(gradient, g, point, a);
-    this->add_material(response.tangent.template topLeftCorner<strains, strains>(), point.weight, rows, tangent.displacements);
+    this->add_material(response.tangent.template topLeftCorner<strains, strains>(), point.weight, rows,
+                       tangent.displacements);
     if (is_large()) this->add_geometric(g, point, response.stress, tangent.displacements);
     const std::array<int, 2> of_law = {pressure_row, swelling_row};
     for (int i = 0; i < unknowns_.fields(); ++i) {
       const Strain pull = point.weight * response.tangent.col(of_law[i]).template head<strains>();
       for (int a = 0; a < Nodes; ++a)
-        tangent.coupling.template middleRows<Dim>(a * Dim).middleCols(i * corners_, corners_) += rows[a].transpose() * pull * at_corners_[g].transpose();
+        tangent.coupling.template middleRows<Dim>(a * Dim).middleCols(i * corners_, corners_) +=
+            rows[a].transpose() * pull * at_corners_[g].transpose();
       for (int j = 0; j < unknowns_.fields(); ++j)
         tangent.own.block(i * corners_, j * corners_, corners_, corners_) +=
             point.weight * response.tangent(of_law[i], of_law[j]) * at_corners_[g] * at_corners_[g].transpose();

@@ -7,7 +7,8 @@ namespace {
 
 template <int Nodes>
 std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cells) {
-  if (is_axisymmetric(input.model.formulations[cells.front()])) return std::make_unique<MixedBlock<2, Nodes, true>>(input, std::move(cells));
+  if (is_axisymmetric(input.model.formulations[cells.front()]))
+    return std::make_unique<MixedBlock<2, Nodes, true>>(input, std::move(cells));
   return std::make_unique<MixedBlock<2, Nodes, false>>(input, std::move(cells));
 }
 
@@ -15,9 +16,12 @@ std::unique_ptr<ElementBlock> make(const BlockInput& input, std::vector<int> cel
 
 std::unique_ptr<ElementBlock> make_mixed_plane_block(const BlockInput& input, std::vector<int> cells) {
   switch (input.model.mesh->cell_types[cells.front()]) {
-    case CellType::tria6: return make<6>(input, std::move(cells));
-    case CellType::quad8: return make<8>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
+    case CellType::tria6:
+      return make<6>(input, std::move(cells));
+    case CellType::quad8:
+      return make<8>(input, std::move(cells));
+    default:
+      throw_unsupported_element(input.model, cells.front());
   }
 }
 

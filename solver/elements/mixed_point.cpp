@@ -19,7 +19,8 @@ const Vector6d& trace() {
 
 /// det(I + H) - 1 by the invariants of H.
 double volume_change(const Matrix3d& h) {
-  const double second = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0) + h(0, 0) * h(2, 2) - h(0, 2) * h(2, 0) + h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);
+  const double second = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0) + h(0, 0) * h(2, 2) - h(0, 2) * h(2, 0) +
+                        h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);
   return h.trace() + second + h.determinant();
 }
 
@@ -54,7 +55,9 @@ Curve measure_of(double logarithm, VolumeMeasure measure) {
 /// ln J of a swelling.
 Curve logarithm_of(double swelling, VolumeMeasure measure) {
   if (measure == VolumeMeasure::logarithm) return {swelling, 1.0, 0.0};
-  if (!(swelling > -1.0)) throw Error("integration-failure", "a point has swollen to less than nothing: GONF is not above -1", "take smaller steps");
+  if (!(swelling > -1.0))
+    throw Error("integration-failure", "a point has swollen to less than nothing: GONF is not above -1",
+                "take smaller steps");
   const double slope = 1.0 / (1.0 + swelling);
   return {std::log1p(swelling), slope, -slope * slope};
 }
@@ -65,7 +68,8 @@ double logarithm_of_volume(const Matrix3d& gradient) {
 }
 
 /// With t = ln J of the swelling and a = (e^t / J)^(2/3): C~ = a C, so that dC~ / 2 = a dE + (dt - C^-1 : dE) / 3 C~.
-MixedResponse large_response(const Matrix3d& gradient, double swelling, double pressure, const PointResponse& law, VolumeMeasure measure) {
+MixedResponse large_response(const Matrix3d& gradient, double swelling, double pressure, const PointResponse& law,
+                             VolumeMeasure measure) {
   const Matrix3d f = deformation_gradient(gradient);
   const Matrix3d c = f.transpose() * f;
   const Matrix3d inverse = c.inverse();
@@ -121,7 +125,8 @@ double logarithm_slope(double swelling, VolumeMeasure measure) {
   return measure == VolumeMeasure::trace ? 1.0 : logarithm_of(swelling, measure).slope;
 }
 
-MixedResponse mixed_response(const Matrix3d& gradient, double swelling, double pressure, const PointResponse& law, VolumeMeasure measure) {
+MixedResponse mixed_response(const Matrix3d& gradient, double swelling, double pressure, const PointResponse& law,
+                             VolumeMeasure measure) {
   MixedResponse result = measure == VolumeMeasure::trace ? small_response(gradient, swelling, pressure, law)
                                                          : large_response(gradient, swelling, pressure, law, measure);
   result.tangent(swelling_row, pressure_row) = -1.0;

@@ -1,5 +1,6 @@
-// Flat plates on three or four nodes, thin (DKT, DKQ) or with shear (DST, DSQ): see plate_kinematics.hpp. Offsets as R3.07.06: the
-// nodes lie on the surface of the mesh, the strains of the mid-surface are those of the nodes plus offset times curvature.
+// Flat plates on three or four nodes, thin (DKT, DKQ) or with shear (DST, DSQ): see plate_kinematics.hpp. Offsets as
+// R3.07.06: the nodes lie on the surface of the mesh, the strains of the mid-surface are those of the nodes plus offset
+// times curvature.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -34,7 +35,8 @@ const PlateSection& section_of(const BlockInput& input, int cell) {
     throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", name));
   }
   if (!(found->second.thickness > 0.0) || !(found->second.shear_factor > 0.0)) {
-    throw Error("invalid-properties", fmt::format("the plate on cell {} needs a positive thickness and shear factor", name));
+    throw Error("invalid-properties",
+                fmt::format("the plate on cell {} needs a positive thickness and shear factor", name));
   }
   return found->second;
 }
@@ -120,8 +122,10 @@ class PlateBlock final : public ElementBlock {
         const bool balances = i >= size - 6 && i < size - 3;
         long double force = 0.0L;
         for (int j = 0; !balances && j < size; ++j) force += k(i, j) * moved[j];
-        if (balances) force = -balance[i - (size - 6)];
-        else if (i % 6 < 3) balance[i % 6] += force;
+        if (balances)
+          force = -balance[i - (size - 6)];
+        else if (i % 6 < 3)
+          balance[i % 6] += force;
         forces[dofs[i]] += force;
       }
     }
@@ -132,13 +136,18 @@ class PlateBlock final : public ElementBlock {
   std::span<const std::string_view> stress_names() const override { return {}; }
   void stresses(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {}
 
-  int force_point_count(PlatePlaces places) const override { return places == PlatePlaces::corners ? Nodes : static_cast<int>(points_.size()); }
+  int force_point_count(PlatePlaces places) const override {
+    return places == PlatePlaces::corners ? Nodes : static_cast<int>(points_.size());
+  }
 
   /// Forces and moments per length about the surface of the mesh, in the plate's own axes.
-  void forces(PlatePlaces places, const Eigen::VectorXd& u, const ImposedStrains* imposed, const VariableState& state, std::span<double> out) const override {
+  void forces(PlatePlaces places, const Eigen::VectorXd& u, const ImposedStrains* imposed, const VariableState& state,
+              std::span<double> out) const override {
     std::vector<ReferencePoint> at;
-    if (places == PlatePlaces::corners) at.assign(reference_nodes(type).begin(), reference_nodes(type).end());
-    else std::ranges::transform(points_, std::back_inserter(at), &QuadraturePoint::at);
+    if (places == PlatePlaces::corners)
+      at.assign(reference_nodes(type).begin(), reference_nodes(type).end());
+    else
+      std::ranges::transform(points_, std::back_inserter(at), &QuadraturePoint::at);
     forces_at(at, u, state, out);
     if (imposed != nullptr) subtract_imposed(at, *imposed, state, out);
   }
@@ -146,7 +155,10 @@ class PlateBlock final : public ElementBlock {
   void impose(const ImposedStrains* strains) override { imposed_ = strains; }
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (const int cell : cells_)
-      if (imposed_ != nullptr && imposed_->acts_on(cell)) throw Error("unsupported", fmt::format("cell {}: the energy of plates is not known beside initial strains (PRE_EPSI)", mesh_.cell_name(cell)));
+      if (imposed_ != nullptr && imposed_->acts_on(cell))
+        throw Error("unsupported",
+                    fmt::format("cell {}: the energy of plates is not known beside initial strains (PRE_EPSI)",
+                                mesh_.cell_name(cell)));
     std::array<int, size> dofs;
     Matrix own;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -170,7 +182,8 @@ class PlateBlock final : public ElementBlock {
   bool is_linear() const override { return true; }
   bool is_constant() const override { return constant_; }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
+                                 ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
@@ -181,16 +194,20 @@ class PlateBlock final : public ElementBlock {
       for (const QuadraturePoint& point : points_) {
         const PlateRows<Nodes> rows = kinematics.at(point.at);
         const Resultants resultants = imposed_resultants(imposed, element, rigidity, point.at);
-        push += point.weight * rows.measure * (rows.membrane.transpose() * resultants.normal + rows.curvature.transpose() * resultants.moment);
+        push += point.weight * rows.measure *
+                (rows.membrane.transpose() * resultants.normal + rows.curvature.transpose() * resultants.moment);
       }
-      for (int i = 0; i < size; i += 3) push.template segment<3>(i) = (plates_[element].axes.transpose() * push.template segment<3>(i)).eval();
+      for (int i = 0; i < size; i += 3)
+        push.template segment<3>(i) = (plates_[element].axes.transpose() * push.template segment<3>(i)).eval();
       for (int i = 0; i < size; ++i) forces[dofs[i]] += push[i];
     }
   }
 
  private:
-  /// Forces and moments per length at places of the reference cell, about the surface of the mesh, in the plate's own axes.
-  void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const {
+  /// Forces and moments per length at places of the reference cell, about the surface of the mesh, in the plate's own
+  /// axes.
+  void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state,
+                 std::span<double> out) const {
     std::array<int, size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -198,7 +215,8 @@ class PlateBlock final : public ElementBlock {
       const auto moved = relative(u, dofs);
       Vector own;
       for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
-      for (int i = 0; i < size; i += 3) own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
+      for (int i = 0; i < size; i += 3)
+        own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
       const PlateRigidity rigidity = this->rigidity(element, state);
       const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
       const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
@@ -206,7 +224,8 @@ class PlateBlock final : public ElementBlock {
         const PlateRows<Nodes> rows = kinematics.at(place);
         const double offset = plates_[element].section->offset;
         const Eigen::Vector3d curvature = rows.curvature * own;
-        const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
+        const Eigen::Vector3d normal =
+            plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
         const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
         const Eigen::Vector2d shear = rows.shear_force * own;
         target = std::copy(normal.begin(), normal.end(), target);
@@ -216,7 +235,8 @@ class PlateBlock final : public ElementBlock {
     }
   }
 
-  void subtract_imposed(std::span<const ReferencePoint> places, const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const {
+  void subtract_imposed(std::span<const ReferencePoint> places, const ImposedStrains& imposed,
+                        const VariableState& state, std::span<double> out) const {
     const std::size_t names = plate_force_names.size();
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
@@ -239,14 +259,16 @@ class PlateBlock final : public ElementBlock {
   };
 
   /// Those of an imposed strain at a place of the reference cell.
-  Resultants imposed_resultants(const ImposedStrains& imposed, int element, const PlateRigidity& rigidity, const ReferencePoint& place) const {
+  Resultants imposed_resultants(const ImposedStrains& imposed, int element, const PlateRigidity& rigidity,
+                                const ReferencePoint& place) const {
     const auto nodes = map_.nodes(element);
     const Eigen::VectorXd shares = shape_functions(type, place);
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     for (int i = 0; i < Nodes; ++i) at += shares[i] * Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[i]].data());
     const Eigen::Matrix<double, 6, 1> strain = imposed.plate(cells_[element], at);
     const double offset = plates_[element].section->offset;
-    const Eigen::Vector3d normal = plane_law(rigidity.membrane, rigidity.poisson) * (strain.head<3>() + offset * strain.tail<3>());
+    const Eigen::Vector3d normal =
+        plane_law(rigidity.membrane, rigidity.poisson) * (strain.head<3>() + offset * strain.tail<3>());
     return {normal, plane_law(rigidity.bending, rigidity.poisson) * strain.tail<3>() + offset * normal};
   }
 
@@ -283,7 +305,8 @@ class PlateBlock final : public ElementBlock {
     return rigidity_of(*plate.section, moduli(*plate.material, material_point(element, state)), shears_);
   }
 
-  /// What the command variables at the middle of the cell strain it by, the same in all directions and through the thickness.
+  /// What the command variables at the middle of the cell strain it by, the same in all directions and through the
+  /// thickness.
   double inelastic_strain(int element, const VariableState& state) const {
     return state.empty() ? 0.0 : inelastic_axial_strain(*plates_[element].material, material_point(element, state));
   }
@@ -312,9 +335,11 @@ class PlateBlock final : public ElementBlock {
     Vector forces = Vector::Zero();
     for (const QuadraturePoint& point : points_) {
       const PlateRows<Nodes> rows = kinematics.at(point.at);
-      forces += point.weight * rows.measure * (rows.membrane + plate.section->offset * rows.curvature).transpose() * pushing;
+      forces +=
+          point.weight * rows.measure * (rows.membrane + plate.section->offset * rows.curvature).transpose() * pushing;
     }
-    for (int i = 0; i < size; i += 3) forces.template segment<3>(i) = (plate.axes.transpose() * forces.template segment<3>(i)).eval();
+    for (int i = 0; i < size; i += 3)
+      forces.template segment<3>(i) = (plate.axes.transpose() * forces.template segment<3>(i)).eval();
     return forces;
   }
 
@@ -364,10 +389,12 @@ class PlateBlock final : public ElementBlock {
     return k;
   }
 
-  /// Of the cell itself, whatever the axes of its fields: the first side of a triangle, the line from the middle of the last side of a quadrangle to that of the second.
+  /// Of the cell itself, whatever the axes of its fields: the first side of a triangle, the line from the middle of the
+  /// last side of a quadrangle to that of the second.
   static Eigen::Vector2d first_direction(const Plate<Nodes>& plate) {
     const auto& at = plate.corners;
-    const Eigen::Vector2d along = Nodes == 3 ? Eigen::Vector2d(at.col(1) - at.col(0)) : Eigen::Vector2d(at.col(1) + at.col(2) - at.col(0) - at.col(Nodes - 1));
+    const Eigen::Vector2d along = Nodes == 3 ? Eigen::Vector2d(at.col(1) - at.col(0))
+                                             : Eigen::Vector2d(at.col(1) + at.col(2) - at.col(0) - at.col(Nodes - 1));
     return along.normalized();
   }
 
@@ -397,9 +424,12 @@ class PlateBlock final : public ElementBlock {
 
 std::unique_ptr<ElementBlock> make_plate_block(const BlockInput& input, std::vector<int> cells) {
   switch (input.model.mesh->cell_types[cells.front()]) {
-    case CellType::tria3: return std::make_unique<PlateBlock<3>>(input, std::move(cells));
-    case CellType::quad4: return std::make_unique<PlateBlock<4>>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
+    case CellType::tria3:
+      return std::make_unique<PlateBlock<3>>(input, std::move(cells));
+    case CellType::quad4:
+      return std::make_unique<PlateBlock<4>>(input, std::move(cells));
+    default:
+      throw_unsupported_element(input.model, cells.front());
   }
 }
 

@@ -14,7 +14,9 @@ namespace {
 /// The reference direction must have at least this sine with the normal, or rounding would turn the axes.
 constexpr double smallest_axis_sine = 1e-6;
 
-Eigen::Vector3d corner(const Mesh& mesh, int cell, std::size_t number) { return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[mesh.cell(cell)[number]].data()); }
+Eigen::Vector3d corner(const Mesh& mesh, int cell, std::size_t number) {
+  return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[mesh.cell(cell)[number]].data());
+}
 
 /// Of any length; of a quadrangle across its diagonals.
 Eigen::Vector3d plate_normal(const Mesh& mesh, int cell) {
@@ -31,7 +33,8 @@ Eigen::Matrix3d plate_axes(const Mesh& mesh, int cell, const PlateSection& secti
   const Eigen::Vector3d z = across.normalized();
   const Eigen::Vector3d in_plane = section.direction - section.direction.dot(z) * z;
   if (!(in_plane.norm() > smallest_axis_sine * section.direction.norm())) {
-    throw Error("zero-vector", fmt::format("the direction that gives plate {} its axes lies along its normal", mesh.cell_name(cell)),
+    throw Error("zero-vector",
+                fmt::format("the direction that gives plate {} its axes lies along its normal", mesh.cell_name(cell)),
                 "give a direction in the plane of the plate");
   }
   const Eigen::Vector3d x = in_plane.normalized();

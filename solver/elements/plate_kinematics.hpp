@@ -1,9 +1,9 @@
-// Strains of flat plates on three or four nodes: DKT, DKQ, DST and DSQ (R3.07.03; Batoz and Dhatt, Modelisation des structures par
-// elements finis, volume 2).
+// Strains of flat plates on three or four nodes: DKT, DKQ, DST and DSQ (R3.07.03; Batoz and Dhatt, Modelisation des
+// structures par elements finis, volume 2).
 //
-// Own axes: x and y in the plane, z along the normal. The normal turns by beta: u(z) = u + z beta_x, v(z) = v + z beta_y, so that
-// beta_x = theta_y and beta_y = -theta_x. beta is linear (bilinear) between the corners, and along each side k of direction t_k a
-// bubble of amplitude alpha_k turns it further:
+// Own axes: x and y in the plane, z along the normal. The normal turns by beta: u(z) = u + z beta_x, v(z) = v + z
+// beta_y, so that beta_x = theta_y and beta_y = -theta_x. beta is linear (bilinear) between the corners, and along each
+// side k of direction t_k a bubble of amplitude alpha_k turns it further:
 //
 //     beta = sum N_i beta_i + sum P_k t_k alpha_k.
 //
@@ -11,9 +11,10 @@
 //
 //     integral of (dw/ds + beta_s) = w_j - w_i + L (beta_s,i + beta_s,j) / 2 + 2/3 L alpha_k = L gamma_s,k.
 //
-// The shear force is the divergence of the moments of beta about the surface of the nodes, T = div M(beta), taken at the middle of the
-// side: gamma = T / (k G h). With an offset e the rigidity of these moments is D + e^2 A (R3.07.06). A
-// plate without shear has gamma = 0 (Kirchhoff's condition, side by side), which is all that tells the two theories apart.
+// The shear force is the divergence of the moments of beta about the surface of the nodes, T = div M(beta), taken at
+// the middle of the side: gamma = T / (k G h). With an offset e the rigidity of these moments is D + e^2 A (R3.07.06).
+// A plate without shear has gamma = 0 (Kirchhoff's condition, side by side), which is all that tells the two theories
+// apart.
 #pragma once
 
 #include <array>
@@ -38,12 +39,12 @@ template <int Nodes>
 struct PlateRows {
   using Row = Eigen::Matrix<double, 1, 6 * Nodes>;
 
-  double measure = 0.0;                              ///< area for a unit of reference area
-  Eigen::Matrix<double, 3, 6 * Nodes> membrane;      ///< e_xx, e_yy, 2 e_xy of the surface that the nodes lie on
-  Eigen::Matrix<double, 3, 6 * Nodes> curvature;     ///< beta_x,x  beta_y,y  beta_x,y + beta_y,x
-  Eigen::Matrix<double, 2, 6 * Nodes> shear_force;   ///< T, force / length
-  /// theta_z - (v,x - u,y) / 2, the second part in the middle of the cell: what varies of it in a quadrangle comes with the parasitic
-  /// shear of bilinear functions, not with a rotation of the surface.
+  double measure = 0.0;                             ///< area for a unit of reference area
+  Eigen::Matrix<double, 3, 6 * Nodes> membrane;     ///< e_xx, e_yy, 2 e_xy of the surface that the nodes lie on
+  Eigen::Matrix<double, 3, 6 * Nodes> curvature;    ///< beta_x,x  beta_y,y  beta_x,y + beta_y,x
+  Eigen::Matrix<double, 2, 6 * Nodes> shear_force;  ///< T, force / length
+  /// theta_z - (v,x - u,y) / 2, the second part in the middle of the cell: what varies of it in a quadrangle comes with
+  /// the parasitic shear of bilinear functions, not with a rotation of the surface.
   Row spin;
 };
 
@@ -118,7 +119,8 @@ class PlateKinematics {
   static std::array<double, 4> corner_values(const ReferencePoint& at) {
     if constexpr (Nodes == 3) return {1.0 - at[0] - at[1], at[0], at[1], 0.0};
     std::array<double, 4> values{};
-    for (int i = 0; i < Nodes; ++i) values[i] = 0.25 * (1.0 + at[0] * quadrangle[i][0]) * (1.0 + at[1] * quadrangle[i][1]);
+    for (int i = 0; i < Nodes; ++i)
+      values[i] = 0.25 * (1.0 + at[0] * quadrangle[i][0]) * (1.0 + at[1] * quadrangle[i][1]);
     return values;
   }
 
@@ -127,20 +129,22 @@ class PlateKinematics {
     Derivatives d;
     const double r = at[0], s = at[1];
     if constexpr (Nodes == 3) {
-      d << -1, -1, 0, 0, 0,                                         //
-          1, 0, 0, 0, 0,                                            //
-          0, 1, 0, 0, 0,                                            //
-          4 * (1 - 2 * r - s), -4 * r, -8, 0, -4,                   // 4 (1 - r - s) r
-          4 * s, 4 * r, 0, 0, 4,                                    // 4 r s
-          -4 * s, 4 * (1 - r - 2 * s), 0, -8, -4;                   // 4 (1 - r - s) s
+      d << -1, -1, 0, 0, 0,                        //
+          1, 0, 0, 0, 0,                           //
+          0, 1, 0, 0, 0,                           //
+          4 * (1 - 2 * r - s), -4 * r, -8, 0, -4,  // 4 (1 - r - s) r
+          4 * s, 4 * r, 0, 0, 4,                   // 4 r s
+          -4 * s, 4 * (1 - r - 2 * s), 0, -8, -4;  // 4 (1 - r - s) s
     } else {
       for (int i = 0; i < Nodes; ++i) {
         const double ri = quadrangle[i][0], si = quadrangle[i][1];
         d.row(i) << 0.25 * ri * (1 + s * si), 0.25 * si * (1 + r * ri), 0, 0, 0.25 * ri * si;
         const ReferencePoint at_side = middle(i);
         const double rm = at_side[0], sm = at_side[1];
-        if (rm == 0.0) d.row(4 + i) << -r * (1 + s * sm), 0.5 * (1 - r * r) * sm, -(1 + s * sm), 0, -r * sm;
-        else d.row(4 + i) << 0.5 * (1 - s * s) * rm, -s * (1 + r * rm), 0, -(1 + r * rm), -s * rm;
+        if (rm == 0.0)
+          d.row(4 + i) << -r * (1 + s * sm), 0.5 * (1 - r * r) * sm, -(1 + s * sm), 0, -r * sm;
+        else
+          d.row(4 + i) << 0.5 * (1 - s * s) * rm, -s * (1 + r * rm), 0, -(1 + r * rm), -s * rm;
       }
     }
     return d;
@@ -155,7 +159,7 @@ class PlateKinematics {
     d.template leftCols<2>() = reference.template leftCols<2>() * jacobian.inverse();
     // f_rr = x_r^2 f_xx + y_r^2 f_yy + 2 x_r y_r f_xy + x_rr f_x + y_rr f_y, and so on.
     const double xr = map(0, 0), xs = map(0, 1), yr = map(1, 0), ys = map(1, 1);
-    Eigen::Matrix3d second;  // columns rr ss rs
+    Eigen::Matrix3d second;               // columns rr ss rs
     second << xr * xr, xs * xs, xr * xs,  //
         yr * yr, ys * ys, yr * ys,        //
         2 * xr * yr, 2 * xs * ys, xr * ys + xs * yr;

@@ -102,7 +102,8 @@ Quadrature quadrangle1() { return {{{0, 0, 0}, 4.0}}; }
 
 Quadrature quadrangle4() {
   Quadrature points;
-  for (const auto& node : reference_nodes(CellType::quad4)) points.push_back({{gauss2 * node[0], gauss2 * node[1], 0}, 1.0});
+  for (const auto& node : reference_nodes(CellType::quad4))
+    points.push_back({{gauss2 * node[0], gauss2 * node[1], 0}, 1.0});
   return points;
 }
 
@@ -186,28 +187,24 @@ Quadrature pyramid5() {
   return {{{0.5, 0, low}, w}, {{0, 0.5, low}, w}, {{-0.5, 0, low}, w}, {{0, -0.5, low}, w}, {{0, 0, high}, w}};
 }
 
-/// The one symmetric rule of degree 4 with 10 points inside and positive weights (Witherden, Vincent, "On the identification
-/// of symmetric quadrature rules for finite element methods", Comput. Math. Appl. 69, 2015): two points on the axis, four
-/// towards the lateral faces, four towards the lateral edges.
+/// The one symmetric rule of degree 4 with 10 points inside and positive weights (Witherden, Vincent, "On the
+/// identification of symmetric quadrature rules for finite element methods", Comput. Math. Appl. 69, 2015): two points
+/// on the axis, four towards the lateral faces, four towards the lateral edges.
 Quadrature pyramid10() {
   const double lower = 0.1251369531087467, lower_weight = 0.13792226839303498;
   const double upper = 0.67723278888613725, upper_weight = 0.07582792211376134;
   const double face = 0.65058155639823279, face_z = 0.32238414957821382, face_weight = 0.07088305859288356;
   const double edge = 0.65796699712168982, edge_z = 0.039248283898815378, edge_weight = 0.04234606044708402;
   const double half = 0.5 * face;
-  return {{{0, 0, lower}, lower_weight},
-          {{0, 0, upper}, upper_weight},
-          {{half, half, face_z}, face_weight},
-          {{-half, half, face_z}, face_weight},
-          {{-half, -half, face_z}, face_weight},
-          {{half, -half, face_z}, face_weight},
-          {{edge, 0, edge_z}, edge_weight},
-          {{0, edge, edge_z}, edge_weight},
-          {{-edge, 0, edge_z}, edge_weight},
-          {{0, -edge, edge_z}, edge_weight}};
+  return {{{0, 0, lower}, lower_weight},         {{0, 0, upper}, upper_weight},
+          {{half, half, face_z}, face_weight},   {{-half, half, face_z}, face_weight},
+          {{-half, -half, face_z}, face_weight}, {{half, -half, face_z}, face_weight},
+          {{edge, 0, edge_z}, edge_weight},      {{0, edge, edge_z}, edge_weight},
+          {{-edge, 0, edge_z}, edge_weight},     {{0, -edge, edge_z}, edge_weight}};
 }
 
-/// Gauss points of the cube, collapsed on the apex and turned by 45 degrees; the height has the Gauss-Jacobi weight (1-z)^2.
+/// Gauss points of the cube, collapsed on the apex and turned by 45 degrees; the height has the Gauss-Jacobi weight
+/// (1-z)^2.
 Quadrature pyramid27() {
   const std::array<std::array<double, 2>, 3> heights = {{{0.07299402407314973, 0.15713636106488667},
                                                          {0.34700376603835188, 0.14624626925986602},
@@ -243,13 +240,18 @@ Quadrature hexahedron1() { return cube(1); }
 Quadrature hexahedron8() { return cube(2); }
 Quadrature hexahedron27() { return cube(3); }
 
-constexpr Rule segment_rules[] = {{"FPG1", 1, segment1}, {"FPG2", 3, segment2}, {"FPG3", 5, segment3}, {"FPG4", 7, segment4}};
-constexpr Rule triangle_rules[] = {
-    {"FPG1", 1, triangle1}, {"FPG3", 2, triangle3}, {"FPG4", 3, triangle4}, {"FPG6", 4, triangle6}, {"FPG7", 5, triangle7}};
+constexpr Rule segment_rules[] = {
+    {"FPG1", 1, segment1}, {"FPG2", 3, segment2}, {"FPG3", 5, segment3}, {"FPG4", 7, segment4}};
+constexpr Rule triangle_rules[] = {{"FPG1", 1, triangle1},
+                                   {"FPG3", 2, triangle3},
+                                   {"FPG4", 3, triangle4},
+                                   {"FPG6", 4, triangle6},
+                                   {"FPG7", 5, triangle7}};
 constexpr Rule quadrangle_rules[] = {{"FPG1", 1, quadrangle1}, {"FPG4", 3, quadrangle4}, {"FPG9", 5, quadrangle9}};
 constexpr Rule tetrahedron_rules[] = {
     {"FPG1", 1, tetrahedron1}, {"FPG4", 2, tetrahedron4}, {"FPG5", 3, tetrahedron5}, {"FPG15", 5, tetrahedron15}};
-constexpr Rule pentahedron_rules[] = {{"FPG6", 2, pentahedron6}, {"FPG8", 3, pentahedron8}, {"FPG21", 5, pentahedron21}};
+constexpr Rule pentahedron_rules[] = {
+    {"FPG6", 2, pentahedron6}, {"FPG8", 3, pentahedron8}, {"FPG21", 5, pentahedron21}};
 constexpr Rule pyramid_rules[] = {{"FPG5", 2, pyramid5}, {"FPG10", 4, pyramid10}, {"FPG27", 5, pyramid27}};
 constexpr Rule hexahedron_rules[] = {{"FPG1", 1, hexahedron1}, {"FPG8", 3, hexahedron8}, {"FPG27", 5, hexahedron27}};
 
@@ -346,14 +348,17 @@ Quadrature quadrature(CellType type, std::string_view name) {
   if (name == "NOEU") {
     const auto nodes = reference_nodes(type);
     Quadrature points;
-    for (const auto& node : nodes) points.push_back({node, reference_measure(type) / static_cast<double>(nodes.size())});
+    for (const auto& node : nodes)
+      points.push_back({node, reference_measure(type) / static_cast<double>(nodes.size())});
     return points;
   }
   if (type == CellType::poi1 && name == "FPG1") return {{{0, 0, 0}, 1.0}};
   return rule_named(type, name).make();
 }
 
-int quadrature_degree(CellType type, std::string_view name) { return name == "NOEU" ? -1 : rule_named(type, name).degree; }
+int quadrature_degree(CellType type, std::string_view name) {
+  return name == "NOEU" ? -1 : rule_named(type, name).degree;
+}
 
 std::string_view stiffness_family(CellType type, Formulation formulation) {
   if (const int fields = mixed_field_count(formulation); fields > 0) return mixed_family(type, fields);

@@ -17,12 +17,13 @@ struct QuadraturePoint {
 /// Points and weights; the weights add up to reference_measure(type).
 using Quadrature = std::vector<QuadraturePoint>;
 
-/// The family `name` ("FPG1", "FPG4" ...) on the reference cell of a type. "NOEU" has its points at the nodes, with equal
-/// weights. Throws Error `unknown-family` where the cell has no such family.
+/// The family `name` ("FPG1", "FPG4" ...) on the reference cell of a type. "NOEU" has its points at the nodes, with
+/// equal weights. Throws Error `unknown-family` where the cell has no such family.
 Quadrature quadrature(CellType type, std::string_view name);
 
-/// Polynomial degree that a family integrates exactly on straight cells: total degree on triangles, tetrahedra and pyramids,
-/// degree in each direction on segments, quadrangles and hexahedra; on pentahedra the smaller of both. -1 for "NOEU".
+/// Polynomial degree that a family integrates exactly on straight cells: total degree on triangles, tetrahedra and
+/// pyramids, degree in each direction on segments, quadrangles and hexahedra; on pentahedra the smaller of both. -1 for
+/// "NOEU".
 int quadrature_degree(CellType type, std::string_view name);
 
 /// The family of an element's stiffness and stresses.

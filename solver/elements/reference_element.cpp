@@ -1,4 +1,5 @@
-// The formulas are written once, on a scalar type S: with S = double they give values, with S = Dual values and gradients.
+// The formulas are written once, on a scalar type S: with S = double they give values, with S = Dual values and
+// gradients.
 #include "solver/elements/reference_element.hpp"
 
 namespace comma::solver {
@@ -39,22 +40,23 @@ using Point3 = std::array<S, 3>;
 constexpr ReferencePoint point_nodes[] = {{0, 0, 0}};
 constexpr ReferencePoint segment_nodes[] = {{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}};
 constexpr ReferencePoint segment4_nodes[] = {{-1, 0, 0}, {1, 0, 0}, {-1.0 / 3, 0, 0}, {1.0 / 3, 0, 0}};
-constexpr ReferencePoint triangle_nodes[] = {{0, 0, 0},    {1, 0, 0},   {0, 1, 0},          {0.5, 0, 0},
-                                             {0.5, 0.5, 0}, {0, 0.5, 0}, {1.0 / 3, 1.0 / 3, 0}};
+constexpr ReferencePoint triangle_nodes[] = {
+    {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}, {1.0 / 3, 1.0 / 3, 0}};
 constexpr ReferencePoint quadrangle_nodes[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0},  {-1, 1, 0}, {0, -1, 0},
                                                {1, 0, 0},   {0, 1, 0},  {-1, 0, 0}, {0, 0, 0}};
 constexpr ReferencePoint tetrahedron_nodes[] = {{0, 1, 0},   {0, 0, 1},   {0, 0, 0},     {1, 0, 0},     {0, 0.5, 0.5},
                                                 {0, 0, 0.5}, {0, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0.5, 0, 0}};
-constexpr ReferencePoint pyramid_nodes[] = {{1, 0, 0},        {0, 1, 0},        {-1, 0, 0},      {0, -1, 0},    {0, 0, 1},
-                                            {0.5, 0.5, 0},    {-0.5, 0.5, 0},   {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0, 0.5},
-                                            {0, 0.5, 0.5},    {-0.5, 0, 0.5},   {0, -0.5, 0.5}};
-constexpr ReferencePoint pentahedron_nodes[] = {
-    {-1, 1, 0},   {-1, 0, 1}, {-1, 0, 0}, {1, 1, 0},     {1, 0, 1},   {1, 0, 0},   {-1, 0.5, 0.5}, {-1, 0, 0.5}, {-1, 0.5, 0},
-    {0, 1, 0},    {0, 0, 1},  {0, 0, 0},  {1, 0.5, 0.5}, {1, 0, 0.5}, {1, 0.5, 0}, {0, 0.5, 0.5},  {0, 0, 0.5},  {0, 0.5, 0}};
+constexpr ReferencePoint pyramid_nodes[] = {
+    {1, 0, 0},       {0, 1, 0},      {-1, 0, 0},    {0, -1, 0},    {0, 0, 1},      {0.5, 0.5, 0}, {-0.5, 0.5, 0},
+    {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}, {-0.5, 0, 0.5}, {0, -0.5, 0.5}};
+constexpr ReferencePoint pentahedron_nodes[] = {{-1, 1, 0},    {-1, 0, 1},     {-1, 0, 0},    {1, 1, 0},    {1, 0, 1},
+                                                {1, 0, 0},     {-1, 0.5, 0.5}, {-1, 0, 0.5},  {-1, 0.5, 0}, {0, 1, 0},
+                                                {0, 0, 1},     {0, 0, 0},      {1, 0.5, 0.5}, {1, 0, 0.5},  {1, 0.5, 0},
+                                                {0, 0.5, 0.5}, {0, 0, 0.5},    {0, 0.5, 0}};
 constexpr ReferencePoint hexahedron_nodes[] = {
-    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},  {-1, 1, 1},  {0, -1, -1},
-    {1, 0, -1},   {0, 1, -1},  {-1, 0, -1}, {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},  {-1, 1, 0}, {0, -1, 1},  {1, 0, 1},
-    {0, 1, 1},    {-1, 0, 1},  {0, 0, -1},  {0, -1, 0},  {1, 0, 0},   {0, 1, 0},  {-1, 0, 0}, {0, 0, 1},   {0, 0, 0}};
+    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},  {-1, 1, 1}, {0, -1, -1},
+    {1, 0, -1},   {0, 1, -1},  {-1, 0, -1}, {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},  {-1, 1, 0}, {0, -1, 1}, {1, 0, 1},
+    {0, 1, 1},    {-1, 0, 1},  {0, 0, -1},  {0, -1, 0},  {1, 0, 0},   {0, 1, 0},  {-1, 0, 0}, {0, 0, 1},  {0, 0, 0}};
 
 /// The one-dimensional quadratic Lagrange function that is 1 at `node` (-1, 0 or 1) and 0 at the other two.
 template <class S>
@@ -135,7 +137,8 @@ void tensor(std::span<const ReferencePoint> nodes, int dim, bool quadratic, cons
   }
 }
 
-/// Triangle functions in (y, z) times segment functions in x; the 15-node cell drops the mid-face functions (serendipity).
+/// Triangle functions in (y, z) times segment functions in x; the 15-node cell drops the mid-face functions
+/// (serendipity).
 template <class S>
 void pentahedron(CellType type, const Point3<S>& x, S* n) {
   const S l[3] = {x[1], x[2], S(1.0) - x[1] - x[2]};
@@ -167,8 +170,8 @@ void pentahedron(CellType type, const Point3<S>& x, S* n) {
   }
 }
 
-/// Rational functions of the pyramid (R3.01.01, section 4.4). f[k] vanishes on the lateral face through corners k and k+1; at
-/// the apex they are continued by their limit.
+/// Rational functions of the pyramid (R3.01.01, section 4.4). f[k] vanishes on the lateral face through corners k and
+/// k+1; at the apex they are continued by their limit.
 template <class S>
 void pyramid(CellType type, const Point3<S>& x, S* n) {
   const S height = S(1.0) - x[2];

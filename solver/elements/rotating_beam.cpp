@@ -17,7 +17,8 @@ namespace {
 
 constexpr int variables_of_beam = 3;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
-/// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the rotations of both.
+/// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the
+/// rotations of both.
 using Motion = Eigen::Matrix<double, 6, 1>;
 using Derivative = Eigen::AutoDiffScalar<Motion>;
 
@@ -28,7 +29,8 @@ using Axes = Eigen::Matrix<Scalar, 3, 3>;
 
 /// The axes of `before`, moved along with their first direction the shortest way to another one, then turned about it.
 template <class Scalar>
-Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length, const Vector3<Scalar>& rotation) {
+Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length,
+                          const Vector3<Scalar>& rotation) {
   using std::cos, std::sin;
   const Vector3<Scalar> x = along / length;
   const Vector3<Scalar> old = before.row(0).transpose().template cast<Scalar>();
@@ -101,7 +103,8 @@ class RotatingBeam final : public ElementBlock {
     }
   }
 
-  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
     require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
       const BeamMatrix k = tangent(element, u);
@@ -110,18 +113,22 @@ class RotatingBeam final : public ElementBlock {
     }
   }
   bool is_symmetric() const override { return false; }
-  /// The forces turn with the axes, but the increments of the step do not: half of what they would do to the axial force, mirrored, bends a slender beam beyond all measure.
-  void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  /// The forces turn with the axes, but the increments of the step do not: half of what they would do to the axial
+  /// force, mirrored, bends a slender beam beyond all measure.
+  void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                               double* values) const override {
     require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
       const Turning now = turning(element, u);
       const Vector12d force = trial(element, u).force;
-      const BeamMatrix turned_forces = of_motion(turned<Derivative>(now.axes.transpose(), force.cast<Derivative>().eval()));
+      const BeamMatrix turned_forces =
+          of_motion(turned<Derivative>(now.axes.transpose(), force.cast<Derivative>().eval()));
       const BeamMatrix k = of_increments(now.stiffness, now.axes) + 0.5 * (turned_forces + turned_forces.transpose());
       map_.add(element, k.data(), column_starts, values);
     }
   }
-  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&, std::vector<Eigen::Triplet<double>>& entries) const override {
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
+                          std::vector<Eigen::Triplet<double>>& entries) const override {
     std::array<int, 12> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
@@ -142,9 +149,11 @@ class RotatingBeam final : public ElementBlock {
       add(element, turned<double>(now.axes.transpose(), now.force), forces);
     }
   }
-  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, ForceSum forces) const override {
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
+                              ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add(element, turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + 12 * element)), forces);
+      add(element, turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + 12 * element)),
+          forces);
   }
 
   std::span<const int> cells() const override { return cells_; }
@@ -177,7 +186,8 @@ class RotatingBeam final : public ElementBlock {
   void energies(const Eigen::VectorXd&, const VariableState&, std::span<double>) const override {
     throw_no_energies("beams in large rotations", mesh_.cell_name(cells_.front()));
   }
-  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>, std::span<double> out) const override {
+  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>,
+                        std::span<double> out) const override {
     std::ranges::fill(out, absent);
   }
 
@@ -190,7 +200,8 @@ class RotatingBeam final : public ElementBlock {
   }
 
   /// Without variables the axes are those of the first geometry.
-  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported, std::span<const double> variables) override {
+  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
+              std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own = variables.empty() ? nullptr : variables.data() + point_count() * variables_of_beam * element;
       const double roll = own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[1];
@@ -201,7 +212,9 @@ class RotatingBeam final : public ElementBlock {
 
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : cells_)
-      if (imposed.acts_on(cell)) throw Error("unsupported", fmt::format("cell {}: initial strains are known of beams in small rotations only", mesh_.cell_name(cell)));
+      if (imposed.acts_on(cell))
+        throw Error("unsupported", fmt::format("cell {}: initial strains are known of beams in small rotations only",
+                                               mesh_.cell_name(cell)));
   }
 
  private:
@@ -219,7 +232,9 @@ class RotatingBeam final : public ElementBlock {
     const BeamSection& section = slender_section(input, cell);
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
     if (section.end || !elasticity.young.is_constant() || !elasticity.poisson.is_constant()) {
-      throw Error("unsupported", fmt::format("cell {}: beams in large rotations have a section and a material that do not vary", mesh_.cell_name(cell)),
+      throw Error("unsupported",
+                  fmt::format("cell {}: beams in large rotations have a section and a material that do not vary",
+                              mesh_.cell_name(cell)),
                   "give DEFORMATION='PETIT', or constant properties");
     }
     return {&section, moduli(elasticity, MaterialPoint())};
@@ -227,7 +242,10 @@ class RotatingBeam final : public ElementBlock {
 
   void require_no_strains(const VariableState& state) const {
     if (state.empty()) return;
-    throw Error("unsupported", fmt::format("cell {}: beams in large rotations do not expand with command variables", mesh_.cell_name(cells_.front())), "leave out AFFE_VARC, or give DEFORMATION='PETIT'");
+    throw Error("unsupported",
+                fmt::format("cell {}: beams in large rotations do not expand with command variables",
+                            mesh_.cell_name(cells_.front())),
+                "leave out AFFE_VARC, or give DEFORMATION='PETIT'");
   }
 
   Eigen::Vector3d initial_chord(int cell) const {
@@ -239,7 +257,8 @@ class RotatingBeam final : public ElementBlock {
   void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force) {
     BeamPast& past = past_[static_cast<std::size_t>(element)];
     past.displacement = unknowns(element, u);
-    past.along = initial_chord(cells_[static_cast<std::size_t>(element)]) + past.displacement.segment<3>(6) - past.displacement.head<3>();
+    past.along = initial_chord(cells_[static_cast<std::size_t>(element)]) + past.displacement.segment<3>(6) -
+                 past.displacement.head<3>();
     past.roll = roll;
     past.force = force;
   }
@@ -271,7 +290,8 @@ class RotatingBeam final : public ElementBlock {
     const Member& own = members_[static_cast<std::size_t>(element)];
     const Vector12d step = increment(element, u);
     const auto now = geometry<double>(past, motion_of(step));
-    const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) * turned<double>(now.axes, step);
+    const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) *
+                                             turned<double>(now.axes, step);
     const double turn = now.axes.row(0).dot(past.along.normalized());
     return {now.axes, force, past.elongation + 1.0 - turn};
   }
@@ -295,7 +315,8 @@ class RotatingBeam final : public ElementBlock {
   BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
     const Turning now = turning(element, u);
     const Eigen::Matrix<Derivative, 12, 1> local =
-        past_[static_cast<std::size_t>(element)].force.cast<Derivative>() + now.stiffness * turned<Derivative>(now.axes, increment(element, u).cast<Derivative>().eval());
+        past_[static_cast<std::size_t>(element)].force.cast<Derivative>() +
+        now.stiffness * turned<Derivative>(now.axes, increment(element, u).cast<Derivative>().eval());
     const Eigen::Matrix<Derivative, 12, 1> global = turned<Derivative>(now.axes.transpose(), local);
     return of_increments(now.stiffness, now.axes) + of_motion(global);
   }

@@ -12,7 +12,8 @@ namespace {
 
 /// Directions (in radians) closer than this are the same but for rounding.
 constexpr double smallest_roll = 1e-12;
-/// A segment that leans less (sine of the angle) is vertical: turns and rounded coordinates leave such leans in columns.
+/// A segment that leans less (sine of the angle) is vertical: turns and rounded coordinates leave such leans in
+/// columns.
 constexpr double smallest_lean = 1e-9;
 
 void check_count(std::size_t given, std::size_t expected, const Mesh& mesh, int cell) {
@@ -29,7 +30,8 @@ int matrix_size(const Mesh& mesh, int cell, Formulation formulation) {
 Eigen::MatrixXd node_rotation(Formulation formulation, const Eigen::Matrix3d& axes) {
   const int k = discrete_components(formulation);
   Eigen::MatrixXd rotation = Eigen::MatrixXd::Identity(k, k);
-  const int translations = formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ? 2 : 3;
+  const int translations =
+      formulation == Formulation::spring_2d || formulation == Formulation::spring_rotation_2d ? 2 : 3;
   rotation.topLeftCorner(translations, translations) = axes.topLeftCorner(translations, translations);
   if (k == 6) rotation.bottomRightCorner<3, 3>() = axes;
   return rotation;
@@ -50,15 +52,17 @@ Eigen::MatrixXd to_global(Formulation formulation, const Eigen::Matrix3d& axes, 
   return 0.5 * (matrix + matrix.transpose());
 }
 
-DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame,
-                         const Orientation& orientation) {
+DiscreteStiffness finish(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix,
+                         DiscreteFrame frame, const Orientation& orientation) {
   DiscreteStiffness result{.matrix = {}, .axes = discrete_axes(mesh, cell, orientation)};
-  result.matrix = frame == DiscreteFrame::local ? to_global(formulation, result.axes, std::move(matrix)) : std::move(matrix);
+  result.matrix =
+      frame == DiscreteFrame::local ? to_global(formulation, result.axes, std::move(matrix)) : std::move(matrix);
   return result;
 }
 
 /// The symmetric matrix whose upper triangle is given column by column.
-Eigen::MatrixXd from_upper_triangle(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values) {
+Eigen::MatrixXd from_upper_triangle(const Mesh& mesh, int cell, Formulation formulation,
+                                    std::span<const double> values) {
   const int size = matrix_size(mesh, cell, formulation);
   check_count(values.size(), static_cast<std::size_t>(size * (size + 1) / 2), mesh, cell);
   Eigen::MatrixXd matrix(size, size);
@@ -76,8 +80,8 @@ Eigen::MatrixXd from_columns(const Mesh& mesh, int cell, Formulation formulation
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), size, size);
 }
 
-DiscreteMass finish_mass(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix, DiscreteFrame frame,
-                         const Orientation& orientation) {
+DiscreteMass finish_mass(const Mesh& mesh, int cell, Formulation formulation, Eigen::MatrixXd matrix,
+                         DiscreteFrame frame, const Orientation& orientation) {
   if (frame == DiscreteFrame::global) return matrix;
   return to_global(formulation, discrete_axes(mesh, cell, orientation), std::move(matrix));
 }
@@ -99,7 +103,8 @@ Eigen::Matrix3d level_axes(const Eigen::Vector3d& along, double roll) {
     x << 0.0, 0.0, std::copysign(1.0, x[2]);
   const Eigen::Vector3d z = x.cross(y);
   Eigen::Matrix3d axes;
-  axes << x.transpose(), (std::cos(roll) * y + std::sin(roll) * z).transpose(), (std::cos(roll) * z - std::sin(roll) * y).transpose();
+  axes << x.transpose(), (std::cos(roll) * y + std::sin(roll) * z).transpose(),
+      (std::cos(roll) * z - std::sin(roll) * y).transpose();
   return axes;
 }
 
@@ -110,7 +115,8 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll) {
     const Eigen::Vector3d along = along_segment(mesh, cell);
     const double length = along.norm();
     if (!(length > 0.0)) {
-      throw Error("distorted-cell", fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
+      throw Error("distorted-cell",
+                  fmt::format("segment {} has no length, so its own axes are not defined", mesh.cell_name(cell)),
                   "give the stiffness of a spring in global axes");
     }
     return level_axes(along, roll);
@@ -124,14 +130,17 @@ bool has_direction(const Mesh& mesh, int cell, double no_length) {
 }
 
 Eigen::Matrix3d discrete_axes(const Mesh& mesh, int cell, const Orientation& orientation) {
-  return has_direction(mesh, cell, orientation.no_length) ? own_axes(mesh, cell, orientation.roll) : orientation.point_axes;
+  return has_direction(mesh, cell, orientation.no_length) ? own_axes(mesh, cell, orientation.roll)
+                                                          : orientation.point_axes;
 }
 
 double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {
   const Eigen::Vector3d wanted = own_axes(mesh, cell) * y;  // in the axes without roll
   if (!(std::hypot(wanted[1], wanted[2]) > smallest_roll * wanted.norm())) {
-    throw Error("zero-vector", fmt::format("the direction of the second axis of {} lies along the cell, or is zero", mesh.cell_name(cell)),
-                "give a direction across the cell");
+    throw Error(
+        "zero-vector",
+        fmt::format("the direction of the second axis of {} lies along the cell, or is zero", mesh.cell_name(cell)),
+        "give a direction across the cell");
   }
   return std::atan2(wanted[2], wanted[1]);
 }
@@ -139,7 +148,8 @@ double roll_towards(const Mesh& mesh, int cell, const Eigen::Vector3d& y) {
 Eigen::Matrix3d axes_along(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   const Eigen::Vector3d z = x.cross(y);
   if (!(z.norm() > smallest_roll * x.norm() * y.norm())) {
-    throw Error("zero-vector", "the two directions of a frame lie along each other, or one is zero", "give two different directions");
+    throw Error("zero-vector", "the two directions of a frame lie along each other, or one is zero",
+                "give two different directions");
   }
   Eigen::Matrix3d axes;
   axes << x.normalized().transpose(), z.cross(x).normalized().transpose(), z.normalized().transpose();
@@ -148,16 +158,21 @@ Eigen::Matrix3d axes_along(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
 
 int discrete_components(Formulation formulation) {
   switch (formulation) {
-    case Formulation::spring_2d: return 2;
+    case Formulation::spring_2d:
+      return 2;
     case Formulation::spring_3d:
-    case Formulation::spring_rotation_2d: return 3;
-    case Formulation::spring_rotation_3d: return 6;
-    default: return 0;
+    case Formulation::spring_rotation_2d:
+      return 3;
+    case Formulation::spring_rotation_3d:
+      return 6;
+    default:
+      return 0;
   }
 }
 
-DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                     DiscreteFrame frame, const Orientation& orientation) {
+DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation formulation,
+                                     std::span<const double> values, DiscreteFrame frame,
+                                     const Orientation& orientation) {
   const int k = discrete_components(formulation);
   check_count(values.size(), static_cast<std::size_t>(k), mesh, cell);
   const int size = matrix_size(mesh, cell, formulation);
@@ -168,13 +183,15 @@ DiscreteStiffness diagonal_stiffness(const Mesh& mesh, int cell, Formulation for
   return finish(mesh, cell, formulation, std::move(matrix), frame, orientation);
 }
 
-DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                      DiscreteFrame frame, const Orientation& orientation) {
+DiscreteStiffness symmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation,
+                                      std::span<const double> values, DiscreteFrame frame,
+                                      const Orientation& orientation) {
   return finish(mesh, cell, formulation, from_upper_triangle(mesh, cell, formulation, values), frame, orientation);
 }
 
-DiscreteStiffness unsymmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation, std::span<const double> values,
-                                        DiscreteFrame frame, const Orientation& orientation) {
+DiscreteStiffness unsymmetric_stiffness(const Mesh& mesh, int cell, Formulation formulation,
+                                        std::span<const double> values, DiscreteFrame frame,
+                                        const Orientation& orientation) {
   return finish(mesh, cell, formulation, from_columns(mesh, cell, formulation, values), frame, orientation);
 }
 
@@ -197,7 +214,8 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
     throw Error("unsupported", fmt::format("the mass on {} has an offset, which only a point with rotations can have",
                                            mesh.cell_name(cell)));
   }
-  const Eigen::Matrix3d axes = frame == DiscreteFrame::local ? discrete_axes(mesh, cell, orientation) : Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d axes =
+      frame == DiscreteFrame::local ? discrete_axes(mesh, cell, orientation) : Eigen::Matrix3d::Identity();
   const Eigen::Vector3d e = axes.transpose() * inertia.offset;
   Eigen::Matrix3d lever;  // lever * a = e x a
   lever << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;

@@ -13,7 +13,9 @@ namespace {
 
 using std::numbers::pi;
 
-[[noreturn]] void refuse(const std::string& what, const std::string& hint) { throw Error("invalid-section", what, hint); }
+[[noreturn]] void refuse(const std::string& what, const std::string& hint) {
+  throw Error("invalid-section", what, hint);
+}
 
 bool is_solid(const Rectangle& r) {
   return (r.thickness_y == 0.0 && r.thickness_z == 0.0) ||
@@ -21,11 +23,13 @@ bool is_solid(const Rectangle& r) {
 }
 
 void check(const Rectangle& r) {
-  if (!(r.height_y > 0.0 && r.height_z > 0.0)) refuse("a rectangular section needs positive sides", "give HY and HZ, or H");
+  if (!(r.height_y > 0.0 && r.height_z > 0.0))
+    refuse("a rectangular section needs positive sides", "give HY and HZ, or H");
   if (is_solid(r)) return;
   const auto fits = [](double thickness, double height) { return thickness > 0.0 && 2 * thickness < height; };
   if (fits(r.thickness_y, r.height_y) && fits(r.thickness_z, r.height_z)) return;
-  refuse(fmt::format("walls of {:g} and {:g} leave no hole in a rectangle of {:g} by {:g}", r.thickness_y, r.thickness_z, r.height_y, r.height_z),
+  refuse(fmt::format("walls of {:g} and {:g} leave no hole in a rectangle of {:g} by {:g}", r.thickness_y,
+                     r.thickness_z, r.height_y, r.height_z),
          "walls are thinner than half of the side; without walls the rectangle is solid");
 }
 
@@ -44,8 +48,8 @@ void add_hollow_torsion(BeamSection& section, const Rectangle& r) {
   section.torsion_reach = section.torsion / (2.0 * y * z * std::min(r.thickness_y, r.thickness_z));
 }
 
-/// Cowper's factor of a tube without lateral contraction, by the ratio of its radii. The 7/6 of a disc stands with the five digits
-/// of Code_Aster, so that shear stresses agree to the last of its own.
+/// Cowper's factor of a tube without lateral contraction, by the ratio of its radii. The 7/6 of a disc stands with the
+/// five digits of Code_Aster, so that shear stresses agree to the last of its own.
 double tube_shear(double ratio) {
   constexpr double disc = 1.16667;
   const double sum = 1.0 + ratio * ratio;
@@ -61,8 +65,10 @@ BeamSection rectangular_section(const Rectangle& r) {
   const double inner_z = solid ? 0.0 : r.height_z - 2 * r.thickness_z;
   BeamSection section;
   section.area = r.height_y * r.height_z - inner_y * inner_z;
-  section.inertia_y = (r.height_y * r.height_z * r.height_z * r.height_z - inner_y * inner_z * inner_z * inner_z) / 12.0;
-  section.inertia_z = (r.height_z * r.height_y * r.height_y * r.height_y - inner_z * inner_y * inner_y * inner_y) / 12.0;
+  section.inertia_y =
+      (r.height_y * r.height_z * r.height_z * r.height_z - inner_y * inner_z * inner_z * inner_z) / 12.0;
+  section.inertia_z =
+      (r.height_z * r.height_y * r.height_y * r.height_y - inner_z * inner_y * inner_y * inner_y) / 12.0;
   section.shape = SectionShape::rectangle;
   section.reach_y = r.height_y / 2.0;
   section.reach_z = r.height_z / 2.0;
@@ -95,7 +101,8 @@ BeamSection circular_section(double radius, double thickness) {
 
 BeamSection varying_section(BeamSection first, const BeamSection& last, const VariationPowers& powers) {
   if (first.centre_y != last.centre_y || first.centre_z != last.centre_z) {
-    refuse("the centre of torsion of a section that varies is not the same at both ends", "give EY and EZ the same values at both ends");
+    refuse("the centre of torsion of a section that varies is not the same at both ends",
+           "give EY and EZ the same values at both ends");
   }
   first.end = std::make_shared<const BeamSection>(last);
   first.powers = powers;
@@ -103,7 +110,8 @@ BeamSection varying_section(BeamSection first, const BeamSection& last, const Va
 }
 
 BeamSection softened(BeamSection section, double factor_xy, double factor_xz) {
-  if (!(factor_xy > 0.0 && factor_xz > 0.0)) refuse("a factor of flexibility must be positive", "1 leaves the section as it is");
+  if (!(factor_xy > 0.0 && factor_xz > 0.0))
+    refuse("a factor of flexibility must be positive", "1 leaves the section as it is");
   section.inertia_z /= factor_xy;
   section.inertia_y /= factor_xz;
   if (section.end) section.end = std::make_shared<const BeamSection>(softened(*section.end, factor_xy, factor_xz));

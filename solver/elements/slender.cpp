@@ -30,18 +30,19 @@ Segment segment_of(const Mesh& mesh, int cell, double roll) {
 }
 
 bool is_complete(const BeamSection& section, bool bends) {
-  return section.area > 0.0 && (!bends || (section.inertia_y > 0.0 && section.inertia_z > 0.0 && section.torsion > 0.0 &&
-                                           section.shear_y >= 0.0 && section.shear_z >= 0.0));
+  return section.area > 0.0 && (!bends || (section.inertia_y > 0.0 && section.inertia_z > 0.0 &&
+                                           section.torsion > 0.0 && section.shear_y >= 0.0 && section.shear_z >= 0.0));
 }
 
 /// Bending in the planes (x, y) and (x, z) of a beam whose section varies.
-std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const IsotropicModuli& material, double shear_modulus,
-                                              double length, bool shear) {
+std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const IsotropicModuli& material,
+                                              double shear_modulus, double length, bool shear) {
   const BeamSection& end = *section.end;
   const auto plane = [&](double inertia, double end_inertia, int power, double factor, double end_factor) {
     const bool softens = shear && factor > 0.0 && end_factor > 0.0;
-    const BendingPlane given{inertia, end_inertia, softens ? section.area / factor : 0.0, softens ? end.area / end_factor : 0.0,
-                             power, section.powers.area};
+    const BendingPlane given{
+        inertia, end_inertia,        softens ? section.area / factor : 0.0, softens ? end.area / end_factor : 0.0,
+        power,   section.powers.area};
     return bending_stiffness(given, length, material.young, softens ? shear_modulus : 0.0);
   };
   return {plane(section.inertia_z, end.inertia_z, section.powers.inertia_z, section.shear_y, end.shear_y),
@@ -107,10 +108,12 @@ class SlenderBlock final : public ElementBlock {
       : mesh_(*input.model.mesh),
         shear_(input.model.formulations[cells.front()] == Formulation::timoshenko_beam),
         cells_(std::move(cells)),
-        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(*input.model.mesh, cells_)) {
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2,
+             gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
       const BeamSection& section = slender_section(input, cell);
-      members_.push_back({segment_of(mesh_, cell, is_beam ? section.roll : 0.0), &section, &isotropic_material(input, cell)});
+      members_.push_back(
+          {segment_of(mesh_, cell, is_beam ? section.roll : 0.0), &section, &isotropic_material(input, cell)});
       const bool constant = is_constant_material(*members_.back().material);
       constant_ = constant_ && constant;
       matrices_.push_back(constant ? matrix(members_.back(), MaterialPoint()) : Matrix::Zero().eval());
@@ -125,7 +128,8 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  void add_geometric_stiffness(std::span<const double> forces, const VariableState& state, std::span<const int> column_starts, double* values) const override {
+  void add_geometric_stiffness(std::span<const double> forces, const VariableState& state,
+                               std::span<const int> column_starts, double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own = forces.data() + static_cast<std::size_t>(element * point_count()) * stress_names().size();
       const Matrix k = named(element, [&] { return geometric_matrix(element, own, state); });
@@ -144,7 +148,8 @@ class SlenderBlock final : public ElementBlock {
 
   bool takes_initial_stresses() const override { return true; }
   /// Forces at the ends: see stresses().
-  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> stresses, ForceSum forces) const override {
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> stresses,
+                              ForceSum forces) const override {
     if (stresses.empty()) return add_internal_forces(u, state, forces);
     const std::size_t each = static_cast<std::size_t>(point_count()) * stress_names().size();
     std::array<int, size> dofs;
@@ -172,8 +177,8 @@ class SlenderBlock final : public ElementBlock {
     return bar_forces;
   }
 
-  /// Section forces, in the element's own axes, of the part with greater x upon the part with smaller x: N > 0 in tension. Beams
-  /// have them at both ends, bars once.
+  /// Section forces, in the element's own axes, of the part with greater x upon the part with smaller x: N > 0 in
+  /// tension. Beams have them at both ends, bars once.
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     double* target = out.data();
@@ -182,7 +187,8 @@ class SlenderBlock final : public ElementBlock {
       const auto force = end_forces(element, u, dofs, state);
       if constexpr (is_beam) {
         for (const int end : {0, 1}) {
-          for (const int part : {0, 3}) target = write_local(element, force.data() + 6 * end + part, end == 0 ? -1.0 : 1.0, target);
+          for (const int part : {0, 3})
+            target = write_local(element, force.data() + 6 * end + part, end == 0 ? -1.0 : 1.0, target);
         }
       } else {
         double axial = 0.0;
@@ -192,8 +198,8 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  /// 1/2 u K u - u f + 1/2 E A strain^2 L with the forces f and the axial strain of the command variables; of initial strains the work of the
-  /// section forces on them is taken off besides.
+  /// 1/2 u K u - u f + 1/2 E A strain^2 L with the forces f and the axial strain of the command variables; of initial
+  /// strains the work of the section forces on them is taken off besides.
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -203,11 +209,13 @@ class SlenderBlock final : public ElementBlock {
       double work = 0.0;
       for (int i = 0; i < size; ++i) work += u[dofs[i]] * static_cast<double>(force[i]);
       double elongation = 0.0;
-      for (int i = 0; i < 3 && i < Components; ++i) elongation += axes(element)(0, i) * (u[dofs[Components + i]] - u[dofs[i]]);
+      for (int i = 0; i < 3 && i < Components; ++i)
+        elongation += axes(element)(0, i) * (u[dofs[Components + i]] - u[dofs[i]]);
       // `force` lacks f, so that u . force = u K u - u f: half of u f is missing still.
       const double length = members_[element].segment.length;
       out[element] = 0.5 * (work - expansion.force * (elongation - expansion.strain * length));
-      if (imposed_ != nullptr && imposed_->acts_on(cells_[element])) out[element] -= work_on_imposed(*imposed_, element, mean_forces(element, force), state);
+      if (imposed_ != nullptr && imposed_->acts_on(cells_[element]))
+        out[element] -= work_on_imposed(*imposed_, element, mean_forces(element, force), state);
     }
   }
 
@@ -215,7 +223,8 @@ class SlenderBlock final : public ElementBlock {
   bool is_constant() const override { return constant_; }
 
   void impose(const ImposedStrains* strains) override { imposed_ = strains; }
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state, ForceSum forces) const override {
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
+                                 ForceSum forces) const override {
     std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
@@ -232,7 +241,8 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state, std::span<double> out) const override {
+  void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state,
+                                 std::span<double> out) const override {
     const auto names = stress_names().size();
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
@@ -252,16 +262,20 @@ class SlenderBlock final : public ElementBlock {
   Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element, const VariableState& state) const {
     const Member& member = members_[element];
     if (varies(*member.section) && imposed.acts_on(cells_[element])) {
-      throw Error("unsupported", fmt::format("an initial strain acts on the beam of cell {}, whose section varies", mesh_.cell_name(cells_[element])),
+      throw Error("unsupported",
+                  fmt::format("an initial strain acts on the beam of cell {}, whose section varies",
+                              mesh_.cell_name(cells_[element])),
                   "give it a constant section, cut into several beams");
     }
     const double young = named(element, [&] { return member.material->young(material_point(element, state)); });
-    const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0, is_beam ? member.section->inertia_z : 0.0);
+    const Eigen::Vector3d section(member.section->area, is_beam ? member.section->inertia_y : 0.0,
+                                  is_beam ? member.section->inertia_z : 0.0);
     return young * section.cwiseProduct(imposed_strain(imposed, element));
   }
   Eigen::Vector3d imposed_strain(const ImposedStrains& imposed, int element) const {
     const auto nodes = map_.nodes(element);
-    return imposed.slender(cells_[element], 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) + Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data())));
+    return imposed.slender(cells_[element], 0.5 * (Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[0]].data()) +
+                                                   Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[1]].data())));
   }
 
   using Forces = std::array<long double, size>;
@@ -273,9 +287,12 @@ class SlenderBlock final : public ElementBlock {
     for (int i = 3; i < Components; ++i) moment[i - 3] = 0.5 * static_cast<double>(force[Components + i] - force[i]);
     return {axes(element).row(0).dot(pull), axes(element).row(1).dot(moment), axes(element).row(2).dot(moment)};
   }
-  /// By what initial strains lessen the elastic energy of an element with these forces: 1/2 r e^2 is left of them alone.
-  double work_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces, const VariableState& state) const {
-    return members_[element].segment.length * imposed_strain(imposed, element).dot(forces - 0.5 * imposed_resultants(imposed, element, state));
+  /// By what initial strains lessen the elastic energy of an element with these forces: 1/2 r e^2 is left of them
+  /// alone.
+  double work_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces,
+                         const VariableState& state) const {
+    return members_[element].segment.length *
+           imposed_strain(imposed, element).dot(forces - 0.5 * imposed_resultants(imposed, element, state));
   }
 
   /// The axial strain of the command variables, and the compression that holding it back takes.
@@ -289,8 +306,10 @@ class SlenderBlock final : public ElementBlock {
   }
 
   Matrix matrix(const Member& member, const MaterialPoint& at) const {
-    if constexpr (is_beam) return beam_matrix(member, moduli(*member.material, at), shear_);
-    else return bar_matrix<Components>(member, moduli(*member.material, at));
+    if constexpr (is_beam)
+      return beam_matrix(member, moduli(*member.material, at), shear_);
+    else
+      return bar_matrix<Components>(member, moduli(*member.material, at));
   }
 
   /// What the section forces add: `forces` as stresses() gives those of the element.
@@ -298,15 +317,19 @@ class SlenderBlock final : public ElementBlock {
     const Member& member = members_[element];
     if constexpr (is_beam) {
       if (varies(*member.section) || is_eccentric(*member.section))
-        throw Error("unsupported", "the stiffness that stresses add is known of beams with a constant section alone whose centre of torsion is the centroid");
+        throw Error("unsupported",
+                    "the stiffness that stresses add is known of beams with a constant section alone whose centre of "
+                    "torsion is the centroid");
       const auto section_forces = [](const double* f) { return SectionForces{f[0], f[1], f[2], f[3], f[4], f[5]}; };
-      Matrix k = beam_geometric_stiffness(*member.section, moduli(*member.material, material_point(element, state)), member.segment.length, shear_,
-                                          {section_forces(forces), section_forces(forces + 6)});
+      Matrix k =
+          beam_geometric_stiffness(*member.section, moduli(*member.material, material_point(element, state)),
+                                   member.segment.length, shear_, {section_forces(forces), section_forces(forces + 6)});
       Matrix turn = Matrix::Zero();
       for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = member.segment.axes;
       return turn.transpose() * k * turn;
     } else {
-      const Eigen::Matrix<double, Components, Components> block = forces[0] / member.segment.length * Eigen::Matrix<double, Components, Components>::Identity();
+      const Eigen::Matrix<double, Components, Components> block =
+          forces[0] / member.segment.length * Eigen::Matrix<double, Components, Components>::Identity();
       Matrix k;
       k << block, -block, -block, block;
       return k;
@@ -337,7 +360,8 @@ class SlenderBlock final : public ElementBlock {
       const MaterialPoint at = material_point(element, state);
       Expansion expansion;
       expansion.strain = inelastic_axial_strain(*member.material, at);
-      if (expansion.strain != 0.0) expansion.force = member.material->young(at) * axial_area(*member.section) * expansion.strain;
+      if (expansion.strain != 0.0)
+        expansion.force = member.material->young(at) * axial_area(*member.section) * expansion.strain;
       return expansion;
     });
   }
@@ -348,14 +372,16 @@ class SlenderBlock final : public ElementBlock {
     try {
       return f();
     } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[element])), error.hint());
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[element])),
+                  error.hint());
     }
   }
 
   const Eigen::Matrix3d& axes(int element) const { return members_[element].segment.axes; }
 
   /// Forces on both ends, from the translation of the second end relative to the first.
-  Forces end_forces(int element, const Eigen::VectorXd& u, const std::array<int, size>& dofs, const VariableState& state) const {
+  Forces end_forces(int element, const Eigen::VectorXd& u, const std::array<int, size>& dofs,
+                    const VariableState& state) const {
     Matrix own;
     const Matrix& k = matrix_at(element, state, own);
     std::array<long double, size> moved;
@@ -415,11 +441,15 @@ const BeamSection& slender_section(const BlockInput& input, int cell) {
 
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells) {
   switch (input.model.formulations[cells.front()]) {
-    case Formulation::bar: return std::make_unique<SlenderBlock<3>>(input, std::move(cells));
-    case Formulation::bar_2d: return std::make_unique<SlenderBlock<2>>(input, std::move(cells));
+    case Formulation::bar:
+      return std::make_unique<SlenderBlock<3>>(input, std::move(cells));
+    case Formulation::bar_2d:
+      return std::make_unique<SlenderBlock<2>>(input, std::move(cells));
     case Formulation::euler_beam:
-    case Formulation::timoshenko_beam: return std::make_unique<SlenderBlock<6>>(input, std::move(cells));
-    default: throw_unsupported_element(input.model, cells.front());
+    case Formulation::timoshenko_beam:
+      return std::make_unique<SlenderBlock<6>>(input, std::move(cells));
+    default:
+      throw_unsupported_element(input.model, cells.front());
   }
 }
 

@@ -9,7 +9,8 @@
 
 namespace comma::solver {
 
-/// The section of a bar or beam, with the values that the element needs positive. Throws Error `missing-properties`, `invalid-properties`.
+/// The section of a bar or beam, with the values that the element needs positive. Throws Error `missing-properties`,
+/// `invalid-properties`.
 const BeamSection& slender_section(const BlockInput& input, int cell);
 
 }  // namespace comma::solver

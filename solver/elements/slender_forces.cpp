@@ -41,8 +41,9 @@ Vector12 beam_end_forces(const ForceInput& input, int cell, const LineLoad& load
   if (input.model.formulations[cell] == Formulation::euler_beam) return end_forces({length, 0.0, 0.0}, load);
   const auto* isotropic = std::get_if<IsotropicElasticity>(&elasticity_of(input, cell));
   if (isotropic == nullptr) {
-    throw Error("unsupported", fmt::format("the beam on cell {} has an anisotropic material, but needs an isotropic one",
-                                           input.model.mesh->cell_name(cell)));
+    throw Error("unsupported",
+                fmt::format("the beam on cell {} has an anisotropic material, but needs an isotropic one",
+                            input.model.mesh->cell_name(cell)));
   }
   const IsotropicModuli material = moduli(*isotropic, material_point_of(input, cell));
   return end_forces(timoshenko_interpolation(section_at(section_of(input, cell), 0.5), material, length), load);
@@ -86,7 +87,8 @@ Eigen::Matrix3d slender_axes(const ForceInput& input, int cell) {
 
 void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces) {
   const Mesh& mesh = *input.model.mesh;
-  const Vector12 own = is_bar(input.model.formulations[cell]) ? bar_end_forces(mesh, cell, load) : beam_end_forces(input, cell, load);
+  const Vector12 own =
+      is_bar(input.model.formulations[cell]) ? bar_end_forces(mesh, cell, load) : beam_end_forces(input, cell, load);
   const Eigen::Matrix3d axes = slender_axes(input, cell);
   const ComponentMask carried = input.model.components_of(cell);
   for (int part = 0; part < 4; ++part) {  // forces and moments of the first end, then of the second

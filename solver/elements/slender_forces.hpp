@@ -22,8 +22,8 @@ MaterialPoint material_point_of(const ForceInput& input, int cell);
 
 /// Adds to the degrees of freedom of a bar or beam the end forces (own axes, N VY VZ MT MFY MFZ at each end) that do
 /// the work of a load per length. A bar shares its load as its linear interpolation does; so does a beam whose section
-/// varies as a uniform one does with the section of its middle, which is not exact (R3.08.01): it takes several of them.
-/// Throws Error `unsupported` for moments on a bar.
+/// varies as a uniform one does with the section of its middle, which is not exact (R3.08.01): it takes several of
+/// them. Throws Error `unsupported` for moments on a bar.
 void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces);
 
 }  // namespace comma::solver

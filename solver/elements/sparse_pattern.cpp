@@ -74,7 +74,8 @@ void SparsePattern::write_rows(int* row_of_entry) const {
   for (int node = 0; node < nodes; ++node) {
     for (int dof = dofs_.first_dof(node); dof < dofs_.first_dof(node + 1); ++dof) {
       write(dof, node);
-      for (int k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k) write(dofs_.first_dof(neighbours_[k]), neighbours_[k]);
+      for (int k = neighbour_starts_[node]; k < neighbour_starts_[node + 1]; ++k)
+        write(dofs_.first_dof(neighbours_[k]), neighbours_[k]);
     }
   }
 }
@@ -95,8 +96,8 @@ int SparsePattern::pair_offset(int row, int column) const {
   return offsets_[static_cast<std::size_t>(std::lower_bound(first, last, row) - neighbours_.begin())];
 }
 
-ElementMap::ElementMap(const SparsePattern& pattern, const DofMap& dofs, ComponentMask components, int nodes_per_element,
-                       std::vector<int> nodes)
+ElementMap::ElementMap(const SparsePattern& pattern, const DofMap& dofs, ComponentMask components,
+                       int nodes_per_element, std::vector<int> nodes)
     : dofs_(dofs), mask_(components), nodes_per_element_(nodes_per_element), nodes_(std::move(nodes)) {
   for (int c = 0; c < solver::component_count; ++c) {
     if (contains(mask_, static_cast<Component>(c))) component_list_[component_count_++] = static_cast<Component>(c);

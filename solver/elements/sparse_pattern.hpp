@@ -10,18 +10,20 @@
 namespace comma::solver {
 
 /// Lower triangle of a symmetric matrix over all degrees of freedom: two nodes of one element are coupled in all their
-/// components, and every row has its diagonal. Columns of a node share their rows, so one number places a pair of nodes.
+/// components, and every row has its diagonal. Columns of a node share their rows, so one number places a pair of
+/// nodes.
 class SparsePattern {
  public:
-  /// `cells`: those that carry stiffness. Keeps a reference to `dofs`. Throws Error `too-large` when the entries cannot be counted in an int.
+  /// `cells`: those that carry stiffness. Keeps a reference to `dofs`. Throws Error `too-large` when the entries cannot
+  /// be counted in an int.
   SparsePattern(const Mesh& mesh, std::span<const int> cells, const DofMap& dofs);
 
   /// A matrix of this pattern, all values 0.
   SymmetricMatrix zero_matrix() const;
   std::span<const int> column_starts() const { return column_starts_; }
 
-  /// Where the rows of node `row` (> `column`) start in the first column of node `column`, counted from that column's first
-  /// entry. The nodes must share a cell.
+  /// Where the rows of node `row` (> `column`) start in the first column of node `column`, counted from that column's
+  /// first entry. The nodes must share a cell.
   int pair_offset(int row, int column) const;
 
  private:
@@ -44,19 +46,20 @@ class ElementMap {
   int element_count() const { return static_cast<int>(nodes_.size()) / nodes_per_element_; }
   int components() const { return component_count_; }
   std::span<const int> nodes(int element) const {
-    return {nodes_.data() + static_cast<std::size_t>(element) * nodes_per_element_, static_cast<std::size_t>(nodes_per_element_)};
+    return {nodes_.data() + static_cast<std::size_t>(element) * nodes_per_element_,
+            static_cast<std::size_t>(nodes_per_element_)};
   }
   /// The degrees of freedom (nodes x components, node by node) of an element.
   void dofs(int element, int* out) const;
 
-  /// Adds a symmetric element matrix (size x size, size = nodes x components, both triangles given) to `values`, the value array
-  /// of a matrix of the pattern.
+  /// Adds a symmetric element matrix (size x size, size = nodes x components, both triangles given) to `values`, the
+  /// value array of a matrix of the pattern.
   void add(int element, const double* matrix, std::span<const int> column_starts, double* values) const;
 
  private:
   int slot(int node, int component) const;
-  void add_block(const double* matrix, int i, int j, int offset, int row, int column, std::span<const int> column_starts,
-                 double* values) const;
+  void add_block(const double* matrix, int i, int j, int offset, int row, int column,
+                 std::span<const int> column_starts, double* values) const;
 
   const DofMap& dofs_;
   ComponentMask mask_;

@@ -12,12 +12,13 @@ namespace {
 /// How one characteristic varies: (1 + c s)^power.
 class Variation {
  public:
-  Variation(double first, double last, int power) : first_(first), power_(power), growth_(std::pow(last / first, 1.0 / power) - 1.0) {}
+  Variation(double first, double last, int power)
+      : first_(first), power_(power), growth_(std::pow(last / first, 1.0 / power) - 1.0) {}
 
   double at(double s) const { return first_ * std::pow(1.0 + growth_ * s, power_); }
 
-  /// Integrals of (1 - s)^k / at(s) over the beam, k = 0, 1, 2. With 1 + c s = e^(l t), l = ln(1 + c), they become integrals of
-  /// smooth exponentials, whatever the ratio of the ends.
+  /// Integrals of (1 - s)^k / at(s) over the beam, k = 0, 1, 2. With 1 + c s = e^(l t), l = ln(1 + c), they become
+  /// integrals of smooth exponentials, whatever the ratio of the ends.
   std::array<double, 3> inverse_moments() const {
     static const Quadrature points = quadrature(CellType::seg2, "FPG4");
     constexpr int panels = 64;
@@ -44,7 +45,9 @@ class Variation {
   double growth_;
 };
 
-double uniform_equivalent(double first, double last, int power) { return 1.0 / Variation(first, last, power).inverse_moments()[0]; }
+double uniform_equivalent(double first, double last, int power) {
+  return 1.0 / Variation(first, last, power).inverse_moments()[0];
+}
 
 /// A shear factor from areas: 0 stands for a section that is rigid in shear.
 double factor_at(double first, double first_area, double last, double last_area, int power, double area, double s) {
@@ -79,7 +82,8 @@ double axial_area(const BeamSection& section) {
 }
 
 double torsion_constant(const BeamSection& section) {
-  return varies(section) ? uniform_equivalent(section.torsion, section.end->torsion, section.powers.torsion) : section.torsion;
+  return varies(section) ? uniform_equivalent(section.torsion, section.end->torsion, section.powers.torsion)
+                         : section.torsion;
 }
 
 Eigen::Matrix4d bending_stiffness(const BendingPlane& plane, double length, double rigidity, double shear_rigidity) {

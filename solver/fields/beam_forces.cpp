@@ -54,7 +54,8 @@ class SpanLoads {
 
 }  // namespace
 
-ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes, std::span<const AppliedLoad> loads, double time) {
+ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes,
+                                std::span<const AppliedLoad> loads, double time) {
   ElementField field = section_forces(at_nodes);
   std::array<int, 6> columns;
   for (int c = 0; c < 6; ++c) columns[c] = field.component(beam_force_names[c]);

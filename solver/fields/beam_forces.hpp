@@ -12,6 +12,7 @@ namespace comma::solver {
 /// beams under forces per length, weight or rotation the ends' displacements alone leave out what the load does between
 /// them: its end forces are taken away, so that the free end of a loaded cantilever has none. Throws what
 /// add_external_forces throws.
-ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes, std::span<const AppliedLoad> loads, double time);
+ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes,
+                                std::span<const AppliedLoad> loads, double time);
 
 }  // namespace comma::solver

@@ -15,14 +15,13 @@ namespace comma::solver {
 
 namespace {
 
-bool is_slender(Formulation formulation) {
-  return is_beam(formulation) || is_bar(formulation);
-}
+bool is_slender(Formulation formulation) { return is_beam(formulation) || is_bar(formulation); }
 
 /// The section where a point of `count` lies: points go from the first node to the second, one alone is in the middle.
 BeamSection section_of(const FieldInput& input, int cell, int point, int count) {
   const auto found = input.properties.sections.find(cell);
-  if (found != input.properties.sections.end()) return section_at(found->second, count == 1 ? 0.5 : static_cast<double>(point) / (count - 1));
+  if (found != input.properties.sections.end())
+    return section_at(found->second, count == 1 ? 0.5 : static_cast<double>(point) / (count - 1));
   throw Error("missing-properties",
               fmt::format("the bar or beam on cell {} has no cross-section", input.model.mesh->cell_name(cell)));
 }
@@ -46,8 +45,8 @@ ElementField on_members(const FieldInput& input, const ElementField& forces, std
       };
       const std::size_t start = result.values.size();
       result.values.resize(start + width, 0.0);
-      write(cell, section_of(input, cell, point, points), SectionForces{force(0), force(1), force(2), force(3), force(4), force(5)},
-            result.values.data() + start);
+      write(cell, section_of(input, cell, point, points),
+            SectionForces{force(0), force(1), force(2), force(3), force(4), force(5)}, result.values.data() + start);
     }
   }
   return result;
@@ -86,8 +85,10 @@ Eigen::Vector3d initial_strain(const FieldInput& input, const ImposedStrains* im
   if (imposed == nullptr || !imposed->acts_on(cell)) return Eigen::Vector3d::Zero();
   const Mesh& mesh = *input.model.mesh;
   const auto nodes = mesh.cell(cell);
-  const Point &first = mesh.nodes[static_cast<std::size_t>(nodes[0])], &second = mesh.nodes[static_cast<std::size_t>(nodes[1])];
-  return imposed->slender(cell, 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data())));
+  const Point &first = mesh.nodes[static_cast<std::size_t>(nodes[0])],
+              &second = mesh.nodes[static_cast<std::size_t>(nodes[1])];
+  return imposed->slender(
+      cell, 0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data())));
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ ElementField force_stresses(const FieldInput& input, const ElementField& forces)
 /// the rim of a circle. Throws Error `unsupported` naming a beam of general section, whose outline is not known.
 ElementField extreme_stresses(const FieldInput& input, const ElementField& forces);
 
-/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, those of command variables and `imposed` ones (null: none) included. Shear angles are 0 in Euler's
-/// beams.
-ElementField generalised_strains(const FieldInput& input, const ElementField& forces, const ImposedStrains* imposed = nullptr);
+/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, those of command variables and `imposed` ones (null: none)
+/// included. Shear angles are 0 in Euler's beams.
+ElementField generalised_strains(const FieldInput& input, const ElementField& forces,
+                                 const ImposedStrains* imposed = nullptr);
 
 }  // namespace comma::solver

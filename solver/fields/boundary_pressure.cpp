@@ -31,10 +31,14 @@ NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::
                              std::span<const Eigen::Vector3d> positions) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = stresses.component(solid_stress_names[i]);
-  if (columns[0] < 0 || columns[1] < 0) throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
+  if (columns[0] < 0 || columns[1] < 0)
+    throw Error("incompatible-field", "the field at the nodes has no stresses SIXX and SIYY");
   for (const int cell : cells)
     if (const CellType type = mesh.cell_types[static_cast<std::size_t>(cell)]; dimension(type) == mesh.dimension)
-      throw Error("wrong-surface", fmt::format("{} is a cell of the body itself ({}), not of its boundary", mesh.cell_name(cell), name_of(type)), "name a group of boundary cells");
+      throw Error(
+          "wrong-surface",
+          fmt::format("{} is a cell of the body itself ({}), not of its boundary", mesh.cell_name(cell), name_of(type)),
+          "name a group of boundary cells");
   NodalField pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY", "VZ"});
   if (mesh.dimension == 2) pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"});
   const std::size_t width = pressure.components.size();
@@ -43,7 +47,8 @@ NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::
     const double across = normal.dot(traction);
     const Eigen::Vector3d along = traction - across * normal;
     const std::array<double, 5> values = {across, along.norm(), along[0], along[1], along[2]};
-    std::copy_n(values.begin(), width, pressure.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
+    std::copy_n(values.begin(), width,
+                pressure.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
   }
   return pressure;
 }

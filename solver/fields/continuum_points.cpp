@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/reference_element.hpp"
 #include "solver/elements/cell_material.hpp"
+#include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -33,7 +33,10 @@ bool ContinuumPoints::covers(int cell) const {
 const std::vector<ContinuumSample>& ContinuumPoints::samples(int cell) {
   const CellType type = model_.mesh->cell_types[cell];
   const Formulation formulation = model_.formulations[cell];
-  auto& samples = known_[static_cast<std::size_t>(type)][is_reduced(formulation) ? 1 : mixed_field_count(formulation) > 0 ? 1 + mixed_field_count(formulation) : 0];
+  auto& samples =
+      known_[static_cast<std::size_t>(type)][is_reduced(formulation)              ? 1
+                                             : mixed_field_count(formulation) > 0 ? 1 + mixed_field_count(formulation)
+                                                                                  : 0];
   if (samples.empty()) {
     const auto family = family_ == PointFamily::mass ? mass_family(type) : stiffness_family(type, formulation);
     for (const QuadraturePoint& point : quadrature(type, family)) {

@@ -21,7 +21,8 @@ class NodeValues {
   NodeValues(const Mesh& mesh, const Field& field) : mesh_(mesh), field_(field) {}
 
   double at(int cell, int node, int component) const {
-    if (const auto* nodal = std::get_if<NodalField>(&field_)) return nodal->at(mesh_.cell(cell)[static_cast<std::size_t>(node)], component);
+    if (const auto* nodal = std::get_if<NodalField>(&field_))
+      return nodal->at(mesh_.cell(cell)[static_cast<std::size_t>(node)], component);
     const auto& element = std::get<ElementField>(field_);
     if (element.points(cell) == 0) return absent;
     return element.at(cell, element.support == Support::cell ? 0 : node, component);
@@ -40,8 +41,10 @@ class PointWeights {
   double operator()(int cell, int points, int point, int node) {
     const CellType type = model_.mesh->cell_types[cell];
     if (continua_.covers(cell)) return continua_.samples(cell)[static_cast<std::size_t>(point)].values[node];
-    if (model_.is_skin(cell)) return at_points(type, boundary_family(type), skins_)[static_cast<std::size_t>(point)][node];
-    if (is_plate(model_.formulations[cell])) return at_points(type, plate_family(type), plates_)[static_cast<std::size_t>(point)][node];
+    if (model_.is_skin(cell))
+      return at_points(type, boundary_family(type), skins_)[static_cast<std::size_t>(point)][node];
+    if (is_plate(model_.formulations[cell]))
+      return at_points(type, plate_family(type), plates_)[static_cast<std::size_t>(point)][node];
     if (points == 1) return 1.0 / node_count(type);
     return point == node ? 1.0 : 0.0;  // one point a node
   }
@@ -72,7 +75,8 @@ bool is_one_a_cell(const Field& field) {
   return element != nullptr && element->support == Support::cell;
 }
 
-double interpolated(const NodeValues& values, PointWeights& weights, int cell, int nodes, int points, int point, int component) {
+double interpolated(const NodeValues& values, PointWeights& weights, int cell, int nodes, int points, int point,
+                    int component) {
   double sum = 0.0;
   for (int node = 0; node < nodes; ++node) sum += weights(cell, points, point, node) * values.at(cell, node, component);
   return sum;
@@ -86,7 +90,8 @@ ElementField brought_to(const Model& model, const Field& field, Support support,
   }
   if (is_at_points(field)) return std::get<ElementField>(field);
   if (support == Support::cell && !is_one_a_cell(field)) {
-    throw Error("unsupported", "comma does not bring a field of several values a cell to one value a cell", "bring it to nodes, nodes of cells or Gauss points");
+    throw Error("unsupported", "comma does not bring a field of several values a cell to one value a cell",
+                "bring it to nodes, nodes of cells or Gauss points");
   }
   const Mesh& mesh = *model.mesh;
   const NodeValues values(mesh, field);
@@ -112,7 +117,8 @@ NodalField brought_to_nodes(const Mesh& mesh, const Model* model, const Field& f
   const auto& element = std::get<ElementField>(field);
   if (element.support == Support::element_node) return nodal_means(mesh, element);
   if (element.support == Support::gauss_point) {
-    if (model == nullptr) throw Error("missing-model", "a field at Gauss points is brought to nodes by the elements of a model");
+    if (model == nullptr)
+      throw Error("missing-model", "a field at Gauss points is brought to nodes by the elements of a model");
     return nodal_means(mesh, to_element_nodes(*model, element));
   }
   ElementField spread{element.quantity, Support::element_node, element.components, {0}, {}};

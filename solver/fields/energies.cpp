@@ -36,7 +36,8 @@ void check_points(const Model& model, const ElementField& field, int cell, std::
 /// What the material knows at the points of a field.
 class MaterialAtPoints {
  public:
-  MaterialAtPoints(const FieldInput& input, const ElementField& field) : input_(input), field_(field), points_(input.model) {}
+  MaterialAtPoints(const FieldInput& input, const ElementField& field)
+      : input_(input), field_(field), points_(input.model) {}
 
   bool covers(int cell) const { return points_.covers(cell); }
 
@@ -53,10 +54,12 @@ class MaterialAtPoints {
 };
 
 Hourglass::Patterns pattern_forces(const ElementField& stresses, int cell) {
-  static constexpr std::string_view names[4][3] = {{"S1X", "S1Y", "S1Z"}, {"S2X", "S2Y", "S2Z"}, {"S3X", "S3Y", "S3Z"}, {"S4X", "S4Y", "S4Z"}};
+  static constexpr std::string_view names[4][3] = {
+      {"S1X", "S1Y", "S1Z"}, {"S2X", "S2Y", "S2Z"}, {"S3X", "S3Y", "S3Z"}, {"S4X", "S4Y", "S4Z"}};
   Hourglass::Patterns forces;
   for (int pattern = 0; pattern < 4; ++pattern)
-    for (int axis = 0; axis < 3; ++axis) forces(pattern, axis) = stresses.at(cell, 0, stresses.component(names[pattern][axis]));
+    for (int axis = 0; axis < 3; ++axis)
+      forces(pattern, axis) = stresses.at(cell, 0, stresses.component(names[pattern][axis]));
   return forces;
 }
 
@@ -66,7 +69,8 @@ Hourglass::Places relative_values(const Mesh& mesh, int cell, const NodalField& 
   const auto nodes = mesh.cell(cell);
   Hourglass::Places values;
   for (int a = 0; a < 8; ++a)
-    for (int axis = 0; axis < 3; ++axis) values(a, axis) = field.at(nodes[static_cast<std::size_t>(a)], field.component(names[axis]));
+    for (int axis = 0; axis < 3; ++axis)
+      values(a, axis) = field.at(nodes[static_cast<std::size_t>(a)], field.component(names[axis]));
   values.rowwise() -= values.row(0).eval();
   return values;
 }
@@ -81,12 +85,14 @@ Hourglass::Places places(const Mesh& mesh, int cell) {
 }
 
 template <class EnergyOf>
-void add_of_stabilised_cells(const Model& model, const ElementField& stresses, ElementField& densities, EnergyOf&& energy_of) {
+void add_of_stabilised_cells(const Model& model, const ElementField& stresses, ElementField& densities,
+                             EnergyOf&& energy_of) {
   ContinuumPoints points(model);
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
     if (!is_stabilised(stresses, cell) || densities.points(cell) != 1) continue;
     const double volume = points.locate(cell, points.samples(cell).front()).weight;
-    densities.values[static_cast<std::size_t>(densities.starts[static_cast<std::size_t>(cell)])] += energy_of(cell) / volume;
+    densities.values[static_cast<std::size_t>(densities.starts[static_cast<std::size_t>(cell)])] +=
+        energy_of(cell) / volume;
   }
 }
 
@@ -109,8 +115,9 @@ void add_stabilisation_energy(const FieldInput& input, const ElementField& stres
   });
 }
 
-void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements, const ElementField* stresses_before,
-                            const NodalField* displacements_before, ElementField& densities) {
+void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements,
+                            const ElementField* stresses_before, const NodalField* displacements_before,
+                            ElementField& densities) {
   if (stresses.component("S1X") < 0) return;
   const Mesh& mesh = *model.mesh;
   add_of_stabilised_cells(model, stresses, densities, [&](int cell) {
@@ -122,7 +129,8 @@ void add_stabilisation_work(const Model& model, const ElementField& stresses, co
   });
 }
 
-ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces, const NodalField& displacements, const ElementField* forces_before,
+ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces,
+                      const NodalField& displacements, const ElementField* forces_before,
                       const NodalField* displacements_before) {
   const Mesh& mesh = *model.mesh;
   const auto elongation = [&](const NodalField& moved, int cell) {
@@ -131,11 +139,13 @@ ElementField bar_work(const Model& model, std::span<const int> bars, const Eleme
     double sum = 0.0;
     for (const auto& [name, direction] : {std::pair("DX", 0), std::pair("DY", 1), std::pair("DZ", 2)}) {
       const int component = moved.component(name);
-      if (component >= 0 && axis[direction] != 0.0) sum += axis[direction] * (moved.at(ends[1], component) - moved.at(ends[0], component));
+      if (component >= 0 && axis[direction] != 0.0)
+        sum += axis[direction] * (moved.at(ends[1], component) - moved.at(ends[0], component));
     }
     return sum;
   };
-  ElementField work{"ENER_R", Support::cell, {"TOTALE"}, std::vector<int>(static_cast<std::size_t>(mesh.cell_count()) + 1, 0), {}};
+  ElementField work{
+      "ENER_R", Support::cell, {"TOTALE"}, std::vector<int>(static_cast<std::size_t>(mesh.cell_count()) + 1, 0), {}};
   for (const int cell : bars) work.starts[static_cast<std::size_t>(cell) + 1] = 1;
   std::partial_sum(work.starts.begin(), work.starts.end(), work.starts.begin());
   work.values.resize(bars.size());
@@ -166,7 +176,8 @@ ElementField strain_energy_density(const FieldInput& input, const ElementField& 
     Vector6d value = strain.at(cell, g);
     value.tail<3>() *= 2.0;
     if (is_plane_stress(input.model.formulations[static_cast<std::size_t>(cell)]))
-      return 0.5 * value.head<4>().dot(plane_stress_stiffness(material_of(input, cell), points.at(cell, g)) * value.head<4>());
+      return 0.5 * value.head<4>().dot(plane_stress_stiffness(material_of(input, cell), points.at(cell, g)) *
+                                       value.head<4>());
     return 0.5 * value.dot(solid_stiffness(material_of(input, cell), points.at(cell, g)) * value);
   });
 }
@@ -233,9 +244,12 @@ ElementField integrate_skin(const Model& model, const NodalField& field, std::sp
       result.values.resize(start + field.components.size(), 0.0);
       for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::skin)) {
         const CellPoint point = locate(mesh, cell, sample);
-        const double weight = sample.weight * point.measure(dimension(mesh.cell_types[cell])) * (is_axisymmetric(model.formulations[cell]) ? point.at[0] : 1.0);
+        const double weight = sample.weight * point.measure(dimension(mesh.cell_types[cell])) *
+                              (is_axisymmetric(model.formulations[cell]) ? point.at[0] : 1.0);
         for (std::size_t c = 0; c < field.components.size(); ++c)
-          for (std::size_t a = 0; a < nodes.size(); ++a) result.values[start + c] += weight * sample.values[static_cast<Eigen::Index>(a)] * field.at(nodes[a], static_cast<int>(c));
+          for (std::size_t a = 0; a < nodes.size(); ++a)
+            result.values[start + c] +=
+                weight * sample.values[static_cast<Eigen::Index>(a)] * field.at(nodes[a], static_cast<int>(c));
       }
     }
     result.starts.push_back(static_cast<int>(result.values.size() / field.components.size()));

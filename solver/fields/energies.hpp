@@ -23,18 +23,20 @@ ElementField total_energy_density(const ElementField& stresses, const ElementFie
                                   const ElementField* stresses_before, const ElementField* strains_before,
                                   const ElementField* previous);
 
-/// Adds to ENEL_ELGA of elastic hexahedra with one point (3D_SI) that of the forces on their hourglass patterns, S1X .. S4Z of `stresses`, as a mean over the
-/// volume of the point: 1/2 Q : compliance : Q.
+/// Adds to ENEL_ELGA of elastic hexahedra with one point (3D_SI) that of the forces on their hourglass patterns, S1X ..
+/// S4Z of `stresses`, as a mean over the volume of the point: 1/2 Q : compliance : Q.
 void add_stabilisation_energy(const FieldInput& input, const ElementField& stresses, ElementField& densities);
 
-/// Adds to ETOT_ELGA of hexahedra with one point the work of these forces since the step before, on the change of the patterns, by the trapezoidal rule. The
-/// fields of the step before are null at the first one.
-void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements, const ElementField* stresses_before,
-                            const NodalField* displacements_before, ElementField& densities);
+/// Adds to ETOT_ELGA of hexahedra with one point the work of these forces since the step before, on the change of the
+/// patterns, by the trapezoidal rule. The fields of the step before are null at the first one.
+void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements,
+                            const ElementField* stresses_before, const NodalField* displacements_before,
+                            ElementField& densities);
 
-/// The work of the normal forces (N of `forces`) of bars since the step before, on the change of their lengths, by the trapezoidal rule: one value (TOTALE) for each
-/// of the bars. The fields of the step before are null at the first one.
-ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces, const NodalField& displacements, const ElementField* forces_before,
+/// The work of the normal forces (N of `forces`) of bars since the step before, on the change of their lengths, by the
+/// trapezoidal rule: one value (TOTALE) for each of the bars. The fields of the step before are null at the first one.
+ElementField bar_work(const Model& model, std::span<const int> bars, const ElementField& forces,
+                      const NodalField& displacements, const ElementField* forces_before,
                       const NodalField* displacements_before);
 
 /// Whether a cell has forces on hourglass patterns among its stresses.

@@ -102,9 +102,7 @@ Principal principal(const Eigen::Matrix3d& tensor) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-double von_mises(const Eigen::Matrix3d& stress) {
-  return std::sqrt(1.5) * norm_of_deviator(stress);
-}
+double von_mises(const Eigen::Matrix3d& stress) { return std::sqrt(1.5) * norm_of_deviator(stress); }
 
 double tresca(const Eigen::Matrix3d& stress) {
   const Eigen::Vector3d values = principal(stress).values;

@@ -30,7 +30,8 @@ NodalField equivalent_stresses(const NodalField& stresses);
 ElementField equivalent_strains(const ElementField& strains);
 NodalField equivalent_strains(const NodalField& strains);
 
-/// Of stresses or strains: VMIS = sqrt(3/2 d:d) with the deviator d, TRESCA (largest difference of principal values), TRACE, DETER (determinant).
+/// Of stresses or strains: VMIS = sqrt(3/2 d:d) with the deviator d, TRESCA (largest difference of principal values),
+/// TRACE, DETER (determinant).
 NodalField tensor_invariants(const NodalField& tensors);
 
 /// Of stresses or strains: PRIN_1 <= PRIN_2 <= PRIN_3 and their directions VECT_1_X ... VECT_3_Z.

@@ -14,10 +14,12 @@ namespace {
 const NodalField& nodal_field(const ResultStep& step, std::string_view name) {
   const auto found = step.fields.find(name);
   if (found != step.fields.end()) return std::get<NodalField>(found->second);
-  throw Error("unknown-field", fmt::format("step {} has no field {}, which the work needs", step.order, name), fmt::format("compute {} first", name));
+  throw Error("unknown-field", fmt::format("step {} has no field {}, which the work needs", step.order, name),
+              fmt::format("compute {} first", name));
 }
 
-/// Whether a component is a displacement or a rotation, on which forces do work; pressures and changes of volume are not.
+/// Whether a component is a displacement or a rotation, on which forces do work; pressures and changes of volume are
+/// not.
 bool is_motion(std::string_view name) {
   const std::optional<Component> component = component_named(name);
   return component && static_cast<int>(*component) < motion_count;

@@ -15,8 +15,8 @@ namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> structural_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ", "NXX",
-                                                          "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
+constexpr std::array<std::string_view, 14> structural_force_names = {"N",   "VY",  "VZ",  "MT",  "MFY", "MFZ", "NXX",
+                                                                     "NYY", "NXY", "MXX", "MYY", "MXY", "QX",  "QY"};
 
 CellType linear_type(CellType type) {
   switch (dimension(type) * 10 + corner_count(type)) {
@@ -72,7 +72,8 @@ class Smoothing {
     const Formulation formulation = model_.formulations[cell];
     const bool is_surface = is_plate(formulation) && dimension(type) == 2;
     if (is_surface || continuum_dimension(formulation) == dimension(type)) {
-      Eigen::MatrixXd matrix = gauss_to_nodes(type, is_surface ? plate_family(type) : stiffness_family(type, formulation));
+      Eigen::MatrixXd matrix =
+          gauss_to_nodes(type, is_surface ? plate_family(type) : stiffness_family(type, formulation));
       if (matrix.cols() == points) return matrix;
     } else if (points == nodes) {
       return Eigen::MatrixXd::Identity(nodes, nodes);
@@ -129,7 +130,8 @@ ElementField smoothed(const Mesh& mesh, const ElementField& field, MatrixOf&& ma
 
 ElementField to_element_nodes(const Model& model, const ElementField& field) {
   Smoothing smoothing(model);
-  return smoothed(*model.mesh, field, [&](int cell, int points) -> const Eigen::MatrixXd& { return smoothing.of(cell, points); });
+  return smoothed(*model.mesh, field,
+                  [&](int cell, int points) -> const Eigen::MatrixXd& { return smoothing.of(cell, points); });
 }
 
 ElementField to_element_nodes(const Model& model, const NodalField& field) {
@@ -157,8 +159,11 @@ ElementField to_element_nodes(const Model& model, const NodalField& field) {
 void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
   const auto check = [&](int cell) {
     if (field.points(cell) == 0 || field.values_a_point(cell) == 1) return;
-    throw Error("layered-field", fmt::format("the field has {} values a point on cell {}, one for each place in the thickness of the plate", field.values_a_point(cell), mesh.cell_name(cell)),
-                "take one layer: POST_CHAMP with EXTR_COQUE");
+    throw Error(
+        "layered-field",
+        fmt::format("the field has {} values a point on cell {}, one for each place in the thickness of the plate",
+                    field.values_a_point(cell), mesh.cell_name(cell)),
+        "take one layer: POST_CHAMP with EXTR_COQUE");
   };
   if (field.sub_points.empty()) return;
   if (cells) {
@@ -218,12 +223,8 @@ ElementField select_components(const ElementField& field, std::span<const std::s
   return result;
 }
 
-ElementField continuum_stresses(const ElementField& field) {
-  return select_components(field, solid_stress_names);
-}
+ElementField continuum_stresses(const ElementField& field) { return select_components(field, solid_stress_names); }
 
-ElementField section_forces(const ElementField& field) {
-  return select_components(field, structural_force_names);
-}
+ElementField section_forces(const ElementField& field) { return select_components(field, structural_force_names); }
 
 }  // namespace comma::solver

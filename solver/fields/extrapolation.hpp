@@ -30,7 +30,8 @@ ElementField to_element_nodes(const Model& model, const NodalField& field);
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
 
 /// Throws Error `layered-field` naming a cell among `cells` (none given: of all) where a point has several values.
-void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
+void require_one_value_a_point(const Mesh& mesh, const ElementField& field,
+                               std::optional<std::span<const int>> cells = {});
 
 /// The components `names` of a field, on the cells that carry at least one of them.
 ElementField select_components(const ElementField& field, std::span<const std::string_view> names);

@@ -23,16 +23,19 @@ struct NodalField {
   std::vector<std::string> components;  ///< "DX", "DY" ...
   std::vector<double> values;
 
-  double at(int node, int component) const { return values[static_cast<std::size_t>(node) * components.size() + component]; }
+  double at(int node, int component) const {
+    return values[static_cast<std::size_t>(node) * components.size() + component];
+  }
   /// Index of a component, -1 if there is none.
   int component(std::string_view name) const;
 };
 
 enum class Support : std::uint8_t { cell, element_node, gauss_point };
 
-/// values[(starts[cell] + point) * components.size() + component]; starts has cell_count()+1 entries, and a cell that does not
-/// carry the field has no points; NaN where the cell does not carry the component. Where plates have several values a point, one for each place in
-/// their thickness, the values of a point follow each other, `starts` counts them all, and sub_points says how many they are.
+/// values[(starts[cell] + point) * components.size() + component]; starts has cell_count()+1 entries, and a cell that
+/// does not carry the field has no points; NaN where the cell does not carry the component. Where plates have several
+/// values a point, one for each place in their thickness, the values of a point follow each other, `starts` counts them
+/// all, and sub_points says how many they are.
 struct ElementField {
   std::string quantity;
   Support support = Support::cell;

@@ -27,9 +27,11 @@ int component_of(const Field& field, std::string_view name) {
 
 /// The stresses or strains of an element that carries stiffness; nothing for other quantities.
 std::set<std::string_view> known_components(std::string_view quantity, Formulation formulation) {
-  static const std::set<std::string_view> plane_strains = {"EPXX", "EPYY", "EPZZ", "EPXY"}, solid_strains = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+  static const std::set<std::string_view> plane_strains = {"EPXX", "EPYY", "EPZZ", "EPXY"},
+                                          solid_strains = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
   const int continuum = continuum_dimension(formulation);
-  if (quantity == "EPSI_R") return continuum == 3 ? solid_strains : continuum == 2 ? plane_strains : std::set<std::string_view>();
+  if (quantity == "EPSI_R")
+    return continuum == 3 ? solid_strains : continuum == 2 ? plane_strains : std::set<std::string_view>();
   if (quantity != "SIEF_R") return {};
   std::set<std::string_view> names;
   if (continuum == 2) names.insert(plane_stress_names.begin(), plane_stress_names.end());
@@ -147,7 +149,8 @@ std::optional<FieldEntry> first_infinite(const Field& field) {
   const auto& values = values_of(field);
   for (int place = 0; place < rows.place_count(); ++place) {
     for (int i = 0; i < rows.count(place) * width; ++i) {
-      if (std::isinf(values[static_cast<std::size_t>(rows.begin(place)) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)])) {
+      if (std::isinf(values[static_cast<std::size_t>(rows.begin(place)) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(i)])) {
         return FieldEntry{place, i / width, i % width};
       }
     }
@@ -175,7 +178,8 @@ void fill_absent(Field& field, double value) {
 void add_unnamed_zeros(ElementField& field, const Model& model) {
   std::set<std::string_view> wanted;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
-    if (field.points(cell) > 0 && !model.is_skin(cell)) wanted.merge(known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]));
+    if (field.points(cell) > 0 && !model.is_skin(cell))
+      wanted.merge(known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]));
   const std::size_t before = field.components.size();
   for (const std::string_view name : wanted)
     if (field.component(name) < 0) field.components.emplace_back(name);
@@ -183,8 +187,12 @@ void add_unnamed_zeros(ElementField& field, const Model& model) {
   std::vector<double> values;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
     const auto own = known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]);
-    for (int row = field.starts[static_cast<std::size_t>(cell)]; row < field.starts[static_cast<std::size_t>(cell) + 1]; ++row)
-      for (std::size_t c = 0; c < width; ++c) values.push_back(c < before ? field.values[static_cast<std::size_t>(row) * before + c] : own.contains(field.components[c]) ? 0.0 : absent);
+    for (int row = field.starts[static_cast<std::size_t>(cell)]; row < field.starts[static_cast<std::size_t>(cell) + 1];
+         ++row)
+      for (std::size_t c = 0; c < width; ++c)
+        values.push_back(c < before                          ? field.values[static_cast<std::size_t>(row) * before + c]
+                         : own.contains(field.components[c]) ? 0.0
+                                                             : absent);
   }
   field.values = std::move(values);
 }
@@ -256,11 +264,13 @@ Field with_components(const Field& field, std::span<const int> components) {
   const auto rows = static_cast<std::size_t>(FieldRows(field).total());
   Field part = field;
   components_of(part).clear();
-  for (const int component : components) components_of(part).push_back(components_of(field)[static_cast<std::size_t>(component)]);
+  for (const int component : components)
+    components_of(part).push_back(components_of(field)[static_cast<std::size_t>(component)]);
   auto& values = values_of(part);
   values.clear();
   for (std::size_t row = 0; row < rows; ++row) {
-    for (const int component : components) values.push_back(values_of(field)[row * width + static_cast<std::size_t>(component)]);
+    for (const int component : components)
+      values.push_back(values_of(field)[row * width + static_cast<std::size_t>(component)]);
   }
   return part;
 }
@@ -288,7 +298,8 @@ void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* p
         const double value = given[static_cast<std::size_t>(from_rows.begin(place) + point) * from_width +
                                    static_cast<std::size_t>(source)];
         if (std::isnan(value)) continue;
-        double& slot = values[static_cast<std::size_t>(to_rows.begin(place) + point) * to_width + static_cast<std::size_t>(sink)];
+        double& slot =
+            values[static_cast<std::size_t>(to_rows.begin(place) + point) * to_width + static_cast<std::size_t>(sink)];
         const double base = piece.adds && !std::isnan(slot) ? slot : 0.0;
         slot = made_number(base + piece.factor * value);
       }
@@ -308,7 +319,8 @@ void take_common_values(Field& target, const Field& source) {
       if (from_rows.count(place) != to_rows.count(place)) continue;
       for (int point = 0; point < to_rows.count(place); ++point) {
         double& slot = values[static_cast<std::size_t>(to_rows.begin(place) + point) * names.size() + sink];
-        const double value = given[static_cast<std::size_t>(from_rows.begin(place) + point) * given_names.size() + static_cast<std::size_t>(column)];
+        const double value = given[static_cast<std::size_t>(from_rows.begin(place) + point) * given_names.size() +
+                                   static_cast<std::size_t>(column)];
         if (!std::isnan(slot) && !std::isnan(value)) slot = value;
       }
     }
@@ -364,7 +376,8 @@ std::vector<ArgumentPlace> argument_places(const ValueFunction& function, std::s
     std::size_t argument = 0;
     while (argument < arguments.size() && component_of(*arguments[argument], parameter) < 0) ++argument;
     if (argument == arguments.size()) {
-      throw Error("missing-variable", fmt::format("a function depends on {}, which is a component of none of the fields", parameter));
+      throw Error("missing-variable",
+                  fmt::format("a function depends on {}, which is a component of none of the fields", parameter));
     }
     places.push_back({argument, component_of(*arguments[argument], parameter)});
   }
@@ -393,9 +406,11 @@ Field evaluate(const Field& which, std::span<const ValueFunction> functions, std
       const FieldRows& source_rows = argument_rows[source.argument];
       const bool carried = point < source_rows.count(place);
       const std::size_t source_width = components_of(*arguments[source.argument]).size();
-      const double value = carried ? values_of(*arguments[source.argument])[static_cast<std::size_t>(source_rows.begin(place) + point) * source_width +
-                                                                            static_cast<std::size_t>(source.component)]
-                                   : absent;
+      const double value =
+          carried ? values_of(*arguments[source.argument])[static_cast<std::size_t>(source_rows.begin(place) + point) *
+                                                               source_width +
+                                                           static_cast<std::size_t>(source.component)]
+                  : absent;
       if (std::isnan(value)) {
         throw Error("missing-variable", fmt::format("a function depends on {}, which has no value at one of its points",
                                                     functions[index].parameters[at.size()]));

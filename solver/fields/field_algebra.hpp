@@ -1,6 +1,7 @@
 // Making fields out of fields: sums, pieces put together, functions of values (CREA_CHAMP, U4.72.04).
 //
-// A place is a node of a nodal field or a cell of a field on elements; it has one point or several, and a row of values at each.
+// A place is a node of a nodal field or a cell of a field on elements; it has one point or several, and a row of values
+// at each.
 #pragma once
 
 #include <cmath>
@@ -32,7 +33,8 @@ NodalField node_coordinates(const Mesh& mesh);
 /// One component with the same value wherever the other field has points.
 Field uniform_like(const Field& other, std::string component, double value);
 
-/// A number made of others that are there: infinite where it is none (a difference of infinite numbers), for NaN says that nothing is there.
+/// A number made of others that are there: infinite where it is none (a difference of infinite numbers), for NaN says
+/// that nothing is there.
 inline double made_number(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
 
 /// A value of a field: at a point of a node (0) or cell.
@@ -49,7 +51,8 @@ void assign(Field& field, int component, double value, const std::vector<int>* p
 
 /// Absent values become `value`.
 void fill_absent(Field& field, double value);
-/// Stresses (SIEF_R) and strains (EPSI_R) of the model's elements have all components that the element knows: those that the field does not name become zero.
+/// Stresses (SIEF_R) and strains (EPSI_R) of the model's elements have all components that the element knows: those
+/// that the field does not name become zero.
 void add_unnamed_zeros(ElementField& field, const Model& model);
 
 /// Takes away the room of cells that have no value at all.
@@ -69,9 +72,9 @@ struct FieldTerm {
   const Field* field = nullptr;
   double factor = 1.0;
 };
-/// The sum of factor times field. A component that a term lacks somewhere adds nothing there; what all lack stays absent, what
-/// is no number is infinite (made_number).
-/// Throws Error `incompatible-field` for fields that do not lie at the same points.
+/// The sum of factor times field. A component that a term lacks somewhere adds nothing there; what all lack stays
+/// absent, what is no number is infinite (made_number). Throws Error `incompatible-field` for fields that do not lie at
+/// the same points.
 Field linear_combination(std::span<const FieldTerm> terms);
 
 /// Components `from` of a field, called `to` in the field that receives them; all under their own names when empty.
@@ -83,11 +86,12 @@ struct FieldPiece {
   bool adds = false;  ///< to what is there, which counts as 0 where absent; else replaces it
 };
 /// Puts a piece into a field at the places (all without `places`). Places that the piece does not carry keep what they
-/// have; what is no number becomes infinite (made_number). Throws Error `incompatible-field` (another kind of place, another number of points), `unknown-component`.
+/// have; what is no number becomes infinite (made_number). Throws Error `incompatible-field` (another kind of place,
+/// another number of points), `unknown-component`.
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places = nullptr);
 
-/// Takes the values of a field for those that another one has too: of like components, at places with as many points. Throws
-/// Error `incompatible-field` for another kind of place.
+/// Takes the values of a field for those that another one has too: of like components, at places with as many points.
+/// Throws Error `incompatible-field` for another kind of place.
 void take_common_values(Field& target, const Field& source);
 
 /// A function of named values.
@@ -96,8 +100,8 @@ struct ValueFunction {
   std::function<double(std::span<const double>)> value;
 };
 /// At each point the value of the function whose index in `functions` the field `which` has there, its parameters being
-/// the components of `arguments` at that point, infinite where it is no number (made_number). Throws Error `incompatible-field` (other places), `missing-variable`
-/// naming a parameter that no argument has there.
+/// the components of `arguments` at that point, infinite where it is no number (made_number). Throws Error
+/// `incompatible-field` (other places), `missing-variable` naming a parameter that no argument has there.
 Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
                std::string quantity);
 

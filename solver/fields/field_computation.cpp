@@ -33,9 +33,7 @@ const std::map<std::string, std::string, std::less<>>& strain_criteria() {
   return table;
 }
 
-std::string quantity_of(std::string_view name) {
-  return std::string(name.substr(0, name.rfind('_')));
-}
+std::string quantity_of(std::string_view name) { return std::string(name.substr(0, name.rfind('_'))); }
 
 std::vector<int> skin_cells(const Model& model) {
   std::vector<int> cells;
@@ -45,9 +43,11 @@ std::vector<int> skin_cells(const Model& model) {
   return cells;
 }
 
-// What plates have: forces and strains in their own axes, stresses in layers (of which one may be taken to the nodes), energies, forces on nodes.
-constexpr std::array<std::string_view, 16> plate_fields = {"EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIEF_ELGA", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU", "SIEQ_ELGA",
-                                                           "SIEQ_ELNO", "SIEQ_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+// What plates have: forces and strains in their own axes, stresses in layers (of which one may be taken to the nodes),
+// energies, forces on nodes.
+constexpr std::array<std::string_view, 16> plate_fields = {
+    "EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIEF_ELGA", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU",
+    "SIEQ_ELGA", "SIEQ_ELNO", "SIEQ_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
 
 std::vector<int> all_cells(const Model& model) {
   std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
@@ -58,12 +58,17 @@ std::vector<int> all_cells(const Model& model) {
 void check_plates(const Model& model, std::string_view name, std::optional<std::span<const int>> cells) {
   if (std::ranges::find(plate_fields, name) != plate_fields.end()) return;
   const std::vector<int> all = cells ? std::vector<int>(cells->begin(), cells->end()) : all_cells(model);
-  const auto plate = std::ranges::find_if(all, [&](int cell) { return is_plate(model.formulations[cell]) && !model.is_skin(cell); });
+  const auto plate =
+      std::ranges::find_if(all, [&](int cell) { return is_plate(model.formulations[cell]) && !model.is_skin(cell); });
   if (plate == all.end()) return;
   // Over the whole model the elements that have such a field get it.
-  const auto has_other_elements = [&](int cell) { return model.formulations[cell] != Formulation::none && !is_plate(model.formulations[cell]) && !model.is_skin(cell); };
+  const auto has_other_elements = [&](int cell) {
+    return model.formulations[cell] != Formulation::none && !is_plate(model.formulations[cell]) && !model.is_skin(cell);
+  };
   if (!cells && std::ranges::any_of(all, has_other_elements)) return;
-  throw Error("unsupported", fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)), "name the cells without plates, or take EFGE_ELNO or SIGM_ELNO");
+  throw Error("unsupported",
+              fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)),
+              "name the cells without plates, or take EFGE_ELNO or SIGM_ELNO");
 }
 
 std::vector<int> plate_cells(const Model& model) {
@@ -78,9 +83,7 @@ ElementField beside(const ElementField& of_continua, const ElementField& of_plat
   return of_continua.values.empty() ? of_plates : side_by_side(of_continua, of_plates);
 }
 
-bool ends(std::string_view name, std::string_view place) {
-  return name.ends_with(place);
-}
+bool ends(std::string_view name, std::string_view place) { return name.ends_with(place); }
 
 }  // namespace
 
@@ -151,7 +154,8 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
     return surface_stresses(result_.mesh(), element_field("SIGM_ELNO", step), skin);
   }
   // Only sections that are asked for need an outline.
-  if (name == "SIPM_ELNO" && cells) return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
+  if (name == "SIPM_ELNO" && cells)
+    return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
   if (name == "FORC_NODA" && cells) return internal_forces_of(*cells, step);
   if (name == "REAC_NODA" && cells) return reactions_of(*cells, step);
   if (ends(name, "_NOEU")) return nodal_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
@@ -161,7 +165,8 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
   } else if (const auto judged = strain_criteria().find(quantity); judged != strain_criteria().end()) {
     field = equivalent_strains(element_field(judged->second + std::string(name.substr(4)), step));
   } else {
-    field = to_element_nodes(*problem_.model, quantity == "SIEF" ? stresses_beside_plates(step) : element_field(quantity + "_ELGA", step));
+    field = to_element_nodes(
+        *problem_.model, quantity == "SIEF" ? stresses_beside_plates(step) : element_field(quantity + "_ELGA", step));
   }
   if (cells && std::holds_alternative<ElementField>(field)) return on_cells(std::get<ElementField>(field), *cells);
   return field;
@@ -176,7 +181,8 @@ const Field& FieldComputation::needed(const std::string& name, std::size_t step)
   const Key key(step, name);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
   if (!knows(name)) {
-    throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}", result_.steps[step].instant, name));
+    throw Error("unknown-field",
+                fmt::format("step INST={} of the result holds no {}", result_.steps[step].instant, name));
   }
   Field field = derive(name, step);
   return known_.emplace(key, std::move(field)).first->second;
@@ -207,22 +213,30 @@ FieldInput FieldComputation::input() const {
 const Field& FieldComputation::remembered(std::string_view name, std::size_t step) const {
   const auto& held = result_.steps[step].fields;
   if (const auto found = held.find(name); found != held.end()) return found->second;
-  throw Error("unknown-field", fmt::format("step INST={} of the result holds no {}, which a material with a memory needs", result_.steps[step].instant, name),
+  throw Error("unknown-field",
+              fmt::format("step INST={} of the result holds no {}, which a material with a memory needs",
+                          result_.steps[step].instant, name),
               "archive it (ARCHIVAGE without CHAM_EXCLU)");
 }
 
 const ElementField* FieldComputation::remembered_stresses(std::size_t step) const {
   const bool is_held = assembler_.takes_initial_stresses() && result_.steps[step].fields.contains("SIEF_ELGA");
-  return is_held || assembler_.has_memory() || began_with_stresses() ? &std::get<ElementField>(remembered("SIEF_ELGA", step)) : nullptr;
+  return is_held || assembler_.has_memory() || began_with_stresses()
+             ? &std::get<ElementField>(remembered("SIEF_ELGA", step))
+             : nullptr;
 }
 
-bool FieldComputation::began_with_stresses() const { return assembler_.takes_initial_stresses() && problem_.initial && problem_.initial->stresses; }
+bool FieldComputation::began_with_stresses() const {
+  return assembler_.takes_initial_stresses() && problem_.initial && problem_.initial->stresses;
+}
 
-// What bars and beams have beside the stresses of their displacements is in no energy, nor in the strains that follow from forces.
+// What bars and beams have beside the stresses of their displacements is in no energy, nor in the strains that follow
+// from forces.
 void FieldComputation::require_no_initial_stresses(std::string_view name, std::size_t step) {
   const ElementField* known = remembered_stresses(step);
   if (known == nullptr || !assembler_.has_initial_stresses(to_dofs(displacement(step), dofs_), *known)) return;
-  throw Error("unsupported", fmt::format("{} of bars and beams is not known beside initial stresses", name), "begin without SIGM in ETAT_INIT, or take fields of forces (EFGE_ELNO)");
+  throw Error("unsupported", fmt::format("{} of bars and beams is not known beside initial stresses", name),
+              "begin without SIGM in ETAT_INIT, or take fields of forces (EFGE_ELNO)");
 }
 
 Field FieldComputation::stresses(std::size_t step) {
@@ -249,7 +263,8 @@ Field FieldComputation::internal_variables(std::size_t step) {
 
 Field FieldComputation::stress_field_at_points(std::size_t step) {
   if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));
-  return beside(continuum_stresses(stresses_beside_plates(step)), plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+  return beside(continuum_stresses(stresses_beside_plates(step)),
+                plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
 }
 
 // Stresses of plates and forces of other elements have little in common.
@@ -259,14 +274,16 @@ const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
   const Key key(step, "SIEF_ELGA beside plates");
   if (const auto found = known_.find(key); found != known_.end()) return std::get<ElementField>(found->second);
   std::vector<int> others;
-  std::ranges::copy_if(all_cells(*problem_.model), std::back_inserter(others), [&](int cell) { return !is_plate(problem_.model->formulations[cell]); });
+  std::ranges::copy_if(all_cells(*problem_.model), std::back_inserter(others),
+                       [&](int cell) { return !is_plate(problem_.model->formulations[cell]); });
   return std::get<ElementField>(known_.emplace(key, on_cells(all, others)).first->second);
 }
 
 ElementField FieldComputation::forces_at_nodes(std::size_t step) {
   const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
   if (!has_plates()) return others;
-  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners, problem_.loads, result_.steps[step].instant);
+  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
+                                                   problem_.loads, result_.steps[step].instant);
   of_plates.support = Support::element_node;
   return beside(others, of_plates);
 }
@@ -274,7 +291,8 @@ ElementField FieldComputation::forces_at_nodes(std::size_t step) {
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
   const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
-  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties, to_element_nodes(*problem_.model, plate_forces(step))));
+  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties,
+                                            to_element_nodes(*problem_.model, plate_forces(step))));
 }
 
 bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
@@ -285,12 +303,11 @@ bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cel
 bool FieldComputation::has_plates() const { return !plate_cells(*problem_.model).empty(); }
 
 ElementField FieldComputation::plate_forces(std::size_t step) {
-  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads, result_.steps[step].instant);
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads,
+                                 result_.steps[step].instant);
 }
 
-Field FieldComputation::section_force_field(std::size_t step) {
-  return section_forces(stresses_beside_plates(step));
-}
+Field FieldComputation::section_force_field(std::size_t step) { return section_forces(stresses_beside_plates(step)); }
 
 Field FieldComputation::end_forces(std::size_t step) {
   const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
@@ -311,9 +328,12 @@ Field FieldComputation::section_strains(std::size_t step) {
   const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   if (!names_one("NXX")) return with_flow_of_bars(generalised_strains(input(), forces, &imposed), step);
-  if (strains_act_on(step, plate_cells(*problem_.model))) throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
+  if (strains_act_on(step, plate_cells(*problem_.model)))
+    throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
   const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
-  return names_one("N") ? side_by_side(with_flow_of_bars(generalised_strains(input(), forces, &imposed), step), of_plates) : of_plates;
+  return names_one("N")
+             ? side_by_side(with_flow_of_bars(generalised_strains(input(), forces, &imposed), step), of_plates)
+             : of_plates;
 }
 
 // The elongation of a bar that flows does not follow from its force.
@@ -322,11 +342,14 @@ ElementField FieldComputation::with_flow_of_bars(ElementField strains, std::size
   if (!problem_.behaviours || axial < 0) return strains;
   const ElementField* whole = nullptr;
   for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell) {
-    if (!is_bar(problem_.model->formulations[static_cast<std::size_t>(cell)]) || !solver::has_memory((*problem_.behaviours)[static_cast<std::size_t>(cell)])) continue;
+    if (!is_bar(problem_.model->formulations[static_cast<std::size_t>(cell)]) ||
+        !solver::has_memory((*problem_.behaviours)[static_cast<std::size_t>(cell)]))
+      continue;
     if (whole == nullptr) whole = &element_field("EPSI_ELGA", step);
     const int column = whole->component("EPXX");
     for (int point = 0; point < strains.points(cell) && whole->points(cell) > 0 && column >= 0; ++point)
-      strains.values[static_cast<std::size_t>(strains.starts[cell] + point) * strains.components.size() + static_cast<std::size_t>(axial)] = whole->at(cell, 0, column);
+      strains.values[static_cast<std::size_t>(strains.starts[cell] + point) * strains.components.size() +
+                     static_cast<std::size_t>(axial)] = whole->at(cell, 0, column);
   }
   return strains;
 }
@@ -347,7 +370,8 @@ Field FieldComputation::mechanical_strains(std::size_t step) {
 
 Field FieldComputation::plastic_strains_at_points(std::size_t step) {
   require_small_strains("EPSP_ELGA");
-  if (assembler_.imposes_strains()) throw Error("unsupported", "EPSP_ELGA is not known beside initial strains (PRE_EPSI)");
+  if (assembler_.imposes_strains())
+    throw Error("unsupported", "EPSP_ELGA is not known beside initial strains (PRE_EPSI)");
   return plastic_strains(input(), displacement(step), stresses_beside_plates(step));
 }
 
@@ -363,13 +387,9 @@ Field FieldComputation::mechanical_green_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::mechanical_green);
 }
 
-Field FieldComputation::variable_strains(std::size_t) {
-  return variable_strain_field(input());
-}
+Field FieldComputation::variable_strains(std::size_t) { return variable_strain_field(input()); }
 
-Field FieldComputation::command_variables(std::size_t) {
-  return command_variable_field(input());
-}
+Field FieldComputation::command_variables(std::size_t) { return command_variable_field(input()); }
 
 Field FieldComputation::stress_criteria_at_points(std::size_t step) {
   return equivalent_stresses(element_field("SIGM_ELGA", step));
@@ -380,7 +400,9 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
 }
 
 void FieldComputation::require_small_strains(std::string_view name) const {
-  if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) { return each.kinematics != Kinematics::small; }))
+  if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) {
+        return each.kinematics != Kinematics::small;
+      }))
     throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
 }
 
@@ -392,7 +414,8 @@ Field FieldComputation::elastic_energy(std::size_t step) {
     put_piece(energies, {&of_strains, {}, {}, 1.0, false}, &cells);
   }
   if (assembler_.has_memory()) {
-    const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses, std::get<ElementField>(remembered("VARI_ELGA", step)));
+    const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses,
+                                                        std::get<ElementField>(remembered("VARI_ELGA", step)));
     put_piece(energies, {&of_memory, {}, {}, 1.0, false});
   }
   require_elastic_patterns(stresses);
@@ -404,8 +427,13 @@ Field FieldComputation::elastic_energy(std::size_t step) {
 void FieldComputation::require_elastic_patterns(const ElementField& stresses) const {
   if (!problem_.behaviours) return;
   for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell) {
-    if ((*problem_.behaviours)[static_cast<std::size_t>(cell)].relation == Relation::elastic || !is_stabilised(stresses, cell)) continue;
-    throw Error("unsupported", fmt::format("cell {}: the elastic energy of the stabilisation of hexahedra with one point (3D_SI) is not known for laws that flow", problem_.model->mesh->cell_name(cell)),
+    if ((*problem_.behaviours)[static_cast<std::size_t>(cell)].relation == Relation::elastic ||
+        !is_stabilised(stresses, cell))
+      continue;
+    throw Error("unsupported",
+                fmt::format("cell {}: the elastic energy of the stabilisation of hexahedra with one point (3D_SI) is "
+                            "not known for laws that flow",
+                            problem_.model->mesh->cell_name(cell)),
                 "take the total energy (ETOT_ELEM, ENER_TOTALE), or MODELISATION='3D'");
   }
 }
@@ -415,7 +443,9 @@ std::vector<int> FieldComputation::cells_in_green_strains() const {
   if (!problem_.behaviours) return cells;
   const ContinuumPoints continuum(*problem_.model);
   for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
-    if (continuum.covers(cell) && (*problem_.behaviours)[static_cast<std::size_t>(cell)].kinematics == Kinematics::green_lagrange) cells.push_back(cell);
+    if (continuum.covers(cell) &&
+        (*problem_.behaviours)[static_cast<std::size_t>(cell)].kinematics == Kinematics::green_lagrange)
+      cells.push_back(cell);
   return cells;
 }
 
@@ -426,10 +456,12 @@ bool FieldComputation::has_bars_with_memory() const {
   return false;
 }
 
-// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from what they remember.
+// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from
+// what they remember.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
-  if (has_bars_with_memory()) assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
+  if (has_bars_with_memory())
+    assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
   require_no_initial_stresses("the elastic energy", step);
   Field energies = assembler_.elastic_energies(u);
   const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
@@ -439,15 +471,19 @@ Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
 
 Field FieldComputation::potential_energy_of_cells(std::size_t step) {
   if (assembler_.has_memory())
-    throw Error("unsupported", "the potential energy of a material with a memory does not follow from its displacements",
+    throw Error("unsupported",
+                "the potential energy of a material with a memory does not follow from its displacements",
                 "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
   require_no_initial_stresses("the potential energy", step);
   return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
 }
 
-// What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep as there are steps.
+// What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep
+// as there are steps.
 void FieldComputation::know_earlier(const std::string& name, std::size_t step) {
-  const auto is_known = [&](std::size_t earlier) { return result_.steps[earlier].fields.contains(name) || known_.contains(Key(earlier, name)); };
+  const auto is_known = [&](std::size_t earlier) {
+    return result_.steps[earlier].fields.contains(name) || known_.contains(Key(earlier, name));
+  };
   std::size_t next = step;
   while (next > 0 && !is_known(next - 1)) --next;
   for (; next < step; ++next) needed(name, next);
@@ -468,35 +504,46 @@ Field FieldComputation::total_energy(std::size_t step) {
     move_to(step);
   }
   const ElementField& stress = stresses_beside_plates(step);
-  ElementField energies = total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
+  ElementField energies =
+      total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
   add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
   return energies;
 }
 
-// The work of the normal force of bars adds up like that of stresses; that of the forces of beams, plates and discrete elements is their elastic energy, as
-// long as they are elastic and nothing else strains them.
+// The work of the normal force of bars adds up like that of stresses; that of the forces of beams, plates and discrete
+// elements is their elastic energy, as long as they are elastic and nothing else strains them.
 Field FieldComputation::total_energy_of_cells(std::size_t step) {
   ElementField energies = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
   const Model& model = *problem_.model;
   std::vector<int> bars, others;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    if (model.components_of(cell) == 0 || model.is_skin(cell) || continuum_dimension(model.formulations[cell]) > 0) continue;
+    if (model.components_of(cell) == 0 || model.is_skin(cell) || continuum_dimension(model.formulations[cell]) > 0)
+      continue;
     (is_bar(model.formulations[cell]) ? bars : others).push_back(cell);
   }
   if (!others.empty()) {
     require_no_initial_stresses("the total energy", step);
     if (!assembler_.state().empty() || strains_act_on(step, others))
-      throw Error("unsupported", "the total energy of beams, plates and discrete elements is not known beside strains of command variables or of loads",
+      throw Error("unsupported",
+                  "the total energy of beams, plates and discrete elements is not known beside strains of command "
+                  "variables or of loads",
                   "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
-    const auto flows = [&](int cell) { return problem_.behaviours && (*problem_.behaviours)[static_cast<std::size_t>(cell)].relation != Relation::elastic; };
+    const auto flows = [&](int cell) {
+      return problem_.behaviours &&
+             (*problem_.behaviours)[static_cast<std::size_t>(cell)].relation != Relation::elastic;
+    };
     if (const auto found = std::ranges::find_if(others, flows); found != others.end())
-      throw Error("unsupported", fmt::format("the total energy of discrete elements with a law of their own, such as that on {}, is not known", model.mesh->cell_name(*found)),
-                  "name the other cells by GROUP_MA");
+      throw Error(
+          "unsupported",
+          fmt::format("the total energy of discrete elements with a law of their own, such as that on {}, is not known",
+                      model.mesh->cell_name(*found)),
+          "name the other cells by GROUP_MA");
     energies = beside(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
   }
   if (bars.empty()) return energies;
   know_earlier("ETOT_ELEM", step);
-  ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step), step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
+  ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step),
+                                  step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
                                   step > 0 ? &displacement(step - 1) : nullptr);
   if (step > 0) {
     const ElementField& before = element_field("ETOT_ELEM", step - 1);
@@ -516,11 +563,13 @@ Field FieldComputation::unloading(std::size_t step) {
 }
 
 Field FieldComputation::yield_of_loading(std::size_t step) {
-  return yield_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return yield_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
+                                   element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 Field FieldComputation::energy_of_loading(std::size_t step) {
-  return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step), element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
+                                    element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 // Forces act along the axes of beams as the step left them, which their variables hold.
@@ -530,20 +579,25 @@ void FieldComputation::turn_beams(Assembler& assembler, const DofMap& dofs, std:
   const auto stresses = fields.find("SIEF_ELGA"), variables = fields.find("VARI_ELGA"), moved = fields.find("DEPL");
   if (stresses == fields.end() || variables == fields.end() || moved == fields.end()) return;
   for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell) {
-    if ((*problem_.behaviours)[cell].kinematics != Kinematics::large_rotations || !is_beam(problem_.model->formulations[cell])) continue;
-    return assembler.resume(to_dofs(std::get<NodalField>(moved->second), dofs), &std::get<ElementField>(stresses->second), &std::get<ElementField>(variables->second));
+    if ((*problem_.behaviours)[cell].kinematics != Kinematics::large_rotations ||
+        !is_beam(problem_.model->formulations[cell]))
+      continue;
+    return assembler.resume(to_dofs(std::get<NodalField>(moved->second), dofs),
+                            &std::get<ElementField>(stresses->second), &std::get<ElementField>(variables->second));
   }
 }
 
 Field FieldComputation::internal_forces(std::size_t step) {
   turn_beams(assembler_, dofs_, step);
-  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant, remembered_stresses(step));
+  return nodal_forces(assembler_, dofs_, displacement(step), problem_.loads, result_.steps[step].instant,
+                      remembered_stresses(step));
 }
 
 // The cells are a model of their own.
 Field FieldComputation::internal_forces_of(std::span<const int> cells, std::size_t step) {
   Model part{problem_.model->mesh, std::vector<Formulation>(problem_.model->formulations.size(), Formulation::none)};
-  for (const int cell : cells) part.formulations[static_cast<std::size_t>(cell)] = problem_.model->formulations[static_cast<std::size_t>(cell)];
+  for (const int cell : cells)
+    part.formulations[static_cast<std::size_t>(cell)] = problem_.model->formulations[static_cast<std::size_t>(cell)];
   const DofMap dofs(part);
   Assembler assembler(part, *problem_.materials, *problem_.properties, dofs, problem_.behaviours.get());
   const double time = result_.steps[step].instant;
@@ -558,7 +612,8 @@ Field FieldComputation::reactions(std::size_t step) {
   FollowerForces followers(*problem_.model, dofs_, problem_.followers);
   followers.set_time(time);
   turn_beams(assembler_, dofs_, step);
-  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time, remembered_stresses(step));
+  return nodal_reactions(assembler_, dofs_, displacement(step), problem_.loads, followers, time,
+                         remembered_stresses(step));
 }
 
 Field FieldComputation::reactions_of(std::span<const int> cells, std::size_t step) {
@@ -566,7 +621,9 @@ Field FieldComputation::reactions_of(std::span<const int> cells, std::size_t ste
   FollowerForces followers(*problem_.model, dofs_, problem_.followers);
   followers.set_time(time);
   // Initial strains are part of the nodal forces.
-  const Eigen::VectorXd applied = assembler_.external_forces(problem_.loads, time) - assembler_.initial_strain_forces(problem_.loads, time) + followers.at(to_dofs(displacement(step), dofs_));
+  const Eigen::VectorXd applied = assembler_.external_forces(problem_.loads, time) -
+                                  assembler_.initial_strain_forces(problem_.loads, time) +
+                                  followers.at(to_dofs(displacement(step), dofs_));
   const Field forces = internal_forces_of(cells, step), loads = to_field(applied, dofs_, "DEPL_R");
   const Field reactions = linear_combination(std::array{FieldTerm{&forces, 1.0}, FieldTerm{&loads, -1.0}});
   return on_nodes(std::get<NodalField>(reactions), result_.mesh().nodes_of_cells(cells));

@@ -17,11 +17,13 @@
 
 namespace comma::solver {
 
-/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL, EPSP, EPVC, DEGE; criteria
-/// SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC;
-/// energies ENEL, ETOT, EPOT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at
-/// the nodes of each cell (by local smoothing, see extrapolation.hpp; SIGM and SIEQ of plates at places in their thickness, see plate_stresses.hpp), _NOEU at nodes (the mean over the cells around
-/// each), _ELEM on the whole cell. A field that the step holds already is taken as it is where another needs it.
+/// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL,
+/// EPSP, EPVC, DEGE; criteria SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the
+/// last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC; energies ENEL, ETOT, EPOT;
+/// forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at the nodes of each cell (by local smoothing, see
+/// extrapolation.hpp; SIGM and SIEQ of plates at places in their thickness, see plate_stresses.hpp), _NOEU at nodes
+/// (the mean over the cells around each), _ELEM on the whole cell. A field that the step holds already is taken as it
+/// is where another needs it.
 ///
 /// Keeps references to its arguments.
 class FieldComputation {
@@ -31,14 +33,15 @@ class FieldComputation {
 
   static bool knows(std::string_view name);
 
-  /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given: FORC_NODA is then what these cells alone
-  /// bear, and REAC_NODA that less the loads at their nodes (U4.81.24, section 1). SIRO_ELEM lies on skin
-  /// cells, all of the model's without `cells`. Throws Error `unsupported` for another name and for one that plates do not have in
-  /// comma, `unknown-field` naming one that the step lacks,
-  /// and what the functions of solver/fields throw.
+  /// The field `name` of a step, on `cells` only (or averaged over these only) if they are given: FORC_NODA is then
+  /// what these cells alone bear, and REAC_NODA that less the loads at their nodes (U4.81.24, section 1). SIRO_ELEM
+  /// lies on skin cells, all of the model's without `cells`. Throws Error `unsupported` for another name and for one
+  /// that plates do not have in comma, `unknown-field` naming one that the step lacks, and what the functions of
+  /// solver/fields throw.
   Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
 
-  /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them lacks the rest.
+  /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them
+  /// lacks the rest.
   const std::set<std::string>& limited_sources() const { return limited_sources_; }
 
  private:

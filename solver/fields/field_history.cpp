@@ -13,7 +13,8 @@ namespace {
 void check_alike(const Field& first, const Field& other) {
   const auto* a = std::get_if<ElementField>(&first);
   const auto* b = std::get_if<ElementField>(&other);
-  const bool alike = first.index() == other.index() && components_of(first) == components_of(other) && values_of(first).size() == values_of(other).size() &&
+  const bool alike = first.index() == other.index() && components_of(first) == components_of(other) &&
+                     values_of(first).size() == values_of(other).size() &&
                      (a == nullptr || (a->support == b->support && a->starts == b->starts));
   if (!alike) throw Error("incompatible-field", "the field does not have the same points and components in all steps");
 }
@@ -22,14 +23,20 @@ void check_alike(const Field& first, const Field& other) {
 bool goes_before(double value, double kept, ExtremeOverTime which) {
   if (std::isnan(kept)) return true;
   switch (which) {
-    case ExtremeOverTime::greatest: return value > kept;
-    case ExtremeOverTime::least: return value < kept;
-    case ExtremeOverTime::least_magnitude: return std::abs(value) < kept;
-    default: return std::abs(value) > kept;
+    case ExtremeOverTime::greatest:
+      return value > kept;
+    case ExtremeOverTime::least:
+      return value < kept;
+    case ExtremeOverTime::least_magnitude:
+      return std::abs(value) < kept;
+    default:
+      return std::abs(value) > kept;
   }
 }
 
-bool is_magnitude(ExtremeOverTime which) { return which == ExtremeOverTime::greatest_magnitude || which == ExtremeOverTime::least_magnitude; }
+bool is_magnitude(ExtremeOverTime which) {
+  return which == ExtremeOverTime::greatest_magnitude || which == ExtremeOverTime::least_magnitude;
+}
 
 Field extreme_of_values(std::span<const FieldAtInstant> steps, ExtremeOverTime which, ExtremeShown shown) {
   Field result = *steps.front().field;
@@ -94,7 +101,8 @@ Field longest_translation(std::span<const FieldAtInstant> steps, ExtremeShown sh
 
 Field extreme_over_time(std::span<const FieldAtInstant> steps, ExtremeOverTime which, ExtremeShown shown) {
   for (const FieldAtInstant& step : steps) check_alike(*steps.front().field, *step.field);
-  return which == ExtremeOverTime::longest_translation ? longest_translation(steps, shown) : extreme_of_values(steps, which, shown);
+  return which == ExtremeOverTime::longest_translation ? longest_translation(steps, shown)
+                                                       : extreme_of_values(steps, which, shown);
 }
 
 Field between_instants(const FieldAtInstant& before, const FieldAtInstant& after, double instant) {

@@ -1,4 +1,5 @@
-// One field out of those of several steps: extremes over time, values between two instants (CREA_CHAMP, EXTR; U4.72.04).
+// One field out of those of several steps: extremes over time, values between two instants (CREA_CHAMP, EXTR;
+// U4.72.04).
 #pragma once
 
 #include <span>
@@ -21,8 +22,9 @@ enum class ExtremeOverTime : std::uint8_t {
 };
 enum class ExtremeShown : std::uint8_t { value, instant };
 
-/// At each point and component the extreme over the steps, or the instant at which it is first reached; what no step carries stays absent.
-/// Throws Error `incompatible-field` for fields of other points or components, `unknown-component` for translations that the field lacks.
+/// At each point and component the extreme over the steps, or the instant at which it is first reached; what no step
+/// carries stays absent. Throws Error `incompatible-field` for fields of other points or components,
+/// `unknown-component` for translations that the field lacks.
 Field extreme_over_time(std::span<const FieldAtInstant> steps, ExtremeOverTime which, ExtremeShown shown);
 
 /// Linear between two steps. Throws Error `incompatible-field`.

@@ -13,7 +13,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 void put(ElementField& field, int cell, std::span<const double> values) {
-  std::copy(values.begin(), values.end(), field.values.begin() + field.starts[cell] * static_cast<std::ptrdiff_t>(values.size()));
+  std::copy(values.begin(), values.end(),
+            field.values.begin() + field.starts[cell] * static_cast<std::ptrdiff_t>(values.size()));
 }
 
 void add(ElementField& field, int cell, std::span<const double> values) {
@@ -26,7 +27,8 @@ void add(ElementField& field, int cell, std::span<const double> values) {
 
 void require_number(bool is_function, const char* what) {
   if (!is_function) return;
-  throw Error("unsupported", std::string("the load has ") + what + " given by functions, which have no one value a cell",
+  throw Error("unsupported",
+              std::string("the load has ") + what + " given by functions, which have no one value a cell",
               "take the fields of a load that is given by numbers");
 }
 
@@ -55,8 +57,10 @@ ElementField force_data(const Mesh& mesh, const Load& load, int cell_dimension) 
   ElementField field = empty_cell_field(mesh, "FORC_R", {"FX", "FY", "FZ"});
   for (const DistributedForce& force : load.distributed_forces) {
     if (dimension(mesh.cell_types[force.cell]) != cell_dimension) continue;
-    for (const FieldFunction& function : force.functions) require_number(static_cast<bool>(function), "distributed forces");
-    for (const NodalFunction& function : force.functions_at_nodes) require_number(static_cast<bool>(function), "distributed forces");
+    for (const FieldFunction& function : force.functions)
+      require_number(static_cast<bool>(function), "distributed forces");
+    for (const NodalFunction& function : force.functions_at_nodes)
+      require_number(static_cast<bool>(function), "distributed forces");
     add(field, force.cell, force.force);
   }
   drop_empty_cells(field);

@@ -9,15 +9,15 @@ namespace comma::solver {
 
 using PlateSections = std::unordered_map<int, PlateSection>;  ///< by cell
 
-/// One value a plate: EP (thickness), ALPHA and BETA (the angles of its first axis about Z, then about Y, in degrees), CTOR (drilling),
-/// EXCENT (offset), KAPPA (shear factor).
+/// One value a plate: EP (thickness), ALPHA and BETA (the angles of its first axis about Z, then about Y, in degrees),
+/// CTOR (drilling), EXCENT (offset), KAPPA (shear factor).
 ElementField plate_data(const Mesh& mesh, const PlateSections& plates);
 
 /// COQ_NCOU: the number of layers in the thickness of a plate.
 ElementField layer_counts(const Mesh& mesh, const PlateSections& plates);
 
-/// FX FY FZ of the distributed forces on the cells of one dimension, summed where several act. Throws Error `unsupported` for a
-/// force that a function gives.
+/// FX FY FZ of the distributed forces on the cells of one dimension, summed where several act. Throws Error
+/// `unsupported` for a force that a function gives.
 ElementField force_data(const Mesh& mesh, const Load& load, int cell_dimension);
 
 /// PRES and CISA, summed where several act. Throws Error `unsupported` for a pressure that a function gives.

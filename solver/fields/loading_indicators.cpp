@@ -18,13 +18,17 @@ Vector6d deviator(Vector6d tensor) {
   return tensor;
 }
 
-double inner(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
+double inner(const Vector6d& a, const Vector6d& b) {
+  return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>());
+}
 
 double norm(const Vector6d& tensor) { return std::sqrt(1.5 * inner(tensor, tensor)); }
 
 double ratio(double part, double whole) { return whole == 0.0 ? 0.0 : part / whole; }
 
-double change_of_norm(const Vector6d& before, const Vector6d& after) { return ratio(norm(after) - norm(before), norm(after)); }
+double change_of_norm(const Vector6d& before, const Vector6d& after) {
+  return ratio(norm(after) - norm(before), norm(after));
+}
 
 double loss_of_direction(const Vector6d& before, const Vector6d& after) {
   const Vector6d change = after - before;
@@ -38,18 +42,23 @@ bool is_isotropic(Relation relation) {
     case Relation::isotropic_linear:
     case Relation::isotropic_traction:
     case Relation::isotropic_power:
-    case Relation::isotropic_nonlinear: return true;
-    default: return false;
+    case Relation::isotropic_nonlinear:
+      return true;
+    default:
+      return false;
   }
 }
 
 CellBehaviour behaviour_of(const FieldInput& input, const PlasticFields& fields, int cell) {
   CellBehaviour behaviour;
-  if (fields.behaviours != nullptr && !fields.behaviours->empty()) behaviour = (*fields.behaviours)[static_cast<std::size_t>(cell)];
+  if (fields.behaviours != nullptr && !fields.behaviours->empty())
+    behaviour = (*fields.behaviours)[static_cast<std::size_t>(cell)];
   if (is_isotropic(behaviour.relation) && behaviour.kinematics == Kinematics::small) return behaviour;
-  throw Error("unsupported", fmt::format("indicators of the loading are asked for on cell {}, whose {}", input.model.mesh->cell_name(cell),
-                                         is_isotropic(behaviour.relation) ? "strains are large" : "hardening is not isotropic"),
-              "they are known for isotropic von Mises plasticity in small strains; name the cells that have it");
+  throw Error(
+      "unsupported",
+      fmt::format("indicators of the loading are asked for on cell {}, whose {}", input.model.mesh->cell_name(cell),
+                  is_isotropic(behaviour.relation) ? "strains are large" : "hardening is not isotropic"),
+      "they are known for isotropic von Mises plasticity in small strains; name the cells that have it");
 }
 
 /// What an indicator is made from at a point.
@@ -81,9 +90,10 @@ ElementField indicator(const FieldInput& input, const PlasticFields& fields, Val
       }
       const ContinuumSample& sample = points.samples(cell)[static_cast<std::size_t>(g)];
       const MaterialPoint at = points.material_point(cell, input.state, sample, points.locate(cell, sample).at, g);
-      result.values.push_back(value_of(PointState{stress.at(cell, g), plastic.at(cell, g), fields.variables.at(cell, g, p),
-                                                     plastic_point(*elasticity, material.plasticity, relation, at),
-                                                     solid_compliance(material_of(input, cell), at)}));
+      result.values.push_back(
+          value_of(PointState{stress.at(cell, g), plastic.at(cell, g), fields.variables.at(cell, g, p),
+                              plastic_point(*elasticity, material.plasticity, relation, at),
+                              solid_compliance(material_of(input, cell), at)}));
     }
   }
   return result;
@@ -91,7 +101,8 @@ ElementField indicator(const FieldInput& input, const PlasticFields& fields, Val
 
 double yield_value(const PointState& point) {
   if (!(point.p > 0.0)) return 0.0;
-  return 1.0 - std::abs(inner(point.stress, point.plastic_strain)) / (hardening(point.constants.curve, point.p).first * point.p);
+  return 1.0 - std::abs(inner(point.stress, point.plastic_strain)) /
+                   (hardening(point.constants.curve, point.p).first * point.p);
 }
 
 /// The energy on the straight way to a strain (Hencky and Mises): elastic up to the yield stress, then along R(p).
@@ -117,7 +128,8 @@ double energy_value(const PointState& point) {
 }  // namespace
 
 ElementField local_indicators(const ElementField& before, const ElementField& after) {
-  if (before.starts != after.starts) throw Error("incompatible-field", "the stresses of one step and the next lie at different points");
+  if (before.starts != after.starts)
+    throw Error("incompatible-field", "the stresses of one step and the next lie at different points");
   const TensorReader first(before, stress_components);
   const TensorReader second(after, stress_components);
   ElementField result{"DERA_R", before.support, {"DCHA_V", "DCHA_T", "RADI_V"}, {0}, {}};
@@ -126,14 +138,19 @@ ElementField local_indicators(const ElementField& before, const ElementField& af
     result.starts.push_back(result.starts.back() + points);
     for (int point = 0; point < points; ++point) {
       const Vector6d from = first.at(cell, point), to = second.at(cell, point);
-      result.values.insert(result.values.end(), {change_of_norm(deviator(from), deviator(to)), change_of_norm(from, to), loss_of_direction(deviator(from), deviator(to))});
+      result.values.insert(result.values.end(), {change_of_norm(deviator(from), deviator(to)), change_of_norm(from, to),
+                                                 loss_of_direction(deviator(from), deviator(to))});
     }
   }
   return result;
 }
 
-ElementField yield_indicator(const FieldInput& input, const PlasticFields& fields) { return indicator(input, fields, yield_value); }
+ElementField yield_indicator(const FieldInput& input, const PlasticFields& fields) {
+  return indicator(input, fields, yield_value);
+}
 
-ElementField energy_indicator(const FieldInput& input, const PlasticFields& fields) { return indicator(input, fields, energy_value); }
+ElementField energy_indicator(const FieldInput& input, const PlasticFields& fields) {
+  return indicator(input, fields, energy_value);
+}
 
 }  // namespace comma::solver

@@ -121,25 +121,30 @@ class Moments {
   void add_plate(int cell) {
     const Mesh& mesh = *input_.model.mesh;
     const auto found = input_.properties.plates.find(cell);
-    if (found == input_.properties.plates.end()) throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", mesh.cell_name(cell)));
+    if (found == input_.properties.plates.end())
+      throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", mesh.cell_name(cell)));
     const CellType type = mesh.cell_types[cell];
     const auto nodes = mesh.cell(cell);
     Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t a = 0; a < nodes.size(); ++a) places.col(static_cast<Eigen::Index>(a)) = Eigen::Vector3d(mesh.nodes[nodes[a]].data());
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      places.col(static_cast<Eigen::Index>(a)) = Eigen::Vector3d(mesh.nodes[nodes[a]].data());
     // Squares of places are of degree 2 on triangles, 3 with the area of a quadrangle.
     for (const QuadraturePoint& point : quadrature(type, nodes.size() == 3 ? "FPG3" : "FPG4")) {
       const Eigen::VectorXd shape = shape_functions(type, point.at);
       const Eigen::Matrix<double, 3, 2> tangents = places * shape_derivatives(type, point.at);
       const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
       MaterialPoint at;
-      input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())}, VariableState::all_points, at);
-      const double mass = point.weight * normal.norm() * found->second.thickness * density(*material_of(input_, cell).elasticity, at);
+      input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())},
+                          VariableState::all_points, at);
+      const double mass =
+          point.weight * normal.norm() * found->second.thickness * density(*material_of(input_, cell).elasticity, at);
       const Eigen::Vector3d x = places * shape + found->second.offset * normal.normalized();
       add_mass(mass, x, x * x.transpose());
     }
   }
 
-  /// The mass matrix of a discrete element under the motions of a rigid body about the origin: mass, first moments and inertia.
+  /// The mass matrix of a discrete element under the motions of a rigid body about the origin: mass, first moments and
+  /// inertia.
   void add_discrete(int cell) {
     const auto found = input_.properties.masses.find(cell);
     if (found == input_.properties.masses.end()) return;
@@ -151,7 +156,8 @@ class Moments {
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       for (std::size_t b = 0; b < nodes.size(); ++b) {
         Matrix6 block = Matrix6::Zero();
-        block(motions, motions) = found->second.block(static_cast<Eigen::Index>(a) * k, static_cast<Eigen::Index>(b) * k, k, k);
+        block(motions, motions) =
+            found->second.block(static_cast<Eigen::Index>(a) * k, static_cast<Eigen::Index>(b) * k, k, k);
         // In the plane what would move across it is as heavy.
         if (std::ranges::find(motions, 2) == motions.end()) block(2, 2) = block(0, 0);
         whole += rigid_motion(mesh.nodes[nodes[a]]).transpose() * block * rigid_motion(mesh.nodes[nodes[b]]);
@@ -160,7 +166,8 @@ class Moments {
     const Eigen::Matrix3d turned = whole.topRightCorner<3, 3>();
     const Eigen::Matrix3d inertia = whole.bottomRightCorner<3, 3>();
     mass_ += whole.topLeftCorner<3, 3>().trace() / 3.0;
-    first_ += 0.5 * Eigen::Vector3d(turned(1, 2) - turned(2, 1), turned(2, 0) - turned(0, 2), turned(0, 1) - turned(1, 0));
+    first_ +=
+        0.5 * Eigen::Vector3d(turned(1, 2) - turned(2, 1), turned(2, 0) - turned(0, 2), turned(0, 1) - turned(1, 0));
     second_ += 0.5 * inertia.trace() * Eigen::Matrix3d::Identity() - inertia;
   }
 

@@ -22,11 +22,10 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia);
 /// The inertia tensor about another point (Steiner).
 Eigen::Matrix3d inertia_about(const MassInertia& body, const Eigen::Vector3d& point);
 
-/// Over the cells (all when none are given): continua, bars, beams and plates; beams with the inertia of their sections, plates as
-/// their middle surface, whose mass per area is density times thickness. A
-/// plane body has a thickness of 1; an axisymmetric one counts whole, all the way round Y. Mass 0 leaves the centre at
-/// the origin. Skin cells and discrete elements take no part. Throws Error `missing-material`, `missing-properties`
-/// naming a cell.
+/// Over the cells (all when none are given): continua, bars, beams and plates; beams with the inertia of their
+/// sections, plates as their middle surface, whose mass per area is density times thickness. A plane body has a
+/// thickness of 1; an axisymmetric one counts whole, all the way round Y. Mass 0 leaves the centre at the origin. Skin
+/// cells and discrete elements take no part. Throws Error `missing-material`, `missing-properties` naming a cell.
 MassInertia mass_inertia(const FieldInput& input, std::optional<std::span<const int>> cells = {});
 
 }  // namespace comma::solver

@@ -25,8 +25,9 @@ Eigen::VectorXd to_dofs(const NodalField& field, const DofMap& dofs) {
     const int column = columns[static_cast<std::size_t>(dofs.component_of(dof))];
     const double value = column < 0 ? absent : field.at(dofs.node_of(dof), column);
     if (std::isnan(value)) {
-      throw Error("incompatible-field", fmt::format("the displacement field has no {} at a node of the model that needs it",
-                                                    name_of(dofs.component_of(dof))));
+      throw Error("incompatible-field",
+                  fmt::format("the displacement field has no {} at a node of the model that needs it",
+                              name_of(dofs.component_of(dof))));
     }
     values[dof] = value;
   }
@@ -40,9 +41,11 @@ NodalField nodal_forces(const Assembler& assembler, const DofMap& dofs, const No
 }
 
 NodalField nodal_reactions(const Assembler& assembler, const DofMap& dofs, const NodalField& displacement,
-                           std::span<const AppliedLoad> loads, const FollowerForces& followers, double time, const ElementField* stresses) {
+                           std::span<const AppliedLoad> loads, const FollowerForces& followers, double time,
+                           const ElementField* stresses) {
   const Eigen::VectorXd u = to_dofs(displacement, dofs);
-  return to_field(internal_forces(assembler, u, stresses) - assembler.external_forces(loads, time) - followers.at(u), dofs, "DEPL_R");
+  return to_field(internal_forces(assembler, u, stresses) - assembler.external_forces(loads, time) - followers.at(u),
+                  dofs, "DEPL_R");
 }
 
 }  // namespace comma::solver

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -20,7 +20,8 @@ constexpr std::array<std::array<std::string_view, 2>, 3> pairs = {{{"NXX", "MXX"
 
 int column_of(const ElementField& field, std::string_view name) {
   const int column = field.component(name);
-  if (column < 0) throw Error("unknown-component", fmt::format("the field has no component {}, as forces of plates have", name));
+  if (column < 0)
+    throw Error("unknown-component", fmt::format("the field has no component {}, as forces of plates have", name));
   return column;
 }
 
@@ -32,7 +33,8 @@ MaterialPoint middle_of_plate(const FieldInput& input, int cell) {
   input.state.sample(cell, nodes, shares, VariableState::all_points, at);
   std::array<double, 3> place{};
   for (const int node : nodes)
-    for (std::size_t c = 0; c < 3; ++c) place[c] += input.model.mesh->nodes[static_cast<std::size_t>(node)][c] / static_cast<double>(nodes.size());
+    for (std::size_t c = 0; c < 3; ++c)
+      place[c] += input.model.mesh->nodes[static_cast<std::size_t>(node)][c] / static_cast<double>(nodes.size());
   at.place(place);
   return at;
 }
@@ -48,22 +50,28 @@ struct PlateInUse {
 PlateInUse plate_in_use(const FieldInput& input, int cell) {
   const PlateSection& section = plate_section(input.model, input.properties, cell);
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
-  if (material == nullptr) throw Error("unsupported", fmt::format("the plate on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+  if (material == nullptr)
+    throw Error("unsupported",
+                fmt::format("the plate on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
   const MaterialPoint at = middle_of_plate(input, cell);
-  return {section, moduli(*material, at), inelastic_axial_strain(*material, at), input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
+  return {section, moduli(*material, at), inelastic_axial_strain(*material, at),
+          input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
 }
 
 /// xx, yy and half the angle xy that plane forces, or moments, of a resistance 1 / compliance cause.
 Eigen::Vector3d plane_strain_of(const Eigen::Vector3d& forces, double compliance, double poisson) {
-  return compliance * Eigen::Vector3d(forces[0] - poisson * forces[1], forces[1] - poisson * forces[0], (1.0 + poisson) * forces[2]);
+  return compliance *
+         Eigen::Vector3d(forces[0] - poisson * forces[1], forces[1] - poisson * forces[0], (1.0 + poisson) * forces[2]);
 }
 
 PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
   const double h = plate.section.thickness, offset = plate.section.offset;
   const Eigen::Vector3d normal = forces.head<3>();
-  const Eigen::Vector3d curvature = plane_strain_of(forces.segment<3>(3) - offset * normal, 12.0 / (plate.material.young * h * h * h), plate.material.poisson);
+  const Eigen::Vector3d curvature = plane_strain_of(forces.segment<3>(3) - offset * normal,
+                                                    12.0 / (plate.material.young * h * h * h), plate.material.poisson);
   PlateForces strains = PlateForces::Zero();
-  strains.head<3>() = plane_strain_of(normal, 1.0 / (plate.material.young * h), plate.material.poisson) - offset * curvature;
+  strains.head<3>() =
+      plane_strain_of(normal, 1.0 / (plate.material.young * h), plate.material.poisson) - offset * curvature;
   strains.head<2>().array() += plate.expansion;
   strains.segment<3>(3) = curvature;
   const double shear_modulus = 0.5 * plate.material.young / (1.0 + plate.material.poisson);
@@ -79,7 +87,8 @@ PlateForceReader::PlateForceReader(const ElementField& field) : field_(field) {
 
 PlateForces PlateForceReader::at(int cell, int point) const {
   PlateForces forces;
-  for (std::size_t c = 0; c < columns_.size(); ++c) forces[static_cast<Eigen::Index>(c)] = field_.at(cell, point, columns_[c]);
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    forces[static_cast<Eigen::Index>(c)] = field_.at(cell, point, columns_[c]);
   return forces;
 }
 
@@ -93,7 +102,8 @@ ElementField plate_strains(const FieldInput& input, const ElementField& forces) 
   const PlateForceReader reader(forces);
   ElementField result{"EPSI_R", forces.support, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY", "GAX", "GAY"}, {0}, {}};
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
-    const bool is_one = is_plate(input.model.formulations[static_cast<std::size_t>(cell)]) && !input.model.is_skin(cell);
+    const bool is_one =
+        is_plate(input.model.formulations[static_cast<std::size_t>(cell)]) && !input.model.is_skin(cell);
     const int points = is_one ? forces.points(cell) : 0;
     result.starts.push_back(result.starts.back() + points);
     if (points == 0) continue;

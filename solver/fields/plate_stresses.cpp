@@ -28,7 +28,12 @@ std::array<double, 6> stress_at(double share, const PlateSection& section, const
 ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces) {
   const PlateForceReader reader(forces);
   const int cells = model.mesh->cell_count();
-  ElementField field{"SIEF_R", forces.support, {solid_stress_names.begin(), solid_stress_names.end()}, {0}, {}, std::vector<int>(static_cast<std::size_t>(cells), 1)};
+  ElementField field{"SIEF_R",
+                     forces.support,
+                     {solid_stress_names.begin(), solid_stress_names.end()},
+                     {0},
+                     {},
+                     std::vector<int>(static_cast<std::size_t>(cells), 1)};
   for (int cell = 0; cell < cells; ++cell) {
     if (forces.points(cell) == 0) {
       field.starts.push_back(field.starts.back());
@@ -50,7 +55,9 @@ ElementField plate_stresses(const Model& model, const ElementProperties& propert
   return field;
 }
 
-int most_layers(const ElementField& field) { return field.sub_points.empty() ? 0 : *std::ranges::max_element(field.sub_points) / places_a_layer; }
+int most_layers(const ElementField& field) {
+  return field.sub_points.empty() ? 0 : *std::ranges::max_element(field.sub_points) / places_a_layer;
+}
 
 ElementField values_in_layer(const ElementField& field, int layer, LayerSide side) {
   const int place = places_a_layer * (layer - 1) + static_cast<int>(side);
@@ -59,7 +66,8 @@ ElementField values_in_layer(const ElementField& field, int layer, LayerSide sid
     const int each = field.values_a_point(cell);
     const int points = each > 1 && place < each ? field.points(cell) / each : 0;
     for (int point = 0; point < points; ++point) {
-      for (int c = 0; c < static_cast<int>(field.components.size()); ++c) result.values.push_back(field.at(cell, point * each + place, c));
+      for (int c = 0; c < static_cast<int>(field.components.size()); ++c)
+        result.values.push_back(field.at(cell, point * each + place, c));
     }
     result.starts.push_back(result.starts.back() + points);
   }

@@ -1,4 +1,5 @@
-// Stresses of plates at places in their thickness, and the layer that is taken out of such a field (POST_CHAMP, EXTR_COQUE; U4.81.05).
+// Stresses of plates at places in their thickness, and the layer that is taken out of such a field (POST_CHAMP,
+// EXTR_COQUE; U4.81.05).
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,10 @@
 
 namespace comma::solver {
 
-/// SIXX SIYY SIZZ SIXY SIXZ SIYZ in the plate's own axes out of NXX ... QY (moments about the surface of the mesh), on the plates of the field: in each layer, from
-/// the lowest on, at its lower side, in its middle and at its upper side. Linear through the thickness, SIZZ zero, the transverse shears a parabola that
-/// vanishes on both faces (R3.07.03). Throws Error `unknown-component`, `missing-properties`.
+/// SIXX SIYY SIZZ SIXY SIXZ SIYZ in the plate's own axes out of NXX ... QY (moments about the surface of the mesh), on
+/// the plates of the field: in each layer, from the lowest on, at its lower side, in its middle and at its upper side.
+/// Linear through the thickness, SIZZ zero, the transverse shears a parabola that vanishes on both faces (R3.07.03).
+/// Throws Error `unknown-component`, `missing-properties`.
 ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces);
 
 enum class LayerSide : std::uint8_t { lower, middle, upper };
@@ -18,7 +20,8 @@ enum class LayerSide : std::uint8_t { lower, middle, upper };
 /// Of the cell that has the most.
 int most_layers(const ElementField& field);
 
-/// One place in the thickness, of the cells that have several and at least `layer` (from 1) layers; other cells have none.
+/// One place in the thickness, of the cells that have several and at least `layer` (from 1) layers; other cells have
+/// none.
 ElementField values_in_layer(const ElementField& field, int layer, LayerSide side);
 
 }  // namespace comma::solver

@@ -73,7 +73,8 @@ std::vector<std::string> completed(const NodalField& field) {
 }
 
 template <class Names>
-void turn_group(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes, const Names& names, NodalField& result) {
+void turn_group(const NodalField& field, std::span<const int> nodes, const NodeAxes& axes, const Names& names,
+                NodalField& result) {
   const auto from = columns_of(field, names);
   if (!any_present(from)) return;
   const auto to = columns_of(result, names);
@@ -82,7 +83,8 @@ void turn_group(const NodalField& field, std::span<const int> nodes, const NodeA
     if (!gather(field, node, from, values)) continue;
     const auto own = turned(values, axes(node));
     for (std::size_t i = 0; i < own.size(); ++i) {
-      result.values[static_cast<std::size_t>(node) * result.components.size() + static_cast<std::size_t>(to[i])] = own[i];
+      result.values[static_cast<std::size_t>(node) * result.components.size() + static_cast<std::size_t>(to[i])] =
+          own[i];
     }
   }
 }
@@ -90,10 +92,11 @@ void turn_group(const NodalField& field, std::span<const int> nodes, const NodeA
 }  // namespace
 
 bool has_own_axes(const NodalField& field, std::string_view component) {
-  constexpr std::string_view names[] = {"N",    "VX",   "VY",   "VZ",   "MT",   "MFY",  "MFZ",  "NXX",  "NYY",  "NXY",  "MXX",  "MYY",  "MXY",  "QX",   "QY",
-                                        "EXX",  "EYY",  "EXY",  "KXX",  "KYY",  "KXY",  "GAX",  "GAY",  "GAXY", "GAXZ", "GAT",  "KY",   "KZ",   "SN",   "SVY",
-                                        "SVZ",  "SMT",  "SMFY", "SMFZ", "RNX",  "RNY",  "RNZ",  "GLIX", "GLIY", "RTAX", "RTAY", "RTAZ", "RTGX", "RTGY", "RTGZ",
-                                        "RX",   "RY",   "RZ",   "IX",   "IY",   "IZ",   "X",    "Y",    "Z"};
+  constexpr std::string_view names[] = {
+      "N",    "VX",   "VY",   "VZ",  "MT",   "MFY",  "MFZ", "NXX", "NYY", "NXY",  "MXX",  "MYY",  "MXY",  "QX",
+      "QY",   "EXX",  "EYY",  "EXY", "KXX",  "KYY",  "KXY", "GAX", "GAY", "GAXY", "GAXZ", "GAT",  "KY",   "KZ",
+      "SN",   "SVY",  "SVZ",  "SMT", "SMFY", "SMFZ", "RNX", "RNY", "RNZ", "GLIX", "GLIY", "RTAX", "RTAY", "RTAZ",
+      "RTGX", "RTGY", "RTGZ", "RX",  "RY",   "RZ",   "IX",  "IY",  "IZ",  "X",    "Y",    "Z"};
   // The elongation of a beam has the name of a strain in space.
   if (component == "EPXX") return field.component("GAXY") >= 0;
   return std::ranges::find(names, component) != std::end(names);
@@ -122,7 +125,8 @@ NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const 
     // Nearer than this the direction is made up by rounding.
     constexpr double nearest = 1e-12;
     if (!(radial.norm() > nearest * from_origin.norm())) {
-      throw Error("zero-vector", fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
+      throw Error("zero-vector",
+                  fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
     }
     Eigen::Matrix3d axes;
     axes.row(0) = radial.normalized();
@@ -149,7 +153,8 @@ NodeAxes with_axes_of_neighbours(const Mesh& mesh, std::span<const int> nodes, N
   return [&mesh, known, axes](int node) {
     if (has_axes(axes, node)) return axes(node);
     const auto place = [&](int each) { return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(each)].data()); };
-    return axes(*std::ranges::min_element(known, {}, [&](int each) { return (place(each) - place(node)).squaredNorm(); }));
+    return axes(
+        *std::ranges::min_element(known, {}, [&](int each) { return (place(each) - place(node)).squaredNorm(); }));
   };
 }
 
@@ -157,7 +162,8 @@ NodeAxes polar_axes(const Mesh& mesh) {
   return [&mesh](int node) {
     const Eigen::Vector3d radial(mesh.nodes[node][0], mesh.nodes[node][1], 0.0);
     if (!(radial.norm() > 0.0)) {
-      throw Error("zero-vector", fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
+      throw Error("zero-vector",
+                  fmt::format("node {} lies on the axis, where there is no radial direction", mesh.node_name(node)));
     }
     Eigen::Matrix3d axes;
     axes.row(0) = radial.normalized();
@@ -171,12 +177,15 @@ namespace {
 
 /// The direction from each node of a line to the next.
 std::vector<Eigen::Vector3d> segment_directions(const Mesh& mesh, std::span<const int> nodes) {
-  if (nodes.size() < 2) throw Error("zero-vector", "a line of one node has no direction", "name several nodes, in their order along the line");
+  if (nodes.size() < 2)
+    throw Error("zero-vector", "a line of one node has no direction",
+                "name several nodes, in their order along the line");
   std::vector<Eigen::Vector3d> directions;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     const Eigen::Vector3d a(mesh.nodes[nodes[i]].data()), b(mesh.nodes[nodes[i + 1]].data());
     if (a == b) {
-      throw Error("zero-vector", fmt::format("nodes {} and {}, neighbours on the line, lie at one place", mesh.node_name(nodes[i]), mesh.node_name(nodes[i + 1])));
+      throw Error("zero-vector", fmt::format("nodes {} and {}, neighbours on the line, lie at one place",
+                                             mesh.node_name(nodes[i]), mesh.node_name(nodes[i + 1])));
     }
     directions.push_back((b - a).normalized());
   }
@@ -185,7 +194,9 @@ std::vector<Eigen::Vector3d> segment_directions(const Mesh& mesh, std::span<cons
 
 Eigen::Vector3d across(const Mesh& mesh, const Eigen::Vector3d& tangent, const std::optional<Eigen::Vector3d>& y) {
   if (!y && mesh.dimension == 2) return Eigen::Vector3d::UnitZ().cross(tangent);
-  if (!y) throw Error("missing-direction", "in space a line alone does not say where its second axis is", "give that direction");
+  if (!y)
+    throw Error("missing-direction", "in space a line alone does not say where its second axis is",
+                "give that direction");
   const Eigen::Vector3d part = *y - y->dot(tangent) * tangent;
   // Nearer than this the direction is made up by rounding.
   constexpr double nearest = 1e-12;
@@ -212,7 +223,8 @@ NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::opti
   return [axes_of = std::move(axes_of)](int node) { return axes_of.at(node); };
 }
 
-Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes, const Eigen::Vector3d& point, const std::array<std::string, 3>& components) {
+Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes,
+                    const Eigen::Vector3d& point, const std::array<std::string, 3>& components) {
   const auto force_columns = columns_of(forces, components);
   const auto moment_columns = columns_of(forces, vectors[1]);
   Resultant sum;

@@ -39,10 +39,14 @@ Eigen::Matrix3d tensor_in(std::span<const double> row, const std::array<int, 6>&
 
 double value_of(const Eigen::Matrix3d& tensor, TensorCriterion which) {
   switch (which) {
-    case TensorCriterion::von_mises: return von_mises(tensor);
-    case TensorCriterion::tresca: return tresca(tensor);
-    case TensorCriterion::second_invariant: return 2.0 / 3.0 * von_mises(tensor);
-    case TensorCriterion::trace: break;
+    case TensorCriterion::von_mises:
+      return von_mises(tensor);
+    case TensorCriterion::tresca:
+      return tresca(tensor);
+    case TensorCriterion::second_invariant:
+      return 2.0 / 3.0 * von_mises(tensor);
+    case TensorCriterion::trace:
+      break;
   }
   return tensor.trace();
 }
@@ -52,7 +56,9 @@ double value_of(const Eigen::Matrix3d& tensor, TensorCriterion which) {
 RowFunction criterion(const std::vector<std::string>& components, TensorCriterion which) {
   const auto columns = tensor_columns(components);
   return [columns, which](std::span<const double> row) {
-    return std::isnan(row[static_cast<std::size_t>(columns[0])]) ? absent : made_number(value_of(tensor_in(row, columns), which));
+    return std::isnan(row[static_cast<std::size_t>(columns[0])])
+               ? absent
+               : made_number(value_of(tensor_in(row, columns), which));
   };
 }
 
@@ -70,14 +76,16 @@ RowFunction sum_of_squares(std::vector<double> weights) {
 }
 
 RowFunction euclidean_norm(std::vector<double> weights) {
-  return [squares = sum_of_squares(std::move(weights))](std::span<const double> row) { return std::sqrt(squares(row)); };
+  return
+      [squares = sum_of_squares(std::move(weights))](std::span<const double> row) { return std::sqrt(squares(row)); };
 }
 
 std::vector<double> frobenius_weights(const std::vector<std::string>& components) {
   std::vector<double> weights;
   for (const std::string& name : components) {
-    const bool off_diagonal = std::any_of(stress_components.begin() + 3, stress_components.end(), [&](auto each) { return each == name; }) ||
-                              std::any_of(strain_components.begin() + 3, strain_components.end(), [&](auto each) { return each == name; });
+    const bool off_diagonal =
+        std::any_of(stress_components.begin() + 3, stress_components.end(), [&](auto each) { return each == name; }) ||
+        std::any_of(strain_components.begin() + 3, strain_components.end(), [&](auto each) { return each == name; });
     weights.push_back(off_diagonal ? 2.0 : 1.0);
   }
   return weights;
@@ -87,7 +95,8 @@ RowFunction formula(const std::vector<std::string>& components, const ValueFunct
   std::vector<int> columns;
   for (const std::string& parameter : function.parameters) {
     columns.push_back(place_of(components, parameter));
-    if (columns.back() < 0) throw Error("unknown-component", fmt::format("the formula depends on {}, which the field has not", parameter));
+    if (columns.back() < 0)
+      throw Error("unknown-component", fmt::format("the formula depends on {}, which the field has not", parameter));
   }
   return [columns = std::move(columns), value = function.value](std::span<const double> row) {
     std::vector<double> at;
@@ -105,7 +114,8 @@ Field made_of_rows(const Field& field, std::span<const RowFunction> functions) {
     const std::size_t width = source.components.size();
     result.values.clear();
     for (std::size_t row = 0; row < source.values.size() / width; ++row) {
-      for (const RowFunction& function : functions) result.values.push_back(function(std::span(source.values).subspan(row * width, width)));
+      for (const RowFunction& function : functions)
+        result.values.push_back(function(std::span(source.values).subspan(row * width, width)));
     }
     return Field(std::move(result));
   };

@@ -44,14 +44,16 @@ std::optional<Extremes> extremes(const Field& field, int component, std::optiona
   const auto visit = [&](int place) {
     const int points = nodal ? 1 : std::get<ElementField>(field).points(place);
     for (int point = 0; point < points; ++point) {
-      const double value = nodal ? nodal->at(place, component) : std::get<ElementField>(field).at(place, point, component);
+      const double value =
+          nodal ? nodal->at(place, component) : std::get<ElementField>(field).at(place, point, component);
       if (!std::isnan(value)) take(result, value, place, point);
     }
   };
   if (places) {
     std::for_each(places->begin(), places->end(), visit);
   } else {
-    const auto count = nodal ? nodal->values.size() / nodal->components.size() : std::get<ElementField>(field).starts.size() - 1;
+    const auto count =
+        nodal ? nodal->values.size() / nodal->components.size() : std::get<ElementField>(field).starts.size() - 1;
     for (std::size_t place = 0; place < count; ++place) visit(static_cast<int>(place));
   }
   if (result.least.place < 0) return std::nullopt;

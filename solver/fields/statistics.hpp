@@ -8,9 +8,9 @@
 
 namespace comma::solver {
 
-/// A quantity along a line, linear between its points (U4.81.21, section MOYENNE). With the length l of the line, `mean` is the
-/// integral over l, `slope` that of 12 (s - l / 2) over l^2: the straight line of the same force and moment goes from `first`
-/// = mean - slope / 2 to `last` = mean + slope / 2.
+/// A quantity along a line, linear between its points (U4.81.21, section MOYENNE). With the length l of the line,
+/// `mean` is the integral over l, `slope` that of 12 (s - l / 2) over l^2: the straight line of the same force and
+/// moment goes from `first` = mean - slope / 2 to `last` = mean + slope / 2.
 struct LineMean {
   double mean = 0.0;
   double slope = 0.0;

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
@@ -29,7 +29,8 @@ class DisplacementGradients {
   double elongation(int cell, StrainKind kind) const {
     const auto nodes = model_.mesh->cell(cell);
     const int dim = model_.formulations[cell] == Formulation::bar_2d ? 2 : 3;
-    const Eigen::Vector3d along = Eigen::Vector3d(model_.mesh->nodes[nodes[1]].data()) - Eigen::Vector3d(model_.mesh->nodes[nodes[0]].data());
+    const Eigen::Vector3d along =
+        Eigen::Vector3d(model_.mesh->nodes[nodes[1]].data()) - Eigen::Vector3d(model_.mesh->nodes[nodes[0]].data());
     const Eigen::Vector3d change = value(nodes[1], dim, cell) - value(nodes[0], dim, cell);
     const double green = is_green(kind) ? 0.5 * change.squaredNorm() : 0.0;
     if (kind == StrainKind::logarithmic) return std::log((along + change).norm() / along.norm());
@@ -74,7 +75,8 @@ class DisplacementGradients {
 Eigen::Matrix3d logarithmic_strain(const Eigen::Matrix3d& h) {
   const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + h;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stretches(f.transpose() * f);
-  return stretches.eigenvectors() * (0.5 * stretches.eigenvalues().array().log()).matrix().asDiagonal() * stretches.eigenvectors().transpose();
+  return stretches.eigenvectors() * (0.5 * stretches.eigenvalues().array().log()).matrix().asDiagonal() *
+         stretches.eigenvectors().transpose();
 }
 
 Vector6d engineering(const Eigen::Matrix3d& strain) {
@@ -84,7 +86,8 @@ Vector6d engineering(const Eigen::Matrix3d& strain) {
 }
 
 /// The strain across a plane body that carries no stress there.
-double transverse_strain(const CellMaterial& material, const MaterialPoint& at, const Vector6d& strain, const Vector6d& inelastic) {
+double transverse_strain(const CellMaterial& material, const MaterialPoint& at, const Vector6d& strain,
+                         const Vector6d& inelastic) {
   const Vector6d elastic = strain - inelastic;
   if (const auto* isotropic = std::get_if<IsotropicElasticity>(material.elasticity)) {
     const double poisson = moduli(*isotropic, at).poisson;
@@ -118,7 +121,8 @@ double bar_strain(const FieldInput& input, int cell, const DisplacementGradients
   if (!is_mechanical(kind)) return strain;
   const auto* material = std::get_if<IsotropicElasticity>(material_of(input, cell).elasticity);
   if (material == nullptr) {
-    throw Error("unsupported", fmt::format("the bar on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
+    throw Error("unsupported",
+                fmt::format("the bar on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
   }
   return strain - inelastic_axial_strain(*material, middle_point(input, cell));
 }
@@ -167,14 +171,17 @@ ElementField plastic_strains(const FieldInput& input, const NodalField& displace
   const std::size_t width = field.components.size();
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
     if (!points.covers(cell)) {
-      std::fill(field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell]) * width),
-                field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell + 1]) * width), absent);
+      std::fill(
+          field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell]) * width),
+          field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell + 1]) * width),
+          absent);
       continue;
     }
     const auto& samples = points.samples(cell);
     for (std::size_t g = 0; g < samples.size(); ++g) {
       const int point = static_cast<int>(g);
-      const MaterialPoint at = points.material_point(cell, input.state, samples[g], points.locate(cell, samples[g]).at, point);
+      const MaterialPoint at =
+          points.material_point(cell, input.state, samples[g], points.locate(cell, samples[g]).at, point);
       const int own = dimension(input.model.mesh->cell_types[cell]) == 3 ? 6 : 4;
       Vector6d stress = Vector6d::Zero();
       for (int i = 0; i < own; ++i) stress[i] = columns[i] < 0 ? absent : stresses.at(cell, point, columns[i]);

@@ -7,20 +7,21 @@
 namespace comma::solver {
 
 enum class StrainKind : std::uint8_t {
-  total,       ///< EPSI: symmetric part of the displacement gradient
-  mechanical,  ///< EPME: less the strain of the command variables
-  green,       ///< EPSG: Green-Lagrange
+  total,             ///< EPSI: symmetric part of the displacement gradient
+  mechanical,        ///< EPME: less the strain of the command variables
+  green,             ///< EPSG: Green-Lagrange
   mechanical_green,  ///< EPMG: the same less the strain of the command variables
-  logarithmic  ///< EPSL: ln(F^T F) / 2
+  logarithmic        ///< EPSL: ln(F^T F) / 2
 };
 
 /// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
-/// components (half the shear angles). Bars have EPXX, along themselves. In plane stress EPZZ is that of the elastic law without stress across the plane.
-/// Throws Error `incompatible-field` where a node of a continuum or bar has no displacement.
+/// components (half the shear angles). Bars have EPXX, along themselves. In plane stress EPZZ is that of the elastic
+/// law without stress across the plane. Throws Error `incompatible-field` where a node of a continuum or bar has no
+/// displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
-/// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is taken away, in small strains;
-/// components as above. In plane stress EPZZ keeps the volume. Bars have none.
+/// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is
+/// taken away, in small strains; components as above. In plane stress EPZZ keeps the volume. Bars have none.
 ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses);
 
 }  // namespace comma::solver

@@ -119,9 +119,10 @@ Eigen::Vector3d first_edge(const Mesh& mesh, int face) {
   return Eigen::Vector3d(mesh.nodes[nodes[0]].data()) - Eigen::Vector3d(mesh.nodes[nodes[1]].data());
 }
 
-/// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first. A direction has no sign of its own; these are those that Code_Aster's
-/// figures have (docs/conformance.md): the second one is (b, value - a), as the first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the
-/// first axis, or away from the second where that is nearer.
+/// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first. A direction has no sign of its
+/// own; these are those that Code_Aster's figures have (docs/conformance.md): the second one is (b, value - a), as the
+/// first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the first axis, or away from
+/// the second where that is nearer.
 std::array<Eigen::Vector2d, 2> principal_directions(double a, double b, double c) {
   const double half = 0.5 * (a - c);
   const double root = std::hypot(half, b);
@@ -130,7 +131,8 @@ std::array<Eigen::Vector2d, 2> principal_directions(double a, double b, double c
     return {Eigen::Vector2d(second[1], -second[0]), second};
   }
   // The larger value less a, without cancellation.
-  const Eigen::Vector2d second = b == 0.0 ? Eigen::Vector2d::UnitX().eval() : Eigen::Vector2d(b, b * (b / (half + root))).normalized();
+  const Eigen::Vector2d second =
+      b == 0.0 ? Eigen::Vector2d::UnitX().eval() : Eigen::Vector2d(b, b * (b / (half + root))).normalized();
   return {Eigen::Vector2d(second[0] > 0.0 ? second[1] : -second[1], -std::abs(second[0])), second};
 }
 
@@ -177,8 +179,9 @@ ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, st
     if (cell < 0) continue;
     const Eigen::Vector3d normal = normal_of(mesh, face, samples);
     const Eigen::Matrix3d stress = mean_stress(mesh, stresses, columns, cell, face);
-    const Values values =
-        dimension(mesh.cell_types[face]) == 1 ? resolve_on_edge(stress, normal) : resolve_on_face(stress, normal, first_edge(mesh, face));
+    const Values values = dimension(mesh.cell_types[face]) == 1
+                              ? resolve_on_edge(stress, normal)
+                              : resolve_on_face(stress, normal, first_edge(mesh, face));
     result.values.insert(result.values.end(), values.begin(), values.end());
     result.starts[face + 1] = 1;
   }

@@ -11,7 +11,8 @@ namespace {
 
 /// A field at the Gauss points of continua: `write(cell, point, target)` for each.
 template <class Write>
-ElementField at_points(const FieldInput& input, std::string quantity, std::vector<std::string> components, Write&& write) {
+ElementField at_points(const FieldInput& input, std::string quantity, std::vector<std::string> components,
+                       Write&& write) {
   ContinuumPoints points(input.model);
   ElementField field{std::move(quantity), Support::gauss_point, std::move(components), {0}, {}};
   const std::size_t width = field.components.size();
@@ -67,9 +68,11 @@ ElementField command_variable_field(const FieldInput& input) {
 }
 
 ElementField variable_strain_field(const FieldInput& input) {
-  return at_points(input, "EPSI_R", {"EPTHER_L", "EPTHER_T", "EPTHER_N", "EPSECH", "EPHYDR"}, [&](int cell, const MaterialPoint& at, double* target) {
-    std::visit([&](const auto& material) { write_strains(material, at, target); }, *material_of(input, cell).elasticity);
-  });
+  return at_points(input, "EPSI_R", {"EPTHER_L", "EPTHER_T", "EPTHER_N", "EPSECH", "EPHYDR"},
+                   [&](int cell, const MaterialPoint& at, double* target) {
+                     std::visit([&](const auto& material) { write_strains(material, at, target); },
+                                *material_of(input, cell).elasticity);
+                   });
 }
 
 }  // namespace comma::solver

@@ -21,10 +21,12 @@ void add_tensor(std::vector<std::string>& names, std::string_view name) {
 std::vector<std::string> names_of_relation(const CellBehaviour& behaviour) {
   switch (behaviour.relation) {
     case Relation::elastic:
-    case Relation::hyperelastic: return {"VIDE"};
+    case Relation::hyperelastic:
+      return {"VIDE"};
     case Relation::isotropic_linear:
     case Relation::isotropic_traction:
-    case Relation::isotropic_power: return {"EPSPEQ", "INDIPLAS"};
+    case Relation::isotropic_power:
+      return {"EPSPEQ", "INDIPLAS"};
     case Relation::isotropic_nonlinear: {
       std::vector<std::string> names = {"EPSPEQ", "INDIPLAS"};
       if (behaviour.kinematics != Kinematics::multiplicative) add_tensor(names, "EPSP");
@@ -45,7 +47,8 @@ std::vector<std::string> names_of_relation(const CellBehaviour& behaviour) {
     case Relation::asymmetric_linear:
     case Relation::contact_spring:
     case Relation::bilinear_spring:
-    case Relation::hardening_spring: break;
+    case Relation::hardening_spring:
+      break;
   }
   return {};
 }
@@ -111,7 +114,8 @@ Field named(const NodalField& field, const BehaviourOfCells* behaviours) {
   }
   const std::size_t width = field.components.size();
   for (std::size_t row = 0; row < field.values.size() / width; ++row)
-    for (const int source : sources) result.values.push_back(field.values[row * width + static_cast<std::size_t>(source)]);
+    for (const int source : sources)
+      result.values.push_back(field.values[row * width + static_cast<std::size_t>(source)]);
   return result;
 }
 

@@ -7,7 +7,8 @@
 
 namespace comma::solver {
 
-std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& field, int component, std::span<const int> cells) {
+std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& field, int component,
+                                       std::span<const int> cells) {
   ContinuumPoints points(model);
   std::vector<ValueVolume> pieces;
   for (const int cell : cells) {

@@ -15,13 +15,16 @@ struct ValueVolume {
   double volume = 0.0;
 };
 
-/// One a Gauss point of the continuum cells among `cells` that carry the component of a field at Gauss points or by cell.
-std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& field, int component, std::span<const int> cells);
+/// One a Gauss point of the continuum cells among `cells` that carry the component of a field at Gauss points or by
+/// cell.
+std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& field, int component,
+                                       std::span<const int> cells);
 
 /// Least and greatest value; `pieces` is not empty.
 std::pair<double, double> value_range(std::span<const ValueVolume> pieces);
 
-/// The volume between each two neighbours of rising bounds; a value on a bound counts below it, one on the first bound above it.
+/// The volume between each two neighbours of rising bounds; a value on a bound counts below it, one on the first bound
+/// above it.
 std::vector<double> volumes_between(std::span<const ValueVolume> pieces, std::span<const double> bounds);
 
 }  // namespace comma::solver

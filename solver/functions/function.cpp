@@ -25,9 +25,11 @@ double segment(const TabulatedFunction& f, std::size_t i, double at) {
   const bool positive = (f.x_scale == Scale::linear || (at > 0.0 && f.x[i] > 0.0)) &&
                         (f.y_scale == Scale::linear || (f.y[i] > 0.0 && f.y[i + 1] > 0.0));
   if (!positive) {
-    throw Error("out-of-function",
-                fmt::format("the function {}({}) is interpolated on a logarithmic scale, but a value near {} = {} is not positive",
-                            f.result, f.parameter, f.parameter, at));
+    throw Error(
+        "out-of-function",
+        fmt::format(
+            "the function {}({}) is interpolated on a logarithmic scale, but a value near {} = {} is not positive",
+            f.result, f.parameter, f.parameter, at));
   }
   const double x0 = forward(f.x_scale, f.x[i]);
   const double x1 = forward(f.x_scale, f.x[i + 1]);
@@ -42,8 +44,8 @@ double beyond(const TabulatedFunction& f, double at, bool on_the_left) {
   if (extension == Extension::constant) return on_the_left ? f.y.front() : f.y.back();
   if (extension == Extension::linear && f.x.size() > 1) return segment(f, on_the_left ? 0 : f.x.size() - 2, at);
   throw Error("out-of-function",
-              fmt::format("{} = {} lies outside the function {}({}), which is defined from {} to {}", f.parameter, at, f.name.empty() ? f.result : f.name,
-                          f.parameter, f.x.front(), f.x.back()),
+              fmt::format("{} = {} lies outside the function {}({}), which is defined from {} to {}", f.parameter, at,
+                          f.name.empty() ? f.result : f.name, f.parameter, f.x.front(), f.x.back()),
               fmt::format("extend the function on the {}", on_the_left ? "left" : "right"));
 }
 

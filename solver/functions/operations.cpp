@@ -1,7 +1,7 @@
 #include "solver/functions/operations.hpp"
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,8 @@ TabulatedFunction joined(Functions functions, Join join, std::vector<double> abs
   result.x = abscissas.empty() ? common_abscissas(functions) : std::move(abscissas);
   std::vector<double> values(functions.size());
   for (const double x : result.x) {
-    std::ranges::transform(functions, values.begin(), [x](const TabulatedFunction* function) { return (*function)(x); });
+    std::ranges::transform(functions, values.begin(),
+                           [x](const TabulatedFunction* function) { return (*function)(x); });
     result.y.push_back(join(values));
   }
   return result;
@@ -55,17 +56,24 @@ std::vector<double> common_abscissas(Functions functions) {
       return before || behind;
     });
   });
-  if (all.empty()) throw Error("out-of-function", "the functions have no abscissa where all of them are defined", "extend them on the left or on the right");
+  if (all.empty())
+    throw Error("out-of-function", "the functions have no abscissa where all of them are defined",
+                "extend them on the left or on the right");
   return all;
 }
 
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients, std::vector<double> abscissas) {
-  const auto sum = [&](const std::vector<double>& values) { return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0); };
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients,
+                              std::vector<double> abscissas) {
+  const auto sum = [&](const std::vector<double>& values) {
+    return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0);
+  };
   return joined(functions, sum, std::move(abscissas));
 }
 
 TabulatedFunction product(Functions functions, std::vector<double> abscissas) {
-  const auto multiply = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>()); };
+  const auto multiply = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>());
+  };
   return joined(functions, multiply, std::move(abscissas));
 }
 
@@ -116,12 +124,16 @@ TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedF
 
 TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree) {
   const auto count = static_cast<Eigen::Index>(function.x.size());
-  if (count <= degree) throw Error("out-of-function", fmt::format("{} points determine no polynomial of degree {}", count, degree), "take a lower degree");
+  if (count <= degree)
+    throw Error("out-of-function", fmt::format("{} points determine no polynomial of degree {}", count, degree),
+                "take a lower degree");
   // Powers of a variable between -1 and 1.
-  const double middle = 0.5 * (function.x.front() + function.x.back()), half = std::max(0.5 * (function.x.back() - function.x.front()), std::numeric_limits<double>::min());
+  const double middle = 0.5 * (function.x.front() + function.x.back()),
+               half = std::max(0.5 * (function.x.back() - function.x.front()), std::numeric_limits<double>::min());
   Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(count, degree + 1);
   for (Eigen::Index i = 0; i < count; ++i)
-    for (int k = 1; k <= degree; ++k) powers(i, k) = powers(i, k - 1) * (function.x[static_cast<std::size_t>(i)] - middle) / half;
+    for (int k = 1; k <= degree; ++k)
+      powers(i, k) = powers(i, k - 1) * (function.x[static_cast<std::size_t>(i)] - middle) / half;
   const Eigen::Map<const Eigen::VectorXd> values(function.y.data(), count);
   TabulatedFunction result = function;
   Eigen::Map<Eigen::VectorXd>(result.y.data(), count) = powers * powers.householderQr().solve(values);
@@ -143,7 +155,9 @@ TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_
   const auto& y = function.y;
   for (std::size_t i = 2; i < x.size(); ++i) {
     const double first = x[i - 1] - x[i - 2], second = x[i] - x[i - 1], both = x[i] - x[i - 2];
-    const double under_parabola = both / 6.0 * ((2.0 - second / first) * y[i - 2] + both * both / (first * second) * y[i - 1] + (2.0 - first / second) * y[i]);
+    const double under_parabola =
+        both / 6.0 *
+        ((2.0 - second / first) * y[i - 2] + both * both / (first * second) * y[i - 1] + (2.0 - first / second) * y[i]);
     result.y[i] = result.y[i - 2] + under_parabola;
   }
   return result;
@@ -153,9 +167,11 @@ TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");
   std::vector<double> slopes(last);
-  for (std::size_t i = 0; i < last; ++i) slopes[i] = (function.y[i + 1] - function.y[i]) / (function.x[i + 1] - function.x[i]);
+  for (std::size_t i = 0; i < last; ++i)
+    slopes[i] = (function.y[i + 1] - function.y[i]) / (function.x[i + 1] - function.x[i]);
   TabulatedFunction result = function;
-  for (std::size_t i = 0; i <= last; ++i) result.y[i] = 0.5 * (slopes[i == 0 ? 0 : i - 1] + slopes[std::min(i, last - 1)]);
+  for (std::size_t i = 0; i <= last; ++i)
+    result.y[i] = 0.5 * (slopes[i == 0 ? 0 : i - 1] + slopes[std::min(i, last - 1)]);
   return result;
 }
 
@@ -163,7 +179,9 @@ TabulatedFunction inverse(const TabulatedFunction& function) {
   const bool rises = std::ranges::adjacent_find(function.y, std::ranges::greater_equal()) == function.y.end();
   const bool falls = std::ranges::adjacent_find(function.y, std::ranges::less_equal()) == function.y.end();
   if (!rises && !falls) {
-    throw Error("out-of-function", fmt::format("the function {}({}) neither rises nor falls throughout: it has no inverse", function.result, function.parameter));
+    throw Error("out-of-function",
+                fmt::format("the function {}({}) neither rises nor falls throughout: it has no inverse",
+                            function.result, function.parameter));
   }
   TabulatedFunction result = function;
   std::swap(result.x, result.y);

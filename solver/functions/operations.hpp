@@ -1,8 +1,9 @@
 // Functions made of tabulated functions: sums, products, envelopes, integrals, derivatives (U4.32.04).
 //
-// What combines several functions is tabulated at all their abscissas, as far as every one of them is defined there: beyond
-// an end that excludes, it has no points. The new table takes parameter, scales and extensions of the first function. All
-// throw Error `out-of-function` when the functions have no abscissa in common, or where one cannot be evaluated.
+// What combines several functions is tabulated at all their abscissas, as far as every one of them is defined there:
+// beyond an end that excludes, it has no points. The new table takes parameter, scales and extensions of the first
+// function. All throw Error `out-of-function` when the functions have no abscissa in common, or where one cannot be
+// evaluated.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +21,12 @@ using Functions = std::span<const TabulatedFunction* const>;
 std::vector<double> common_abscissas(Functions functions);
 
 /// sum of coefficients[i] * functions[i], at `abscissas` (rising) in place of the common ones unless there are none.
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients, std::vector<double> abscissas = {});
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients,
+                              std::vector<double> abscissas = {});
 TabulatedFunction product(Functions functions, std::vector<double> abscissas = {});
 TabulatedFunction mean(Functions functions);
-/// At each abscissa the value below which that share (0 to 1) of the functions lies, linear between those in order: 0.5 is the median.
+/// At each abscissa the value below which that share (0 to 1) of the functions lies, linear between those in order: 0.5
+/// is the median.
 TabulatedFunction fractile(Functions functions, double share);
 /// The largest or the smallest of the functions at each abscissa.
 TabulatedFunction upper_envelope(Functions functions);
@@ -36,18 +39,20 @@ TabulatedFunction mapped(const TabulatedFunction& function, const std::function<
 enum class Overlap : std::uint8_t { first, second };
 /// The points of one function, then those of another, and the ends of both.
 TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts);
-/// The polynomial of least squares through the points, at their abscissas. Throws Error `out-of-function` where they are no more than the degree.
+/// The polynomial of least squares through the points, at their abscissas. Throws Error `out-of-function` where they
+/// are no more than the degree.
 TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree);
 
 /// By the trapezoidal rule from the first abscissa, where it is `at_first`.
 TabulatedFunction integral(const TabulatedFunction& function, double at_first);
-/// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the trapezoidal rule, so that every other value
-/// counts from there.
+/// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the
+/// trapezoidal rule, so that every other value counts from there.
 TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first);
-/// The mean of the slopes on both sides, that of the one side at the ends. Throws Error `out-of-function` for a single point.
+/// The mean of the slopes on both sides, that of the one side at the ends. Throws Error `out-of-function` for a single
+/// point.
 TabulatedFunction derivative(const TabulatedFunction& function);
-/// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates neither rise
-/// nor fall strictly.
+/// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates
+/// neither rise nor fall strictly.
 TabulatedFunction inverse(const TabulatedFunction& function);
 /// outer(inner(x)) at the abscissas of the inner function, whose shape it takes.
 TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner);

@@ -16,7 +16,8 @@ constexpr double same_instant = 1e-10;
 
 }  // namespace
 
-TimeBracket time_bracket(std::span<const double> instants, double time, Extension left, Extension right, std::string_view what) {
+TimeBracket time_bracket(std::span<const double> instants, double time, Extension left, Extension right,
+                         std::string_view what) {
   const double first = instants.front();
   const double last = instants.back();
   const double margin = same_instant * std::max(std::abs(first), std::abs(last));
@@ -24,7 +25,10 @@ TimeBracket time_bracket(std::span<const double> instants, double time, Extensio
   const bool after = time > last + margin;
   const Extension extension = before ? left : right;
   if ((before || after) && extension == Extension::excluded) {
-    throw Error("out-of-function", fmt::format("{} is asked for at time {}, but it is given {}", what, time, instants.size() == 1 ? fmt::format("at {} alone", first) : fmt::format("from {} to {}", first, last)),
+    throw Error("out-of-function",
+                fmt::format("{} is asked for at time {}, but it is given {}", what, time,
+                            instants.size() == 1 ? fmt::format("at {} alone", first)
+                                                 : fmt::format("from {} to {}", first, last)),
                 fmt::format("extend it on the {}", before ? "left" : "right"));
   }
   const bool constant = extension == Extension::constant || instants.size() == 1;

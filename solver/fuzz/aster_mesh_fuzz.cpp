@@ -16,7 +16,8 @@ std::string text_of(const Mesh& mesh) {
   try {
     return format_aster_mesh(mesh);
   } catch (const Error& error) {
-    fuzz::require(error.code() == "name-too-long" || error.code() == "invalid-name", "only names keep a mesh from being written");
+    fuzz::require(error.code() == "name-too-long" || error.code() == "invalid-name",
+                  "only names keep a mesh from being written");
     return {};
   }
 }

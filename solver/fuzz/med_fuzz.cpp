@@ -1,6 +1,7 @@
-// Fuzz target: a damaged MED file is a mesh or an error of the reader. An input is either a whole file (it starts with HDF5's
-// signature), or says how to damage a sound one: four bytes a change, three of position and one that is added there. So the
-// fuzzer does not waste its time on files that are broken at the first byte, nor on the zeros that HDF5 pads with.
+// Fuzz target: a damaged MED file is a mesh or an error of the reader. An input is either a whole file (it starts with
+// HDF5's signature), or says how to damage a sound one: four bytes a change, three of position and one that is added
+// there. So the fuzzer does not waste its time on files that are broken at the first byte, nor on the zeros that HDF5
+// pads with.
 #include <unistd.h>
 
 #include <cstdint>

@@ -50,9 +50,7 @@ class Source {
   const std::string& path_;
 };
 
-bool is_separator(char c) {
-  return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f';
-}
+bool is_separator(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f'; }
 
 std::string upper(std::string_view text) {
   std::string result(text);
@@ -130,9 +128,7 @@ struct Subfile {
   std::size_t last = 0;  ///< words [first, last) are its content
 };
 
-bool ends_subfile(const Word& word) {
-  return upper(word.text) == "FINSF";
-}
+bool ends_subfile(const Word& word) { return upper(word.text) == "FINSF"; }
 
 /// Whether the line that holds words[i] has a "=" in it: then it belongs to the header.
 bool is_header_line(const std::vector<Word>& words, std::size_t i) {

@@ -1,5 +1,5 @@
-// The file is a row of records. Records of type 2 hold one pile of objects each: pile 1 the meshes, pile 32 the points and
-// their places in pile 33, which holds the coordinates. Objects are numbered in their pile; some have names.
+// The file is a row of records. Records of type 2 hold one pile of objects each: pile 1 the meshes, pile 32 the points
+// and their places in pile 33, which holds the coordinates. Objects are numbered in their pile; some have names.
 #include "solver/io/gibi_mesh_file.hpp"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ using enum CellType;
 
 constexpr int largest_gibi_number = std::numeric_limits<int>::max();
 
-/// Cast3M's number of a cell type, and where the nodes stand in its list that Code_Aster lists one after the other: Cast3M goes
-/// round each level, mid-edge nodes between the corners. Empty where the two agree.
+/// Cast3M's number of a cell type, and where the nodes stand in its list that Code_Aster lists one after the other:
+/// Cast3M goes round each level, mid-edge nodes between the corners. Empty where the two agree.
 struct GibiType {
   int number;
   CellType type;
@@ -31,13 +31,24 @@ struct GibiType {
 
 const std::vector<GibiType>& gibi_types() {
   static const std::vector<GibiType> table = {
-      {1, poi1}, {2, seg2}, {3, seg3, {0, 2, 1}}, {4, tria3}, {6, tria6, {0, 2, 4, 1, 3, 5}}, {7, tria7, {0, 2, 4, 1, 3, 5, 6}},
-      {8, quad4}, {10, quad8, {0, 2, 4, 6, 1, 3, 5, 7}}, {11, quad9, {0, 2, 4, 6, 1, 3, 5, 7, 8}}, {14, hexa8},
+      {1, poi1},
+      {2, seg2},
+      {3, seg3, {0, 2, 1}},
+      {4, tria3},
+      {6, tria6, {0, 2, 4, 1, 3, 5}},
+      {7, tria7, {0, 2, 4, 1, 3, 5, 6}},
+      {8, quad4},
+      {10, quad8, {0, 2, 4, 6, 1, 3, 5, 7}},
+      {11, quad9, {0, 2, 4, 6, 1, 3, 5, 7, 8}},
+      {14, hexa8},
       {15, hexa20, {0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 8, 9, 10, 11, 13, 15, 17, 19}},
-      {16, penta6}, {17, penta15, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}},
-      {23, tetra4}, {24, tetra10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}},
+      {16, penta6},
+      {17, penta15, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}},
+      {23, tetra4},
+      {24, tetra10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}},
       {33, hexa27, {0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 8, 9, 10, 11, 13, 15, 17, 19, 24, 20, 21, 22, 23, 25, 26}},
-      {25, pyram5}, {26, pyram13, {0, 2, 4, 6, 12, 1, 3, 5, 7, 8, 9, 10, 11}}};
+      {25, pyram5},
+      {26, pyram13, {0, 2, 4, 6, 12, 1, 3, 5, 7, 8, 9, 10, 11}}};
   return table;
 }
 
@@ -105,14 +116,16 @@ class GibiReader {
     int value = 0;
     const char* begin = line.data() + std::min(at, line.size());
     const auto [end, error] = std::from_chars(begin, line.data() + line.size(), value);
-    if (error != std::errc{} || value < 0) scan_.fail("this line should say the number of a pile and how many objects it holds");
+    if (error != std::errc{} || value < 0)
+      scan_.fail("this line should say the number of a pile and how many objects it holds");
     return value;
   }
 
   std::vector<NamedObject> read_names(int count) {
     std::vector<NamedObject> names;
     for (int i = 0; i < count; ++i) names.push_back({std::string(scan_.word("the name of an object")), 0});
-    for (NamedObject& named : names) named.object = scan_.integer("the number of a named object", 1, largest_gibi_number);
+    for (NamedObject& named : names)
+      named.object = scan_.integer("the number of a named object", 1, largest_gibi_number);
     return names;
   }
 
@@ -141,7 +154,8 @@ class GibiReader {
   const GibiType& type_of(int number, int nodes) const {
     const auto& table = gibi_types();
     const auto found = std::ranges::find(table, number, &GibiType::number);
-    if (found == table.end()) scan_.fail(fmt::format("cells of Cast3M's type {} are not known", number), "unsupported-cell");
+    if (found == table.end())
+      scan_.fail(fmt::format("cells of Cast3M's type {} are not known", number), "unsupported-cell");
     if (node_count(found->type) != nodes) {
       scan_.fail(fmt::format("a {} has {} nodes, not {}", name_of(found->type), node_count(found->type), nodes));
     }
@@ -150,7 +164,8 @@ class GibiReader {
 
   std::vector<int> read_cell(const GibiType& type) {
     std::vector<int> nodes;
-    for (int i = 0; i < node_count(type.type); ++i) nodes.push_back(scan_.integer("a point of a cell", 1, largest_gibi_number));
+    for (int i = 0; i < node_count(type.type); ++i)
+      nodes.push_back(scan_.integer("a point of a cell", 1, largest_gibi_number));
     std::vector<int> ordered = nodes;
     for (std::size_t i = 0; i < type.order.size(); ++i) ordered[i] = nodes[static_cast<std::size_t>(type.order[i])];
     return ordered;
@@ -175,7 +190,8 @@ class GibiReader {
     const auto stride = static_cast<std::size_t>(dimension_) + 1;
     for (const int place : places_) {
       const std::size_t start = (static_cast<std::size_t>(place) - 1) * stride;
-      if (start + stride > coordinates_.size()) scan_.fail(fmt::format("the coordinates of point {} are missing", mesh_.node_count() + 1));
+      if (start + stride > coordinates_.size())
+        scan_.fail(fmt::format("the coordinates of point {} are missing", mesh_.node_count() + 1));
       Point point{};
       std::copy_n(coordinates_.begin() + static_cast<std::ptrdiff_t>(start), dimension_, point.begin());
       mesh_.nodes.push_back(point);
@@ -192,11 +208,13 @@ class GibiReader {
   }
 
   int node_of(int point) const {
-    if (point > mesh_.node_count()) scan_.fail(fmt::format("the mesh has no point {}: it has {}", point, mesh_.node_count()));
+    if (point > mesh_.node_count())
+      scan_.fail(fmt::format("the mesh has no point {}: it has {}", point, mesh_.node_count()));
     return point - 1;
   }
 
-  /// Objects that no name leads to (the edges of faces, say) make no cells, and a cell that several objects hold is one cell.
+  /// Objects that no name leads to (the edges of faces, say) make no cells, and a cell that several objects hold is one
+  /// cell.
   void add_cells(GibiObject& object) {
     for (std::vector<int>& cell : object.cells) {
       for (int& point : cell) point = node_of(point);

@@ -58,14 +58,18 @@ class GmshReader {
 
   void close(std::string_view section) {
     const std::string wanted = closing(section);
-    if (scan_.word(wanted) != wanted) scan_.fail(fmt::format("{} should stand here: the section is longer than it says", wanted));
+    if (scan_.word(wanted) != wanted)
+      scan_.fail(fmt::format("{} should stand here: the section is longer than it says", wanted));
   }
 
   void read_format() {
     version_ = scan_.real("the version");
     const bool known = (version_ >= 2.0 && version_ < 3.0) || (version_ >= 4.0 && version_ < 5.0);
-    if (!known) scan_.fail(fmt::format("version {} of the format is not known", version_), "unsupported", "save the mesh in version 2.2 or 4.1");
-    if (scan_.integer("the kind of file") != 0) scan_.fail("this is a binary file", "unsupported", "save the mesh as text (ASCII)");
+    if (!known)
+      scan_.fail(fmt::format("version {} of the format is not known", version_), "unsupported",
+                 "save the mesh in version 2.2 or 4.1");
+    if (scan_.integer("the kind of file") != 0)
+      scan_.fail("this is a binary file", "unsupported", "save the mesh as text (ASCII)");
     scan_.integer("the size of a real");
     close("$MeshFormat");
   }
@@ -108,7 +112,8 @@ class GmshReader {
   }
 
   void add_node(int number, const Point& at) {
-    if (!node_index_.emplace(number, mesh_.node_count()).second) scan_.fail(fmt::format("node {} stands twice in the file", number));
+    if (!node_index_.emplace(number, mesh_.node_count()).second)
+      scan_.fail(fmt::format("node {} stands twice in the file", number));
     mesh_.nodes.push_back(at);
     mesh_.node_names.push_back(fmt::format("N{}", number));
   }
@@ -166,7 +171,8 @@ class GmshReader {
     const auto& table = gmsh_types();
     const auto found = std::ranges::find(table, number, &GmshType::number);
     if (found == table.end()) {
-      scan_.fail(fmt::format("cells of Gmsh's type {} are not known", number), "unsupported-cell", "mesh with orders 1 or 2");
+      scan_.fail(fmt::format("cells of Gmsh's type {} are not known", number), "unsupported-cell",
+                 "mesh with orders 1 or 2");
     }
     return *found;
   }
@@ -177,7 +183,8 @@ class GmshReader {
     for (int& node : nodes_) {
       const int name = scan_.integer("the number of a node");
       const auto found = node_index_.find(name);
-      if (found == node_index_.end()) scan_.fail(fmt::format("cell {} has the node {}, which is not in the file", number, name));
+      if (found == node_index_.end())
+        scan_.fail(fmt::format("cell {} has the node {}, which is not in the file", number, name));
       node = found->second;
     }
     std::vector<int> ordered = nodes_;
@@ -264,7 +271,7 @@ class GmshReader {
   double version_ = 1.0;
   Mesh mesh_;
   std::unordered_map<int, int> node_index_;
-  std::map<std::pair<int, int>, std::string> names_;                ///< by dimension and number
+  std::map<std::pair<int, int>, std::string> names_;               ///< by dimension and number
   std::map<std::pair<int, int>, std::vector<int>> entity_groups_;  ///< by dimension and number
   std::vector<int> nodes_;
 };

@@ -30,7 +30,8 @@ bool contains(const auto& numbers, int wanted) { return std::ranges::find(number
 /// Elements of lines say in a further record how they lie about themselves.
 bool is_line(int descriptor) { return contains(std::array{11, 21, 22, 23, 24}, descriptor); }
 
-/// A cell type and, for each of its nodes, where the file has it: middle nodes stand there between their corners, layer by layer.
+/// A cell type and, for each of its nodes, where the file has it: middle nodes stand there between their corners, layer
+/// by layer.
 struct IdeasCell {
   CellType type;
   std::vector<int> order;
@@ -39,13 +40,20 @@ struct IdeasCell {
 std::optional<IdeasCell> solid_of(int descriptor) {
   using enum CellType;
   switch (descriptor) {
-    case 111: return IdeasCell{tetra4, {}};
-    case 112: return IdeasCell{penta6, {}};
-    case 113: return IdeasCell{penta15, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}};
-    case 115: return IdeasCell{hexa8, {}};
-    case 116: return IdeasCell{hexa20, {0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 8, 9, 10, 11, 13, 15, 17, 19}};
-    case 118: return IdeasCell{tetra10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}};
-    default: return std::nullopt;
+    case 111:
+      return IdeasCell{tetra4, {}};
+    case 112:
+      return IdeasCell{penta6, {}};
+    case 113:
+      return IdeasCell{penta15, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}};
+    case 115:
+      return IdeasCell{hexa8, {}};
+    case 116:
+      return IdeasCell{hexa20, {0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 8, 9, 10, 11, 13, 15, 17, 19}};
+    case 118:
+      return IdeasCell{tetra10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}};
+    default:
+      return std::nullopt;
   }
 }
 
@@ -54,18 +62,24 @@ std::optional<IdeasCell> face_of(int descriptor) {
   using enum CellType;
   if (descriptor < 41 || descriptor > 96) return std::nullopt;
   switch (descriptor % 10) {
-    case 1: return IdeasCell{tria3, {}};
-    case 2: return IdeasCell{tria6, {0, 2, 4, 1, 3, 5}};
-    case 4: return IdeasCell{quad4, {}};
-    case 5: return IdeasCell{quad8, {0, 2, 4, 6, 1, 3, 5, 7}};
-    default: return std::nullopt;
+    case 1:
+      return IdeasCell{tria3, {}};
+    case 2:
+      return IdeasCell{tria6, {0, 2, 4, 1, 3, 5}};
+    case 4:
+      return IdeasCell{quad4, {}};
+    case 5:
+      return IdeasCell{quad8, {0, 2, 4, 6, 1, 3, 5, 7}};
+    default:
+      return std::nullopt;
   }
 }
 
 std::optional<IdeasCell> cell_of(int descriptor, int nodes) {
   using enum CellType;
   if (descriptor == 161) return IdeasCell{poi1, {}};
-  const bool segment = is_line(descriptor) || descriptor == 101 || descriptor == 102 || (descriptor >= 136 && descriptor <= 151);
+  const bool segment =
+      is_line(descriptor) || descriptor == 101 || descriptor == 102 || (descriptor >= 136 && descriptor <= 151);
   if (segment && nodes == 1) return IdeasCell{poi1, {}};
   if (segment && nodes == 2) return IdeasCell{seg2, {}};
   if (segment && nodes == 3) return IdeasCell{seg3, {0, 2, 1}};
@@ -121,7 +135,8 @@ class IdeasReader {
       if (values.size() < first + 3) fail("three coordinates should stand here");
       Point at;
       for (std::size_t i = 0; i < 3; ++i) at[i] = to_real(values[first + i]);
-      if (!node_index_.emplace(label, mesh_.node_count()).second) fail(fmt::format("node {} stands twice in the file", label));
+      if (!node_index_.emplace(label, mesh_.node_count()).second)
+        fail(fmt::format("node {} stands twice in the file", label));
       mesh_.nodes.push_back(at);
       mesh_.node_names.push_back(fmt::format("N{}", label));
     }
@@ -139,7 +154,8 @@ class IdeasReader {
     }
   }
 
-  /// So many numbers, on as many lines as it takes. Some programs write the -1 that ends the data set behind the last of them.
+  /// So many numbers, on as many lines as it takes. Some programs write the -1 that ends the data set behind the last
+  /// of them.
   std::vector<int> read_numbers(int count) {
     if (count < 0) fail(fmt::format("{} is no number of members", count));
     std::vector<int> numbers;
@@ -155,16 +171,19 @@ class IdeasReader {
   void add_cell(int label, int descriptor, const std::vector<int>& labels) {
     const auto kind = cell_of(descriptor, static_cast<int>(labels.size()));
     if (!kind || node_count(kind->type) != static_cast<int>(labels.size())) {
-      fail(fmt::format("element {} of kind {} with {} nodes is not known", label, descriptor, labels.size()), "unsupported-cell");
+      fail(fmt::format("element {} of kind {} with {} nodes is not known", label, descriptor, labels.size()),
+           "unsupported-cell");
     }
     std::vector<int> nodes;
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const int wanted = labels[kind->order.empty() ? i : static_cast<std::size_t>(kind->order[i])];
       const auto found = node_index_.find(wanted);
-      if (found == node_index_.end()) fail(fmt::format("element {} has the node {}, which is not in the file before it", label, wanted));
+      if (found == node_index_.end())
+        fail(fmt::format("element {} has the node {}, which is not in the file before it", label, wanted));
       nodes.push_back(found->second);
     }
-    if (!cell_index_.emplace(label, mesh_.cell_count()).second) fail(fmt::format("element {} stands twice in the file", label));
+    if (!cell_index_.emplace(label, mesh_.cell_count()).second)
+      fail(fmt::format("element {} stands twice in the file", label));
     mesh_.add_cell(kind->type, nodes);
     mesh_.cell_names.push_back(fmt::format("M{}", label));
   }
@@ -176,7 +195,9 @@ class IdeasReader {
       const std::string name(words().empty() ? std::string_view() : words().front());
       if (count > most_members) fail(fmt::format("a group of {} members does not fit into a file", count));
       const auto numbers = read_numbers(count * stride);
-      for (int i = 0; i < count; ++i) add_member(name, numbers[static_cast<std::size_t>(i * stride)], numbers[static_cast<std::size_t>(i * stride + 1)]);
+      for (int i = 0; i < count; ++i)
+        add_member(name, numbers[static_cast<std::size_t>(i * stride)],
+                   numbers[static_cast<std::size_t>(i * stride + 1)]);
     }
   }
 
@@ -185,7 +206,9 @@ class IdeasReader {
     if (kind != 7 && kind != 8) return;
     const auto& known = kind == 7 ? node_index_ : cell_index_;
     const auto found = known.find(label);
-    if (found == known.end()) fail(fmt::format("group {} has the {} {}, which is not in the file before it", name, kind == 7 ? "node" : "element", label));
+    if (found == known.end())
+      fail(fmt::format("group {} has the {} {}, which is not in the file before it", name,
+                       kind == 7 ? "node" : "element", label));
     auto& members = kind == 7 ? mesh_.node_groups[name] : mesh_.cell_groups[name];
     if (in_groups_.insert(fmt::format("{} {} {}", kind, name, found->second)).second) members.push_back(found->second);
   }
@@ -196,7 +219,8 @@ class IdeasReader {
     mesh_.dimension = flat && !solid ? 2 : 3;
   }
 
-  // --- lines ----------------------------------------------------------------------------------------------------------------
+  // --- lines
+  // ----------------------------------------------------------------------------------------------------------------
 
   bool next_line() {
     if (at_ >= text_.size()) return false;
@@ -232,21 +256,26 @@ class IdeasReader {
   int to_integer(std::string_view word, const char* what) const {
     int value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) fail(fmt::format("{} should stand here, not {:.20}", what, word));
+    if (error != std::errc() || end != word.data() + word.size())
+      fail(fmt::format("{} should stand here, not {:.20}", what, word));
     return value;
   }
 
   /// Fortran writes D for the exponent.
   double to_real(std::string_view word) const {
     std::string plain(word);
-    std::ranges::replace_if(plain, [](char c) { return c == 'D' || c == 'd'; }, 'E');
+    std::ranges::replace_if(
+        plain, [](char c) { return c == 'D' || c == 'd'; }, 'E');
     double value = 0.0;
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-    if (error != std::errc() || end != plain.data() + plain.size()) fail(fmt::format("a coordinate should stand here, not {:.20}", word));
+    if (error != std::errc() || end != plain.data() + plain.size())
+      fail(fmt::format("a coordinate should stand here, not {:.20}", word));
     return value;
   }
 
-  [[noreturn]] void fail(const std::string& what, const char* code = "damaged-mesh") const { throw Error(code, fmt::format("{}:{}: {}", path_, number_, what)); }
+  [[noreturn]] void fail(const std::string& what, const char* code = "damaged-mesh") const {
+    throw Error(code, fmt::format("{}:{}: {}", path_, number_, what));
+  }
 
   std::string_view text_, line_;
   std::string path_;

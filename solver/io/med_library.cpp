@@ -102,17 +102,25 @@ MedVersion version_in(const std::string& path) {
   return version;
 }
 
-/// A file that a later minor version wrote, which the library refuses by its stamp alone: a copy of it with the library's own. It is gone from the folder once it is open.
+/// A file that a later minor version wrote, which the library refuses by its stamp alone: a copy of it with the
+/// library's own. It is gone from the folder once it is open.
 class StampedCopy {
  public:
   explicit StampedCopy(const std::string& path) {
     std::error_code failure;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
-    if (failure) throw_unreadable(path, "of a file of a later MED version a copy is read, and there is no folder for temporary files", "set TMPDIR to one that exists");
+    if (failure)
+      throw_unreadable(path,
+                       "of a file of a later MED version a copy is read, and there is no folder for temporary files",
+                       "set TMPDIR to one that exists");
     path_ = (folder / fmt::format("comma-{}-{}.med", getpid(), ++count)).string();
     std::filesystem::copy_file(path, path_, std::filesystem::copy_options::overwrite_existing, failure);
-    if (failure) throw_unreadable(path, fmt::format("of a file of a later MED version a copy is read, and {} cannot be written", path_), "make room there, or set TMPDIR");
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, failure);
+    if (failure)
+      throw_unreadable(path,
+                       fmt::format("of a file of a later MED version a copy is read, and {} cannot be written", path_),
+                       "make room there, or set TMPDIR");
+    std::filesystem::permissions(path_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write,
+                                 failure);
     const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t group = file < 0 ? -1 : H5Gopen2(file, "INFOS_GENERALES", H5P_DEFAULT);
     const hid_t minor = group < 0 ? -1 : H5Aopen(group, "MIN", H5P_DEFAULT);
@@ -164,14 +172,15 @@ QuietHdf5::QuietHdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-QuietHdf5::~QuietHdf5() {
-  H5Eset_auto2(H5E_DEFAULT, handler_, client_data_);
-}
+QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, handler_, client_data_); }
 
 MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)) {
   std::optional<StampedCopy> copy;
   if (mode != MED_ACC_CREAT && check_readable(path_) > MedVersion{MED_MAJOR_NUM, MED_MINOR_NUM}) {
-    if (mode != MED_ACC_RDONLY) throw Error("unwritable-file", fmt::format("{}: a later version of MED than {} wrote it, and nothing is added to it", path_, MED_VERSION_STR));
+    if (mode != MED_ACC_RDONLY)
+      throw Error("unwritable-file",
+                  fmt::format("{}: a later version of MED than {} wrote it, and nothing is added to it", path_,
+                              MED_VERSION_STR));
     copy.emplace(path_);
   }
   id_ = MEDfileOpen(copy ? copy->path().c_str() : path_.c_str(), mode);
@@ -180,9 +189,7 @@ MedFile::MedFile(std::string path, med_access_mode mode) : path_(std::move(path)
   throw Error("unwritable-file", fmt::format("{}: the MED library cannot write it", path_));
 }
 
-MedFile MedFile::open_for_reading(const std::string& path) {
-  return {path, MED_ACC_RDONLY};
-}
+MedFile MedFile::open_for_reading(const std::string& path) { return {path, MED_ACC_RDONLY}; }
 
 MedFile MedFile::create(const std::string& path) {
   // The MED library writes to the screen when it cannot create a file, so we try first.
@@ -190,9 +197,7 @@ MedFile MedFile::create(const std::string& path) {
   return {path, MED_ACC_CREAT};
 }
 
-MedFile MedFile::open_for_adding(const std::string& path) {
-  return {path, MED_ACC_RDWR};
-}
+MedFile MedFile::open_for_adding(const std::string& path) { return {path, MED_ACC_RDWR}; }
 
 MedFile::~MedFile() {
   if (id_ >= 0) MEDfileClose(id_);
@@ -215,9 +220,7 @@ std::span<const std::int8_t> med_node_order(CellType type) {
   return whole.empty() ? whole : whole.first(static_cast<std::size_t>(node_count(type)));
 }
 
-std::span<const CellType> numbering_order() {
-  return numbering;
-}
+std::span<const CellType> numbering_order() { return numbering; }
 
 std::string trimmed(std::string_view padded) {
   padded = padded.substr(0, padded.find('\0'));

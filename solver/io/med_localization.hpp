@@ -15,8 +15,9 @@ struct GaussScheme {
   std::vector<double> weights;
 };
 
-/// The scheme of R3.01.01 with that many points on that cell type, in its order of points, as elements have it; nothing if there is
-/// none. One point is the centre of any cell, two points of a line are its ends, where beams have their forces.
+/// The scheme of R3.01.01 with that many points on that cell type, in its order of points, as elements have it; nothing
+/// if there is none. One point is the centre of any cell, two points of a line are its ends, where beams have their
+/// forces.
 std::optional<GaussScheme> gauss_scheme(CellType type, int points);
 
 }  // namespace comma::solver

@@ -193,7 +193,9 @@ void Reader::fill_groups(Mesh& mesh) const {
 
 /// Faces in the plane Z = 0, whatever the file says of the space around them: their edges have normals in that plane.
 bool Reader::is_flat(const Mesh& mesh) {
-  const auto has = [&](int wanted) { return std::ranges::any_of(mesh.cell_types, [&](CellType type) { return dimension(type) == wanted; }); };
+  const auto has = [&](int wanted) {
+    return std::ranges::any_of(mesh.cell_types, [&](CellType type) { return dimension(type) == wanted; });
+  };
   return has(2) && !has(3) && std::ranges::all_of(mesh.nodes, [](const Point& node) { return node[2] == 0.0; });
 }
 

@@ -57,9 +57,7 @@ class MedResultWriter {
 };
 
 /// MED has no word for a component that some of the nodes lack: it is written as 0, as Code_Aster does.
-double written_value(double value) {
-  return std::isnan(value) ? 0.0 : value;
-}
+double written_value(double value) { return std::isnan(value) ? 0.0 : value; }
 
 bool carries_any(std::span<const double> values) {
   return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
@@ -75,24 +73,31 @@ void MedResultWriter::go_on() {
     med_bool local = MED_FALSE;
     med_field_type type{};
     med_int steps = 0;
-    check_written(MEDfieldInfo(file_.id(), k, name.data(), mesh_name.data(), &local, &type, components.data(), units.data(), unit_of_time.data(), &steps), file_, "its fields, which cannot be read");
+    check_written(MEDfieldInfo(file_.id(), k, name.data(), mesh_name.data(), &local, &type, components.data(),
+                               units.data(), unit_of_time.data(), &steps),
+                  file_, "its fields, which cannot be read");
     if (trimmed(mesh_name) != mesh_name_) foreign_.insert(trimmed(name));
     auto& own = components_[trimmed(name)];
-    for (med_int c = 0; c < count; ++c) own.push_back(trimmed(std::string_view(components).substr(static_cast<std::size_t>(c) * MED_SNAME_SIZE, MED_SNAME_SIZE)));
+    for (med_int c = 0; c < count; ++c)
+      own.push_back(
+          trimmed(std::string_view(components).substr(static_cast<std::size_t>(c) * MED_SNAME_SIZE, MED_SNAME_SIZE)));
   }
   first_profile_ = MEDnProfile(file_.id()) + 1;
   const med_int schemes = MEDnLocalization(file_.id());
   for (int k = 1; k <= schemes; ++k) {
     med_geometry_type geometry{}, section_type{};
     med_int dimension = 0, points = 0, section_cells = 0;
-    check_written(MEDlocalizationInfo(file_.id(), k, name.data(), &geometry, &dimension, &points, interpolation.data(), section.data(), &section_cells, &section_type), file_,
-                  "its Gauss points, which cannot be read");
+    check_written(MEDlocalizationInfo(file_.id(), k, name.data(), &geometry, &dimension, &points, interpolation.data(),
+                                      section.data(), &section_cells, &section_type),
+                  file_, "its Gauss points, which cannot be read");
     localizations_.insert(trimmed(name));
   }
 }
 
 void MedResultWriter::create(const std::string& name, const std::vector<std::string>& components) {
-  if (foreign_.contains(name)) throw Error("unsupported", fmt::format("the file holds a field {} on another mesh", name), "write it to another UNITE");
+  if (foreign_.contains(name))
+    throw Error("unsupported", fmt::format("the file holds a field {} on another mesh", name),
+                "write it to another UNITE");
   const auto [entry, is_new] = components_.try_emplace(name, components);
   if (!is_new) {
     if (entry->second == components) return;
@@ -108,7 +113,7 @@ void MedResultWriter::create(const std::string& name, const std::vector<std::str
 }
 
 void MedResultWriter::write_values(const std::string& name, const ResultStep& step, const Place& place,
-                          const std::vector<double>& values) const {
+                                   const std::vector<double>& values) const {
   check_written(MEDfieldValueWithProfileWr(file_.id(), name.c_str(), step.order, MED_NO_IT, step.instant, place.entity,
                                            place.geometry, MED_COMPACT_STMODE, place.profile.c_str(),
                                            place.localization.c_str(), MED_FULL_INTERLACE, MED_ALL_CONSTITUENT,
@@ -119,7 +124,8 @@ void MedResultWriter::write_values(const std::string& name, const ResultStep& st
 /// The name of the profile of the chosen entities (numbered from 1); MED_NO_PROFILE when they are all there are.
 std::string MedResultWriter::profile(const std::vector<med_int>& chosen, std::size_t all) {
   if (chosen.size() == all) return MED_NO_PROFILE;
-  const auto [entry, is_new] = profiles_.try_emplace(chosen, fmt::format("PROFILE_{}", static_cast<std::size_t>(first_profile_) + profiles_.size()));
+  const auto [entry, is_new] = profiles_.try_emplace(
+      chosen, fmt::format("PROFILE_{}", static_cast<std::size_t>(first_profile_) + profiles_.size()));
   if (is_new) {
     check_written(MEDprofileWr(file_.id(), entry->second.c_str(), static_cast<med_int>(chosen.size()), chosen.data()),
                   file_, "a profile");
@@ -171,7 +177,7 @@ void MedResultWriter::write_nodal(const std::string& name, const ResultStep& ste
 }
 
 void MedResultWriter::write_block(const std::string& name, const ResultStep& step, const ElementField& field,
-                         const MedBlock& block) {
+                                  const MedBlock& block) {
   const std::size_t width = field.components.size();
   const auto order =
       field.support == Support::element_node ? med_node_order(block.type) : std::span<const std::int8_t>{};
@@ -227,16 +233,19 @@ std::string field_name(const std::string& result, std::string_view field) {
 /// The field with these components, those that it has not being absent.
 Field with_names(const Field& field, const std::vector<std::string>& names) {
   Field result = field;
-  std::visit([&](auto& made) {
-    const auto& given = std::get<std::decay_t<decltype(made)>>(field);
-    const std::size_t width = given.components.size(), rows = width == 0 ? 0 : given.values.size() / width;
-    made.components = names;
-    made.values.assign(rows * names.size(), absent);
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      const int column = given.component(names[c]);
-      for (std::size_t row = 0; row < rows && column >= 0; ++row) made.values[row * names.size() + c] = given.values[row * width + static_cast<std::size_t>(column)];
-    }
-  }, result);
+  std::visit(
+      [&](auto& made) {
+        const auto& given = std::get<std::decay_t<decltype(made)>>(field);
+        const std::size_t width = given.components.size(), rows = width == 0 ? 0 : given.values.size() / width;
+        made.components = names;
+        made.values.assign(rows * names.size(), absent);
+        for (std::size_t c = 0; c < names.size(); ++c) {
+          const int column = given.component(names[c]);
+          for (std::size_t row = 0; row < rows && column >= 0; ++row)
+            made.values[row * names.size() + c] = given.values[row * width + static_cast<std::size_t>(column)];
+        }
+      },
+      result);
   return result;
 }
 
@@ -270,7 +279,8 @@ void write_med_results(const std::string& path, const Mesh& mesh, const std::str
   write_all(writer, results);
 }
 
-void add_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name, bool has_mesh, std::span<const NamedResult> results) {
+void add_med_results(const std::string& path, const Mesh& mesh, const std::string& mesh_name, bool has_mesh,
+                     std::span<const NamedResult> results) {
   check_writable(mesh, mesh_name);
   const MedFile file = MedFile::open_for_adding(path);
   if (!has_mesh) write_mesh(file, mesh, mesh_name);

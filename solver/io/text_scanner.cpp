@@ -52,8 +52,10 @@ int TextScanner::integer(std::string_view what, int least, int most) {
   const std::string_view found = word(what);
   int value = 0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
-  if (error != std::errc{} || end != found.data() + found.size()) fail(fmt::format("{} should stand here, not {:.20}", what, found));
-  if (value < least || value > most) fail(fmt::format("{} is {}, which is not between {} and {}", what, value, least, most));
+  if (error != std::errc{} || end != found.data() + found.size())
+    fail(fmt::format("{} should stand here, not {:.20}", what, found));
+  if (value < least || value > most)
+    fail(fmt::format("{} is {}, which is not between {} and {}", what, value, least, most));
   return value;
 }
 
@@ -101,7 +103,8 @@ void TextScanner::fail(const std::string& what, const char* code, const std::str
 void require_regular_file(const std::string& path) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure) || failure || std::filesystem::is_regular_file(path, failure)) return;
-  throw Error("unreadable-file", fmt::format("{} is not a regular file", path), "name a file on a disk: folders, devices and pipes are not read");
+  throw Error("unreadable-file", fmt::format("{} is not a regular file", path),
+              "name a file on a disk: folders, devices and pipes are not read");
 }
 
 std::string read_text_file(const std::string& path) {

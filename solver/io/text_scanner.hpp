@@ -6,8 +6,8 @@
 
 namespace comma::solver {
 
-/// Reads a text that must outlive it. Every reading function throws Error `damaged-mesh` with file, line and column, and with
-/// what it was to read, when the text ends or holds something else.
+/// Reads a text that must outlive it. Every reading function throws Error `damaged-mesh` with file, line and column,
+/// and with what it was to read, when the text ends or holds something else.
 class TextScanner {
  public:
   TextScanner(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {}
@@ -26,7 +26,8 @@ class TextScanner {
   /// Passes lines until one begins with the word, and that word; false at the end.
   bool skip_to(std::string_view line_start);
 
-  [[noreturn]] void fail(const std::string& what, const char* code = "damaged-mesh", const std::string& hint = {}) const;
+  [[noreturn]] void fail(const std::string& what, const char* code = "damaged-mesh",
+                         const std::string& hint = {}) const;
 
  private:
   void skip_space();

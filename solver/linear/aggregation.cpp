@@ -9,11 +9,13 @@ namespace {
 constexpr int none = -1;
 
 std::span<const int> around(const NodeGraph& graph, int node) {
-  return {graph.neighbours.data() + graph.starts[node], static_cast<std::size_t>(graph.starts[node + 1] - graph.starts[node])};
+  return {graph.neighbours.data() + graph.starts[node],
+          static_cast<std::size_t>(graph.starts[node + 1] - graph.starts[node])};
 }
 
 bool is_free(const NodeGraph& graph, const std::vector<int>& taken, int node) {
-  return taken[node] == none && std::ranges::all_of(around(graph, node), [&](int other) { return taken[other] == none; });
+  return taken[node] == none &&
+         std::ranges::all_of(around(graph, node), [&](int other) { return taken[other] == none; });
 }
 
 void found_aggregate(const NodeGraph& graph, int node, Aggregates& result) {

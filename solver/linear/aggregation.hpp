@@ -18,9 +18,9 @@ struct Aggregates {
   int count = 0;
 };
 
-/// Every node in one aggregate: a node and all its neighbours where none is taken yet, the rest joined to an aggregate beside
-/// them (Vanek, Mandel, Brezina, "Algebraic multigrid by smoothed aggregation for second and fourth order elliptic
-/// problems", Computing 56, 1996, section 5). A node without neighbours is an aggregate of its own.
+/// Every node in one aggregate: a node and all its neighbours where none is taken yet, the rest joined to an aggregate
+/// beside them (Vanek, Mandel, Brezina, "Algebraic multigrid by smoothed aggregation for second and fourth order
+/// elliptic problems", Computing 56, 1996, section 5). A node without neighbours is an aggregate of its own.
 Aggregates aggregate(const NodeGraph& graph);
 
 }  // namespace comma::solver

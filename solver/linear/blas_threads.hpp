@@ -11,7 +11,8 @@ namespace comma::solver {
 /// Where the BLAS does not let itself be told, nothing happens.
 class BlasThreads {
  public:
-  explicit BlasThreads(const SharedLibrary& library) : set_(library.function_if_any<void(int)>("openblas_set_num_threads")) {}
+  explicit BlasThreads(const SharedLibrary& library)
+      : set_(library.function_if_any<void(int)>("openblas_set_num_threads")) {}
 
   void use(int count) const {
     if (set_) set_(count);

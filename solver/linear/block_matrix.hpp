@@ -34,11 +34,13 @@ struct BlockMatrix {
   }
 
   /// The same, x being taken from `x` in the block columns first .. last - 1 and from `elsewhere` in the others.
-  Eigen::Matrix<double, R, 1> row_times(int i, const Eigen::VectorXd& x, const Eigen::VectorXd& elsewhere, int first, int last) const {
+  Eigen::Matrix<double, R, 1> row_times(int i, const Eigen::VectorXd& x, const Eigen::VectorXd& elsewhere, int first,
+                                        int last) const {
     Eigen::Matrix<double, R, 1> sum = Eigen::Matrix<double, R, 1>::Zero();
     for (int k = starts[i]; k < starts[i + 1]; ++k) {
       const bool inside = columns[k] >= first && columns[k] < last;
-      sum.noalias() += blocks[k] * (inside ? x : elsewhere).template segment<C>(static_cast<Eigen::Index>(columns[k]) * C);
+      sum.noalias() +=
+          blocks[k] * (inside ? x : elsewhere).template segment<C>(static_cast<Eigen::Index>(columns[k]) * C);
     }
     return sum;
   }
@@ -51,7 +53,8 @@ struct BlockMatrix {
   /// y = A x.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     run_parts(part_count(), [&](int part) {
-      for (int i = part_start(part); i < part_start(part + 1); ++i) y.segment<R>(static_cast<Eigen::Index>(i) * R) = row_times(i, x);
+      for (int i = part_start(part); i < part_start(part + 1); ++i)
+        y.segment<R>(static_cast<Eigen::Index>(i) * R) = row_times(i, x);
     });
   }
 

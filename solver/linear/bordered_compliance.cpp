@@ -27,7 +27,8 @@ struct Bordered {
   std::vector<int> rows, columns;
   std::vector<double> values;
 
-  Bordered(const SymmetricMatrix& stiffness, const Eigen::SparseMatrix<double, Eigen::RowMajor>& border, const Eigen::VectorXd& scale) {
+  Bordered(const SymmetricMatrix& stiffness, const Eigen::SparseMatrix<double, Eigen::RowMajor>& border,
+           const Eigen::VectorXd& scale) {
     const auto size = static_cast<std::size_t>(stiffness.nonZeros() + border.nonZeros() + border.rows());
     rows.reserve(size);
     columns.reserve(size);
@@ -64,7 +65,7 @@ class SchurFactorisation {
     control(7) = nested_dissection;
     control(14) = extra_workspace;
     control(19) = centralised_schur;
-    control(31) = 1;       // the factors themselves are of no use
+    control(31) = 1;      // the factors themselves are of no use
     data_.cntl[0] = 0.0;  // positive definite: no search for pivots
   }
   ~SchurFactorisation() { run(job_destroy); }
@@ -103,8 +104,10 @@ class SchurFactorisation {
     const int status = data_.infog[0];
     if (status >= 0) return;
     if (status == -9 || status == -13 || status == -19 || status == -8 || status == -51)
-      throw Error("out-of-memory", "the compliance of the contact conditions does not fit into memory", "coarsen the slave surface, or solve with ALGO_CONT='GCP'");
-    throw Error("linear-solver", fmt::format("MUMPS refuses the bordered matrix (INFOG(1) = {}, INFOG(2) = {})", status, data_.infog[1]));
+      throw Error("out-of-memory", "the compliance of the contact conditions does not fit into memory",
+                  "coarsen the slave surface, or solve with ALGO_CONT='GCP'");
+    throw Error("linear-solver", fmt::format("MUMPS refuses the bordered matrix (INFOG(1) = {}, INFOG(2) = {})", status,
+                                             data_.infog[1]));
   }
 
   SharedLibrary library_{COMMA_MUMPS_LIBRARY};
@@ -114,7 +117,8 @@ class SchurFactorisation {
 
 }  // namespace
 
-Eigen::MatrixXd bordered_compliance(const SymmetricMatrix& stiffness, const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
+Eigen::MatrixXd bordered_compliance(const SymmetricMatrix& stiffness,
+                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
   const int count = static_cast<int>(rows.rows());
   if (count == 0) return {};
   Bordered matrix(stiffness, rows, equilibration_factors(stiffness));

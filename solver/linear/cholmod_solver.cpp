@@ -16,18 +16,20 @@ namespace comma::solver {
 
 namespace {
 
-/// Operations from which a factorisation gains by more than one thread. Below, waiting takes a third more of the processors for a few per
-/// cent of time, and twice the time where others use them.
+/// Operations from which a factorisation gains by more than one thread. Below, waiting takes a third more of the
+/// processors for a few per cent of time, and twice the time where others use them.
 constexpr double many_operations = 3e10;
 
-/// CHOLMOD's loops over the entries of a front ask for four threads, whatever the machine has, and those that wait do so at work: with one
-/// thread the same factorisation takes a fifth less time, and a third less of processors that others share.
+/// CHOLMOD's loops over the entries of a front ask for four threads, whatever the machine has, and those that wait do
+/// so at work: with one thread the same factorisation takes a fifth less time, and a third less of processors that
+/// others share.
 void keep_loops_single(const SharedLibrary& library) {
   if (auto* set_levels = library.function_if_any<void(int)>("omp_set_max_active_levels")) set_levels(0);
 }
 
 void use_large_pages(const SharedLibrary& library) {
-  if (auto* memory = library.variable_if_any<SuiteSparse_config_struct>("SuiteSparse_config")) memory->malloc_func = allocate_in_large_pages;
+  if (auto* memory = library.variable_if_any<SuiteSparse_config_struct>("SuiteSparse_config"))
+    memory->malloc_func = allocate_in_large_pages;
 }
 
 struct Cholmod {
@@ -65,14 +67,10 @@ cholmod_sparse view_of(const SymmetricMatrix& matrix) {
 }
 
 SupernodalFactor view_of(const cholmod_factor& factor) {
-  return {static_cast<int>(factor.n),
-          static_cast<int>(factor.nsuper),
-          static_cast<const int*>(factor.super),
-          static_cast<const int*>(factor.pi),
-          static_cast<const int*>(factor.px),
-          static_cast<const int*>(factor.s),
-          static_cast<const double*>(factor.x),
-          static_cast<const int*>(factor.Perm)};
+  return {
+      static_cast<int>(factor.n),           static_cast<int>(factor.nsuper),     static_cast<const int*>(factor.super),
+      static_cast<const int*>(factor.pi),   static_cast<const int*>(factor.px),  static_cast<const int*>(factor.s),
+      static_cast<const double*>(factor.x), static_cast<const int*>(factor.Perm)};
 }
 
 void read_supernodal_pivots(const cholmod_factor& factor, Eigen::VectorXd& pivots) {
@@ -176,8 +174,10 @@ class CholmodSolver final : public RefinedSolver {
 
  private:
   void choose_threads() const {
-    if (operations_ > many_operations) cholmod_.threads.use_all();
-    else cholmod_.threads.use(1);
+    if (operations_ > many_operations)
+      cholmod_.threads.use_all();
+    else
+      cholmod_.threads.use(1);
   }
 
   cholmod_factor* symbolic_factor(const SymmetricMatrix& matrix, int kind) {

@@ -58,10 +58,11 @@ class ConjugateGradientSolver final : public LinearSolver {
   }
 
   [[noreturn]] void fail() const {
-    throw Error("no-convergence",
-                fmt::format("conjugate gradients reach a relative residual of {:.1e} in {} iterations, {:.1e} is wanted", iterations_.error(),
-                            iterations_.iterations(), options_.iteration_tolerance),
-                "the matrix is ill-conditioned: take a direct solver, MULT_FRONT or MUMPS");
+    throw Error(
+        "no-convergence",
+        fmt::format("conjugate gradients reach a relative residual of {:.1e} in {} iterations, {:.1e} is wanted",
+                    iterations_.error(), iterations_.iterations(), options_.iteration_tolerance),
+        "the matrix is ill-conditioned: take a direct solver, MULT_FRONT or MUMPS");
   }
 
   using Preconditioner = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::AMDOrdering<int>>;

@@ -14,27 +14,29 @@ namespace {
 
 /// A pivot below this share of the largest leaves the solution to the least-squares method.
 constexpr double singular_pivot = 1e-14;
-/// Rows from which products and factors gain by more than one thread: threads that wait for each other over less take longer than one where the machine is shared.
+/// Rows from which products and factors gain by more than one thread: threads that wait for each other over less take
+/// longer than one where the machine is shared.
 constexpr Eigen::Index large_product = 1000, large_factor = 800;
 
 /// The LAPACK that CHOLMOD is built on.
 struct Lapack {
   SharedLibrary library{COMMA_CHOLMOD_LIBRARY};
   using Factorise = void(const int* rows, const int* columns, double* a, const int* lda, int* interchanges, int* info);
-  using Solve = void(const char* transposed, const int* n, const int* columns, const double* a, const int* lda, const int* interchanges, double* b, const int* ldb,
-                     int* info);
+  using Solve = void(const char* transposed, const int* n, const int* columns, const double* a, const int* lda,
+                     const int* interchanges, double* b, const int* ldb, int* info);
   using Cholesky = void(const char* triangle, const int* n, double* a, const int* lda, int* info);
-  using LeastSquares = void(const int* rows, const int* columns, const int* count, double* a, const int* lda, double* b, const int* ldb, int* interchanges,
-                            const double* smallest, int* rank, double* work, const int* work_size, int* info);
+  using LeastSquares = void(const int* rows, const int* columns, const int* count, double* a, const int* lda, double* b,
+                            const int* ldb, int* interchanges, const double* smallest, int* rank, double* work,
+                            const int* work_size, int* info);
   Factorise* factorise = library.function<Factorise>("dgetrf_");
   Solve* solve = library.function<Solve>("dgetrs_");
   LeastSquares* least_squares = library.function<LeastSquares>("dgelsy_");
-  using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda, const double* x, const int* x_step,
-                       const double* beta, double* y, const int* y_step);
+  using Product = void(const char* triangle, const int* n, const double* alpha, const double* a, const int* lda,
+                       const double* x, const int* x_step, const double* beta, double* y, const int* y_step);
   Cholesky* cholesky = library.function<Cholesky>("dpotrf_");
   Product* product = library.function<Product>("dsymv_");
-  using SingleProduct = void(const char* triangle, const int* n, const float* alpha, const float* a, const int* lda, const float* x, const int* x_step,
-                             const float* beta, float* y, const int* y_step);
+  using SingleProduct = void(const char* triangle, const int* n, const float* alpha, const float* a, const int* lda,
+                             const float* x, const int* x_step, const float* beta, float* y, const int* y_step);
   SingleProduct* single_product = library.function<SingleProduct>("ssymv_");
   BlasThreads threads{library};
 };
@@ -62,7 +64,8 @@ Eigen::VectorXd nearest_solution(Eigen::MatrixXd matrix, Eigen::VectorXd b) {
   std::vector<int> interchanges(static_cast<std::size_t>(n), 0);
   int rank = 0, info = 0;
   const auto solve = [&](std::vector<double>& work, const int* size) {
-    lapack().least_squares(&n, &n, &one, matrix.data(), &n, b.data(), &n, interchanges.data(), &smallest, &rank, work.data(), size, &info);
+    lapack().least_squares(&n, &n, &one, matrix.data(), &n, b.data(), &n, interchanges.data(), &smallest, &rank,
+                           work.data(), size, &info);
   };
   std::vector<double> work(1);
   solve(work, &ask);
@@ -163,6 +166,8 @@ Eigen::VectorXd DenseSystem::solve(const Eigen::VectorXd& b) const {
   return column_scales_.asDiagonal() * solution;
 }
 
-Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, const Eigen::VectorXd& rhs) { return DenseSystem(std::move(matrix)).solve(rhs); }
+Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, const Eigen::VectorXd& rhs) {
+  return DenseSystem(std::move(matrix)).solve(rhs);
+}
 
 }  // namespace comma::solver

@@ -23,8 +23,9 @@ class DenseLu {
   std::vector<int> interchanges_;
 };
 
-/// A square M (n x n): rows and columns are first brought to the size of one, then LU with row interchanges and one step of
-/// refinement, by LAPACK on all cores from `large_dense` unknowns on. Where rows depend on each other, the x of least size that comes nearest.
+/// A square M (n x n): rows and columns are first brought to the size of one, then LU with row interchanges and one
+/// step of refinement, by LAPACK on all cores from `large_dense` unknowns on. Where rows depend on each other, the x of
+/// least size that comes nearest.
 class DenseSystem {
  public:
   explicit DenseSystem(Eigen::MatrixXd matrix);
@@ -33,14 +34,14 @@ class DenseSystem {
 
  private:
   Eigen::VectorXd column_scales_, row_scales_;
-  Eigen::MatrixXd matrix_;  ///< of entries up to one
+  Eigen::MatrixXd matrix_;         ///< of entries up to one
   std::optional<DenseLu> factor_;  ///< nothing where rows depend on each other
 };
 
 Eigen::VectorXd solve_dense(Eigen::MatrixXd matrix, const Eigen::VectorXd& rhs);
 
-/// Overwrites the lower triangle of a positive definite S (n x n) by its Cholesky factor; what is above it stays. False, and S is lost, where a
-/// pivot is not positive.
+/// Overwrites the lower triangle of a positive definite S (n x n) by its Cholesky factor; what is above it stays.
+/// False, and S is lost, where a pivot is not positive.
 bool factorise_dense(Eigen::MatrixXd& lower);
 
 /// S x (n) for a symmetric S (n x n) of which the lower triangle counts.

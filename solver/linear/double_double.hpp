@@ -28,8 +28,8 @@ struct DoubleDouble {
 }
 
 /// Adds a product to a running sum: as if in twice the working precision (Ogita, Rump, Oishi, "Accurate sum and dot
-/// product", SIAM J. Sci. Comput. 26, 2005, algorithm 5.3). Inlined without fail: the caller may be compiled for processors that
-/// multiply and add in one instruction.
+/// product", SIAM J. Sci. Comput. 26, 2005, algorithm 5.3). Inlined without fail: the caller may be compiled for
+/// processors that multiply and add in one instruction.
 [[gnu::always_inline]] inline void add_product(DoubleDouble& sum, double a, double b) {
   const double product = a * b;
   add(sum, product);

@@ -11,9 +11,7 @@ constexpr double dominated = 4.0;
 /// Each pass halves the exponents' spread; eight bring 1e300 to within a factor of about 10.
 constexpr int most_passes = 8;
 
-double power_of_two_near(double value) {
-  return std::ldexp(1.0, static_cast<int>(std::lround(std::log2(value))));
-}
+double power_of_two_near(double value) { return std::ldexp(1.0, static_cast<int>(std::lround(std::log2(value)))); }
 
 Eigen::VectorXd diagonal_factors(const SymmetricMatrix& matrix, const Eigen::VectorXd& maxima) {
   const Eigen::VectorXd diagonal = matrix.diagonal();

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
@@ -17,7 +17,8 @@ namespace {
 
 /// Up to here all eigenvalues of the dense matrix cost less than a tenth of a second.
 constexpr int dense_size = 120;
-/// An imaginary part below this share of the value is rounding: pairs of equal eigenvalues part by the square root of it.
+/// An imaginary part below this share of the value is rounding: pairs of equal eigenvalues part by the square root of
+/// it.
 constexpr double real_share = 1e-6;
 constexpr double tolerance = 1e-10;
 /// A shift that meets an eigenvalue moves on by this share of the interval.
@@ -53,8 +54,10 @@ class ShiftedInverse {
 
   void apply(Eigen::MatrixXd& columns) const {
     columns = (b_.selfadjointView<Eigen::Lower>() * columns).eval();
-    if (symmetric_) symmetric_->solve(columns);
-    else unsymmetric_.solve(columns);
+    if (symmetric_)
+      symmetric_->solve(columns);
+    else
+      unsymmetric_.solve(columns);
   }
   void perform_op(const double* in, double* out) const {
     Eigen::MatrixXd column = Eigen::Map<const Eigen::VectorXd>(in, rows());
@@ -89,7 +92,9 @@ ComplexPairs largest_pairs(ShiftedInverse& inverse, int count) {
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw Error("no-convergence", fmt::format("the {} eigenvalues nearest to the one sought were not found in {} restarts", count, most_restarts));
+    throw Error("no-convergence",
+                fmt::format("the {} eigenvalues nearest to the one sought were not found in {} restarts", count,
+                            most_restarts));
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -100,7 +105,8 @@ EigenPairs real_pairs(const ComplexPairs& found, double shift) {
   for (Eigen::Index k = 0; k < found.values.size(); ++k) {
     const double value = found.values[k].real();
     // What B does not see has an infinite eigenvalue.
-    if (std::abs(value) <= tolerance * largest || std::abs(found.values[k].imag()) > real_share * std::abs(value)) continue;
+    if (std::abs(value) <= tolerance * largest || std::abs(found.values[k].imag()) > real_share * std::abs(value))
+      continue;
     Eigen::VectorXd vector = found.vectors.col(k).real();
     Eigen::Index peak = 0;
     vector.cwiseAbs().maxCoeff(&peak);
@@ -137,7 +143,8 @@ EigenPairs of_smallest(const EigenPairs& pairs, int count) {
   std::ranges::transform(pairs.values, sizes.begin(), [](double value) { return std::abs(value); });
   std::ranges::nth_element(sizes, sizes.begin() + count - 1);
   int left = count;
-  return filtered(pairs, [&](double value) { return std::abs(value) <= sizes[static_cast<std::size_t>(count - 1)] && left-- > 0; });
+  return filtered(
+      pairs, [&](double value) { return std::abs(value) <= sizes[static_cast<std::size_t>(count - 1)] && left-- > 0; });
 }
 
 }  // namespace
@@ -169,7 +176,11 @@ EigenPairs eigenvalues_between(const Pencil& pencil, double first, double last) 
       if (covers || count == most) return filtered(real_pairs(found, shift), is_inside);
     }
   }
-  throw Error("singular-matrix", fmt::format("the matrices of the eigenvalue problem are singular together all over the interval from {:g} to {:g}", first, last));
+  throw Error(
+      "singular-matrix",
+      fmt::format(
+          "the matrices of the eigenvalue problem are singular together all over the interval from {:g} to {:g}", first,
+          last));
 }
 
 }  // namespace comma::solver

@@ -20,9 +20,10 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;     ///< a column each, the largest entry 1
 };
 
-/// The `count` real eigenvalues of the smallest magnitude, or all if there are fewer. Complex ones, which unsymmetric pencils have, are left out.
-/// Arnoldi's method on A^-1 B, implicitly restarted (R. B. Lehoucq, D. C. Sorensen, C. Yang, ARPACK Users' Guide, 1998), by Spectra; all eigenvalues of a dense
-/// matrix where the system is small. Throws Error `singular-matrix` where A is, `no-convergence`.
+/// The `count` real eigenvalues of the smallest magnitude, or all if there are fewer. Complex ones, which unsymmetric
+/// pencils have, are left out. Arnoldi's method on A^-1 B, implicitly restarted (R. B. Lehoucq, D. C. Sorensen, C.
+/// Yang, ARPACK Users' Guide, 1998), by Spectra; all eigenvalues of a dense matrix where the system is small. Throws
+/// Error `singular-matrix` where A is, `no-convergence`.
 EigenPairs smallest_eigenvalues(const Pencil& pencil, int count);
 
 /// The real eigenvalues from `first` to `last`, by the same method on (A - s B)^-1 B with s in the middle.

@@ -16,7 +16,10 @@ using Eigen::VectorXd;
 class KrylovSpace {
  public:
   KrylovSpace(const LinearMap& matrix, const LinearMap& preconditioner, const VectorXd& b, int most)
-      : matrix_(matrix), preconditioner_(preconditioner), triangle_(MatrixXd::Zero(most, most)), rhs_(VectorXd::Zero(most + 1)) {
+      : matrix_(matrix),
+        preconditioner_(preconditioner),
+        triangle_(MatrixXd::Zero(most, most)),
+        rhs_(VectorXd::Zero(most + 1)) {
     rhs_[0] = b.norm();
     basis_.push_back(b / rhs_[0]);
   }
@@ -79,7 +82,8 @@ class KrylovSpace {
 
 }  // namespace
 
-GmresSolution solve_gmres(const LinearMap& matrix, const LinearMap& preconditioner, const VectorXd& b, const GmresOptions& options) {
+GmresSolution solve_gmres(const LinearMap& matrix, const LinearMap& preconditioner, const VectorXd& b,
+                          const GmresOptions& options) {
   GmresSolution solution;
   const double size = b.norm();
   if (!(size > 0.0) || !std::isfinite(size)) {
@@ -89,7 +93,8 @@ GmresSolution solve_gmres(const LinearMap& matrix, const LinearMap& precondition
   }
   KrylovSpace space(matrix, preconditioner, b, options.most_products);
   bool grows = true;
-  while (grows && space.size() < options.most_products && !(space.residual() <= options.tolerance * size)) grows = space.grow();
+  while (grows && space.size() < options.most_products && !(space.residual() <= options.tolerance * size))
+    grows = space.grow();
   solution.shares = space.shares();
   solution.x = space.combined(solution.shares);
   solution.reached = space.residual() <= options.tolerance * size && solution.x.allFinite();

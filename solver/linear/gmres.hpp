@@ -21,8 +21,10 @@ struct GmresSolution {
   bool reached = false;    ///< the tolerance
 };
 
-/// M x = b for any M by the generalised minimal residual method, not restarted (Saad and Schultz, SIAM Journal on Scientific and Statistical
-/// Computing 7, 1986), on M P, with `preconditioner` P near M^-1. One product with M an iteration.
-GmresSolution solve_gmres(const LinearMap& matrix, const LinearMap& preconditioner, const Eigen::VectorXd& b, const GmresOptions& options);
+/// M x = b for any M by the generalised minimal residual method, not restarted (Saad and Schultz, SIAM Journal on
+/// Scientific and Statistical Computing 7, 1986), on M P, with `preconditioner` P near M^-1. One product with M an
+/// iteration.
+GmresSolution solve_gmres(const LinearMap& matrix, const LinearMap& preconditioner, const Eigen::VectorXd& b,
+                          const GmresOptions& options);
 
 }  // namespace comma::solver

@@ -24,8 +24,8 @@ std::string_view name_of(LinearMethod method);
 
 /// Where the unknowns of a solid lie, for the method that asks: three translations a node at most.
 struct SolidUnknowns {
-  std::vector<int> nodes;             ///< of each row: 0, 1, ...
-  std::vector<int> axes;              ///< of each row: 0, 1, 2
+  std::vector<int> nodes;               ///< of each row: 0, 1, ...
+  std::vector<int> axes;                ///< of each row: 0, 1, 2
   std::vector<Eigen::Vector3d> places;  ///< of each node, m
 };
 
@@ -70,11 +70,11 @@ class LinearSolver {
   /// factorisation was singular, `inaccurate-solution` if the residual stays above `worst_residual` (an indefinite
   /// matrix met by a solver that does not pivot; MUMPS does).
   virtual double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const = 0;
-  /// The same without refinement where the factor has lost few digits (`few_digits`): for corrections, and the compliance of
-  /// conditions, where the iterations around them correct what is missing.
+  /// The same without refinement where the factor has lost few digits (`few_digits`): for corrections, and the
+  /// compliance of conditions, where the iterations around them correct what is missing.
   virtual void solve_once(Eigen::Ref<Eigen::MatrixXd> rhs) const { solve(rhs); }
-  /// rows A^-1 rows^T (m x m) of the last factorised matrix, where that takes much less than m solutions; else an empty matrix. Exact to the
-  /// rounding of an unrefined factor. Throws Error `out-of-memory`, `linear-solver`.
+  /// rows A^-1 rows^T (m x m) of the last factorised matrix, where that takes much less than m solutions; else an empty
+  /// matrix. Exact to the rounding of an unrefined factor. Throws Error `out-of-memory`, `linear-solver`.
   virtual Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>&) const { return {}; }
   /// Whether the compliance costs another factorisation.
   virtual bool factorises_for_compliance() const { return false; }

@@ -13,8 +13,8 @@
 namespace comma::solver {
 namespace {
 
-/// A node is a neighbour when its block is at least this large against the diagonal blocks: Vanek et al. take 0.08 and halve it
-/// on each coarser grid; elastic blocks of a regular mesh lie between 0.02 and 0.3.
+/// A node is a neighbour when its block is at least this large against the diagonal blocks: Vanek et al. take 0.08 and
+/// halve it on each coarser grid; elastic blocks of a regular mesh lie between 0.02 and 0.3.
 constexpr double strong_connection = 0.02;
 /// Below this many nodes a grid is the coarsest: its dense factor costs less than another grid.
 constexpr int coarsest_size = 150;
@@ -35,9 +35,9 @@ std::vector<Eigen::Matrix<double, N, N>> inverse_diagonal(const BlockMatrix<N, N
   return result;
 }
 
-/// Inverse diagonal blocks for a smoother whose parts do not wait for each other: to the diagonal come the sizes of what couples a node
-/// to other parts, without which the smoother could overshoot there (Baker, Falgout, Kolev and Yang, SIAM Journal on Scientific
-/// Computing 33, 2011).
+/// Inverse diagonal blocks for a smoother whose parts do not wait for each other: to the diagonal come the sizes of
+/// what couples a node to other parts, without which the smoother could overshoot there (Baker, Falgout, Kolev and
+/// Yang, SIAM Journal on Scientific Computing 33, 2011).
 template <int N>
 std::vector<Eigen::Matrix<double, N, N>> smoothing_inverse(const BlockMatrix<N, N>& matrix,
                                                            std::vector<Eigen::Matrix<double, N, N>> inverse) {
@@ -47,7 +47,8 @@ std::vector<Eigen::Matrix<double, N, N>> smoothing_inverse(const BlockMatrix<N, 
     for (int i = first; i < last; ++i) {
       Eigen::Matrix<double, N, 1> coupled = Eigen::Matrix<double, N, 1>::Zero();
       for (int k = matrix.starts[i]; k < matrix.starts[i + 1]; ++k)
-        if (matrix.columns[k] < first || matrix.columns[k] >= last) coupled += matrix.blocks[k].cwiseAbs().rowwise().sum();
+        if (matrix.columns[k] < first || matrix.columns[k] >= last)
+          coupled += matrix.blocks[k].cwiseAbs().rowwise().sum();
       if (coupled.isZero(0.0)) continue;
       Eigen::Matrix<double, N, N> diagonal = *matrix.find(i, i);
       diagonal.diagonal() += coupled;
@@ -77,7 +78,8 @@ NodeGraph strong_graph(const BlockMatrix<N, N>& matrix) {
 template <int N>
 Motions<motion_count> orthonormalise(const Aggregates& aggregates, Motions<N>& motions) {
   std::vector<std::vector<int>> members(static_cast<std::size_t>(aggregates.count));
-  for (std::size_t node = 0; node < motions.size(); ++node) members[aggregates.of_node[node]].push_back(static_cast<int>(node));
+  for (std::size_t node = 0; node < motions.size(); ++node)
+    members[aggregates.of_node[node]].push_back(static_cast<int>(node));
   Motions<motion_count> coarse(members.size());
   for (std::size_t a = 0; a < members.size(); ++a) {
     auto& triangle = coarse[a];
@@ -123,7 +125,8 @@ double largest_eigenvalue(const BlockMatrix<N, N>& matrix, const std::vector<Eig
   return 1.1 * value;
 }
 
-/// (1 - damping D^-1 A) times the tentative prolongator, whose block on node i is motions[i] in the column of its aggregate.
+/// (1 - damping D^-1 A) times the tentative prolongator, whose block on node i is motions[i] in the column of its
+/// aggregate.
 template <int N>
 BlockMatrix<N, motion_count> smoothed_prolongator(const BlockMatrix<N, N>& matrix,
                                                   const std::vector<Eigen::Matrix<double, N, N>>& inverse,
@@ -195,8 +198,8 @@ void hold_absent_motions(CoarseRows& rows) {
 
 /// What fine rows first .. last - 1 give to P^T A P.
 template <int N>
-void add_coarse_rows(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int first, int last,
-                     CoarseRows& rows) {
+void add_coarse_rows(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int first,
+                     int last, CoarseRows& rows) {
   std::vector<int> slots(rows.columns.size(), -1);
   std::vector<int> columns;
   std::vector<Eigen::Matrix<double, N, motion_count>> products;
@@ -224,10 +227,12 @@ void add_coarse_rows(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motio
 
 /// P^T A P.
 template <int N>
-CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator, int count) {
+CoarseMatrix coarse_matrix(const BlockMatrix<N, N>& matrix, const BlockMatrix<N, motion_count>& prolongator,
+                           int count) {
   std::vector<CoarseRows> parts(static_cast<std::size_t>(matrix.part_count()), CoarseRows(count));
   run_parts(matrix.part_count(), [&](int part) {
-    add_coarse_rows(matrix, prolongator, matrix.part_start(part), matrix.part_start(part + 1), parts[static_cast<std::size_t>(part)]);
+    add_coarse_rows(matrix, prolongator, matrix.part_start(part), matrix.part_start(part + 1),
+                    parts[static_cast<std::size_t>(part)]);
   });
   CoarseRows& rows = parts.front();
   for (std::size_t part = 1; part < parts.size(); ++part)
@@ -242,12 +247,14 @@ template <int N>
 struct Level {
   BlockMatrix<N, N> matrix;
   std::vector<Eigen::Matrix<double, N, N>> smoothing;  ///< inverse diagonal blocks of the smoother
-  BlockMatrix<N, motion_count> prolongator;          ///< from the next coarser level
+  BlockMatrix<N, motion_count> prolongator;            ///< from the next coarser level
   Eigen::VectorXd residual, coarse_rhs, coarse_solution;
 
-  /// A step of Gauss and Seidel's method at a node, within part first .. last - 1 of the nodes; the others stand as in `elsewhere`: parts
-  /// do not wait for each other, and forwards and backwards stay the transposes that conjugate gradients need.
-  void sweep(int i, int first, int last, const Eigen::VectorXd& b, const Eigen::VectorXd& elsewhere, Eigen::VectorXd& x) const {
+  /// A step of Gauss and Seidel's method at a node, within part first .. last - 1 of the nodes; the others stand as in
+  /// `elsewhere`: parts do not wait for each other, and forwards and backwards stay the transposes that conjugate
+  /// gradients need.
+  void sweep(int i, int first, int last, const Eigen::VectorXd& b, const Eigen::VectorXd& elsewhere,
+             Eigen::VectorXd& x) const {
     const Eigen::Index at = static_cast<Eigen::Index>(i) * N;
     const Eigen::Matrix<double, N, 1> left = b.template segment<N>(at) - matrix.row_times(i, x, elsewhere, first, last);
     x.template segment<N>(at).noalias() += smoothing[i] * left;
@@ -307,11 +314,13 @@ Eigen::MatrixXd dense(const CoarseMatrix& matrix) {
   for (int i = 0; i < matrix.rows(); ++i)
     for (int k = matrix.starts[i]; k < matrix.starts[i + 1]; ++k)
       result.block<motion_count, motion_count>(static_cast<Eigen::Index>(i) * motion_count,
-                                               static_cast<Eigen::Index>(matrix.columns[k]) * motion_count) = matrix.blocks[k];
+                                               static_cast<Eigen::Index>(matrix.columns[k]) * motion_count) =
+          matrix.blocks[k];
   return result;
 }
 
-/// The full matrix from its lower triangle, three unknowns a node; a node that lacks one has a unit diagonal in its place.
+/// The full matrix from its lower triangle, three unknowns a node; a node that lacks one has a unit diagonal in its
+/// place.
 BlockMatrix<3, 3> nodal_blocks(const SymmetricMatrix& matrix, const SolidUnknowns& unknowns) {
   const auto count = unknowns.places.size();
   std::vector<std::vector<int>> neighbours(count);
@@ -373,7 +382,8 @@ SolidUnknowns sorted_along(const SolidUnknowns& unknowns) {
   return sorted;
 }
 
-/// Zero where a node lacks the unknown. Places count from their centre over their extent, so that motions are of like size.
+/// Zero where a node lacks the unknown. Places count from their centre over their extent, so that motions are of like
+/// size.
 Motions<3> rigid_motions(const SolidUnknowns& unknowns) {
   Eigen::Vector3d low = unknowns.places.front();
   Eigen::Vector3d high = low;
@@ -410,11 +420,13 @@ struct Multigrid::Hierarchy {
       x = coarsest.solve(b);
       return;
     }
-    coarser[level].cycle(b, x, [&](const Eigen::VectorXd& rhs, Eigen::VectorXd& solution) { solve(level + 1, rhs, solution); });
+    coarser[level].cycle(
+        b, x, [&](const Eigen::VectorXd& rhs, Eigen::VectorXd& solution) { solve(level + 1, rhs, solution); });
   }
 };
 
-Multigrid::Multigrid(const SymmetricMatrix& matrix, const SolidUnknowns& given) : hierarchy_(std::make_unique<Hierarchy>()) {
+Multigrid::Multigrid(const SymmetricMatrix& matrix, const SolidUnknowns& given)
+    : hierarchy_(std::make_unique<Hierarchy>()) {
   const SolidUnknowns unknowns = sorted_along(given);
   Hierarchy& h = *hierarchy_;
   for (std::size_t row = 0; row < unknowns.nodes.size(); ++row)
@@ -452,7 +464,9 @@ Eigen::VectorXd Multigrid::unpadded(const Eigen::VectorXd& x) const {
   return result;
 }
 
-void Multigrid::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const { hierarchy_->finest.matrix.multiply(x, y); }
+void Multigrid::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  hierarchy_->finest.matrix.multiply(x, y);
+}
 
 void Multigrid::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   Hierarchy& h = *hierarchy_;

@@ -10,9 +10,9 @@
 
 namespace comma::solver {
 
-/// A V-cycle of smoothed aggregation (Vanek, Mandel, Brezina, Computing 56, 1996): aggregates of nodes, each moving as a rigid
-/// body on the coarse grid; prolongators smoothed by one damped Jacobi step; block Gauss-Seidel forwards before and
-/// backwards after the coarse correction, so that the cycle is symmetric; a dense factor on the coarsest grid.
+/// A V-cycle of smoothed aggregation (Vanek, Mandel, Brezina, Computing 56, 1996): aggregates of nodes, each moving as
+/// a rigid body on the coarse grid; prolongators smoothed by one damped Jacobi step; block Gauss-Seidel forwards before
+/// and backwards after the coarse correction, so that the cycle is symmetric; a dense factor on the coarsest grid.
 class Multigrid {
  public:
   /// `matrix`: lower triangle, positive definite. `places`: the node of each of its rows.

@@ -56,7 +56,9 @@ class MumpsSolver final : public RefinedSolver {
   MumpsSolver& operator=(const MumpsSolver&) = delete;
 
   LinearMethod method() const override { return LinearMethod::mumps; }
-  Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) const override { return bordered_compliance(matrix(), rows); }
+  Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) const override {
+    return bordered_compliance(matrix(), rows);
+  }
   bool factorises_for_compliance() const override { return true; }
 
  protected:
@@ -92,7 +94,8 @@ class MumpsSolver final : public RefinedSolver {
     return report();
   }
 
-  /// The inverse's largest diagonal entry may belong to a row that was eliminated early, whose pivot lost less (ssna102a: 4 by the entry, 3 by pivots).
+  /// The inverse's largest diagonal entry may belong to a row that was eliminated early, whose pivot lost less
+  /// (ssna102a: 4 by the entry, 3 by pivots).
   int digits_above_pivots() const override { return 1; }
 
   void solve_scaled(Eigen::Ref<Eigen::MatrixXd> rhs) const override {

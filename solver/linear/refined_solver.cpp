@@ -19,10 +19,11 @@ namespace {
 /// Pivots of a scaled positive definite matrix are at most about 1.
 constexpr double pivot_growth = 1e6;
 
-/// b - A x in doubled precision, rounded at the end; x = high + low. Where the processor has fused multiply-add it is one
-/// instruction, else a call each time.
-[[gnu::target_clones("fma", "default")]] void residual(const SymmetricMatrix& matrix, const double* b, const double* high, const double* low,
-              std::vector<DoubleDouble>& sums, double* result) {
+/// b - A x in doubled precision, rounded at the end; x = high + low. Where the processor has fused multiply-add it is
+/// one instruction, else a call each time.
+[[gnu::target_clones("fma", "default")]] void residual(const SymmetricMatrix& matrix, const double* b,
+                                                       const double* high, const double* low,
+                                                       std::vector<DoubleDouble>& sums, double* result) {
   const int n = static_cast<int>(matrix.rows());
   const int* starts = matrix.outerIndexPtr();
   const int* rows = matrix.innerIndexPtr();

@@ -71,7 +71,8 @@ double refine_block(const RefinedSystem& system, int steps, Eigen::Ref<Eigen::Ma
   double worst = 0.0;
   x.low.setZero();
   for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
-    system.residual(rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums, final_residual.data());
+    system.residual(rhs.col(column).data(), x.high.col(column).data(), x.low.col(column).data(), sums,
+                    final_residual.data());
     const double scale =
         system.norm * x.high.col(column).lpNorm<Eigen::Infinity>() + rhs.col(column).lpNorm<Eigen::Infinity>();
     const double size = final_residual.lpNorm<Eigen::Infinity>();
@@ -87,8 +88,10 @@ double refine_block(const RefinedSystem& system, int steps, Eigen::Ref<Eigen::Ma
 
 double refine(const RefinedSystem& system, int steps, Eigen::Ref<Eigen::MatrixXd> rhs) {
   if (!rhs.allFinite())
-    throw Error("not-finite", "the loads are not numbers: a force, a property or a prescribed displacement is infinite or not a number",
-                "look at the functions and formulas among them where they divide by zero or take a root of something negative");
+    throw Error(
+        "not-finite",
+        "the loads are not numbers: a force, a property or a prescribed displacement is infinite or not a number",
+        "look at the functions and formulas among them where they divide by zero or take a root of something negative");
   double worst = 0.0;
   for (Eigen::Index first = 0; rhs.rows() > 0 && first < rhs.cols(); first += block_columns) {
     const Eigen::Index count = std::min<Eigen::Index>(block_columns, rhs.cols() - first);

@@ -14,14 +14,15 @@ namespace {
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Where a body has so many times fewer unknowns that rows touch than it has such rows, these are combined from the compliance of the unknowns: the side
-/// of a contact whose mesh is coarser.
+/// Where a body has so many times fewer unknowns that rows touch than it has such rows, these are combined from the
+/// compliance of the unknowns: the side of a contact whose mesh is coarser.
 constexpr double few_unknowns = 1.5;
 
 std::vector<int> supernodes_of(const SupernodalFactor& factor) {
   std::vector<int> supernodes(static_cast<std::size_t>(factor.size));
   for (int node = 0; node < factor.count; ++node)
-    std::fill(supernodes.begin() + factor.first_columns[node], supernodes.begin() + factor.first_columns[node + 1], node);
+    std::fill(supernodes.begin() + factor.first_columns[node], supernodes.begin() + factor.first_columns[node + 1],
+              node);
   return supernodes;
 }
 
@@ -41,7 +42,8 @@ struct Contribution {
 class SupernodalCompliance {
  public:
   /// Adds to the lower triangle of `compliance`.
-  SupernodalCompliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows, Eigen::MatrixXd& compliance)
+  SupernodalCompliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows,
+                       Eigen::MatrixXd& compliance)
       : factor_(factor),
         blas_(blas),
         entries_(static_cast<std::size_t>(factor.count)),
@@ -72,7 +74,8 @@ class SupernodalCompliance {
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
     for (const Contribution& child : children_[node]) {
       std::vector<int> merged;
-      std::set_union(conditions.begin(), conditions.end(), child.conditions.begin(), child.conditions.end(), std::back_inserter(merged));
+      std::set_union(conditions.begin(), conditions.end(), child.conditions.begin(), child.conditions.end(),
+                     std::back_inserter(merged));
       conditions = std::move(merged);
     }
     return conditions;
@@ -89,20 +92,24 @@ class SupernodalCompliance {
     add_square(columns, conditions, front);
     const auto below = front.rows() - columns;
     if (below == 0) return;
-    children_[supernodes_[first[columns]]].push_back({{first + columns, last}, std::move(conditions), front.bottomRows(below)});
+    children_[supernodes_[first[columns]]].push_back(
+        {{first + columns, last}, std::move(conditions), front.bottomRows(below)});
   }
 
   /// The supernode's own entries and what its children leave.
   Eigen::MatrixXd assembled(int node, const std::vector<int>& rows, const std::vector<int>& conditions) {
     for (std::size_t i = 0; i < rows.size(); ++i) row_places_[rows[i]] = static_cast<int>(i);
     for (std::size_t i = 0; i < conditions.size(); ++i) condition_places_[conditions[i]] = static_cast<int>(i);
-    Eigen::MatrixXd front = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(conditions.size()));
-    for (const auto& entry : entries_[node]) front(row_places_[entry.row()], condition_places_[entry.col()]) += entry.value();
+    Eigen::MatrixXd front =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(conditions.size()));
+    for (const auto& entry : entries_[node])
+      front(row_places_[entry.row()], condition_places_[entry.col()]) += entry.value();
     for (const Contribution& child : children_[node])
       for (std::size_t j = 0; j < child.conditions.size(); ++j) {
         auto target = front.col(condition_places_[child.conditions[j]]);
         for (std::size_t i = 0; i < child.rows.size(); ++i)
-          target[row_places_[child.rows[i]]] += child.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          target[row_places_[child.rows[i]]] +=
+              child.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
     std::vector<Contribution>().swap(children_[node]);
     return front;
@@ -115,7 +122,8 @@ class SupernodalCompliance {
     const double plus = 1.0, minus = -1.0;
     blas_.solve("L", "L", "N", "N", &columns, &count, &plus, factor, &rows, front.data(), &rows);
     if (below > 0)
-      blas_.multiply("N", "N", &below, &count, &columns, &minus, factor + columns, &rows, front.data(), &rows, &plus, front.data() + columns, &rows);
+      blas_.multiply("N", "N", &below, &count, &columns, &minus, factor + columns, &rows, front.data(), &rows, &plus,
+                     front.data() + columns, &rows);
   }
 
   /// Y^T Y, lower triangle.
@@ -134,7 +142,7 @@ class SupernodalCompliance {
 
   const SupernodalFactor& factor_;
   const BlasKernels& blas_;
-  std::vector<int> supernodes_;  ///< of each place
+  std::vector<int> supernodes_;                               ///< of each place
   std::vector<std::vector<Eigen::Triplet<double>>> entries_;  ///< (place, condition), by supernode
   std::vector<std::vector<Contribution>> children_;
   std::vector<int> row_places_, condition_places_;  ///< in the front at hand
@@ -186,12 +194,16 @@ Rows matrix_of(const std::vector<Eigen::Triplet<double>>& entries, Eigen::Index 
 }
 
 /// By the compliance of the unknowns themselves: rows C rows^T.
-void add_by_unknowns(const SupernodalFactor& factor, const BlasKernels& blas, const Part& part, Eigen::MatrixXd& compliance) {
+void add_by_unknowns(const SupernodalFactor& factor, const BlasKernels& blas, const Part& part,
+                     Eigen::MatrixXd& compliance) {
   const auto count = static_cast<Eigen::Index>(part.unknowns.size());
   std::vector<Eigen::Triplet<double>> units, entries;
-  for (Eigen::Index k = 0; k < count; ++k) units.emplace_back(static_cast<int>(k), part.unknowns[static_cast<std::size_t>(k)], 1.0);
+  for (Eigen::Index k = 0; k < count; ++k)
+    units.emplace_back(static_cast<int>(k), part.unknowns[static_cast<std::size_t>(k)], 1.0);
   for (const auto& entry : part.entries)
-    entries.emplace_back(entry.row(), static_cast<int>(std::ranges::lower_bound(part.unknowns, entry.col()) - part.unknowns.begin()), entry.value());
+    entries.emplace_back(entry.row(),
+                         static_cast<int>(std::ranges::lower_bound(part.unknowns, entry.col()) - part.unknowns.begin()),
+                         entry.value());
   Eigen::MatrixXd between = Eigen::MatrixXd::Zero(count, count);
   SupernodalCompliance(factor, blas, matrix_of(units, count, factor.size), between).run();
   fill_upper(between);
@@ -208,14 +220,18 @@ void add_by_unknowns(const SupernodalFactor& factor, const BlasKernels& blas, co
 }  // namespace
 
 BlasKernels::BlasKernels(const SharedLibrary& library)
-    : solve(library.function<Solve>("dtrsm_")), multiply(library.function<Multiply>("dgemm_")), square(library.function<Square>("dsyrk_")) {}
+    : solve(library.function<Solve>("dtrsm_")),
+      multiply(library.function<Multiply>("dgemm_")),
+      square(library.function<Square>("dsyrk_")) {}
 
 Eigen::MatrixXd supernodal_compliance(const SupernodalFactor& factor, const BlasKernels& blas, const Rows& rows) {
   Eigen::MatrixXd compliance(rows.rows(), rows.rows());
   compliance.setZero();
   for (const auto& [tree, part] : parts_of(factor, rows)) {
-    if (few_unknowns * static_cast<double>(part.unknowns.size()) < part.rows) add_by_unknowns(factor, blas, part, compliance);
-    else SupernodalCompliance(factor, blas, matrix_of(part.entries, rows.rows(), rows.cols()), compliance).run();
+    if (few_unknowns * static_cast<double>(part.unknowns.size()) < part.rows)
+      add_by_unknowns(factor, blas, part, compliance);
+    else
+      SupernodalCompliance(factor, blas, matrix_of(part.entries, rows.rows(), rows.cols()), compliance).run();
   }
   fill_upper(compliance);
   return compliance;

@@ -22,12 +22,13 @@ struct SupernodalFactor {
 
 /// The kernels, by their Fortran names.
 struct BlasKernels {
-  using Solve = void(const char* side, const char* triangle, const char* transposed, const char* unit, const int* m, const int* n, const double* alpha,
-                     const double* a, const int* lda, double* b, const int* ldb);
-  using Multiply = void(const char* transposed_a, const char* transposed_b, const int* m, const int* n, const int* k, const double* alpha, const double* a,
-                        const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
-  using Square = void(const char* triangle, const char* transposed, const int* n, const int* k, const double* alpha, const double* a, const int* lda,
-                      const double* beta, double* c, const int* ldc);
+  using Solve = void(const char* side, const char* triangle, const char* transposed, const char* unit, const int* m,
+                     const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+  using Multiply = void(const char* transposed_a, const char* transposed_b, const int* m, const int* n, const int* k,
+                        const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
+                        const double* beta, double* c, const int* ldc);
+  using Square = void(const char* triangle, const char* transposed, const int* n, const int* k, const double* alpha,
+                      const double* a, const int* lda, const double* beta, double* c, const int* ldc);
 
   /// Throws Error `missing-library`.
   explicit BlasKernels(const SharedLibrary& library);
@@ -37,10 +38,11 @@ struct BlasKernels {
   Square* square;      ///< dsyrk
 };
 
-/// rows K^-1 rows^T (m x m, symmetric) = Y^T Y with Y = L^-1 P rows^T, for sparse rows (m x n). Y is made supernode by supernode from the
-/// leaves to the root, each with those conditions alone that its subtree touches, and is not kept (the fronts of a multifrontal
-/// factorisation that takes the rows along as a border: Duff and Reid, ACM Trans. Math. Software 9, 1983). It costs a share of the
-/// factorisation, where m solutions would be m passes over the whole factor. Exact to the rounding of an unrefined factor.
+/// rows K^-1 rows^T (m x m, symmetric) = Y^T Y with Y = L^-1 P rows^T, for sparse rows (m x n). Y is made supernode by
+/// supernode from the leaves to the root, each with those conditions alone that its subtree touches, and is not kept
+/// (the fronts of a multifrontal factorisation that takes the rows along as a border: Duff and Reid, ACM Trans. Math.
+/// Software 9, 1983). It costs a share of the factorisation, where m solutions would be m passes over the whole factor.
+/// Exact to the rounding of an unrefined factor.
 Eigen::MatrixXd supernodal_compliance(const SupernodalFactor& factor, const BlasKernels& blas,
                                       const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows);
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <Eigen/SparseLU>
 #include <Eigen/SparseQR>
-#include <fmt/format.h>
 
 #include "solver/error.hpp"
 #include "solver/linear/equilibration.hpp"
@@ -22,9 +22,11 @@ namespace {
 /// Each pass halves the exponents' spread; eight bring 1e300 to within a factor of about 10.
 constexpr int most_scaling_passes = 8;
 
-/// b - A x in doubled precision, rounded at the end; x = high + low. Where the processor has fused multiply-add it is one instruction, else a call each time.
-[[gnu::target_clones("fma", "default")]] void general_residual(const GeneralMatrix& matrix, const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums,
-              double* result) {
+/// b - A x in doubled precision, rounded at the end; x = high + low. Where the processor has fused multiply-add it is
+/// one instruction, else a call each time.
+[[gnu::target_clones("fma", "default")]] void general_residual(const GeneralMatrix& matrix, const double* b,
+                                                               const double* high, const double* low,
+                                                               std::vector<DoubleDouble>& sums, double* result) {
   const int n = static_cast<int>(matrix.rows());
   for (int row = 0; row < n; ++row) sums[row] = {b[row], 0.0};
   for (int column = 0; column < n; ++column) {
@@ -41,7 +43,8 @@ struct Maxima {
 };
 
 /// The largest magnitudes in the rows and columns of R A C.
-Maxima maxima_of(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors, const Eigen::VectorXd& column_factors) {
+Maxima maxima_of(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors,
+                 const Eigen::VectorXd& column_factors) {
   Maxima maxima{Eigen::VectorXd::Zero(matrix.rows()), Eigen::VectorXd::Zero(matrix.cols())};
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (GeneralMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
@@ -60,7 +63,8 @@ void rescale(Eigen::VectorXd& factors, const Eigen::VectorXd& maxima) {
   }
 }
 
-GeneralMatrix scaled_by(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors, const Eigen::VectorXd& column_factors) {
+GeneralMatrix scaled_by(const GeneralMatrix& matrix, const Eigen::VectorXd& row_factors,
+                        const Eigen::VectorXd& column_factors) {
   GeneralMatrix result = matrix;
   for (int column = 0; column < result.outerSize(); ++column) {
     for (GeneralMatrix::InnerIterator entry(result, column); entry; ++entry) {
@@ -85,7 +89,8 @@ std::vector<int> empty_columns(const GeneralMatrix& matrix) {
   return columns;
 }
 
-/// Columns that are combinations of the others. Empty ones are seen; else a rank-revealing QR factorisation puts them last.
+/// Columns that are combinations of the others. Empty ones are seen; else a rank-revealing QR factorisation puts them
+/// last.
 std::vector<int> dependent_columns(const GeneralMatrix& matrix) {
   if (auto empty = empty_columns(matrix); !empty.empty()) return empty;
   const Eigen::SparseQR<GeneralMatrix, Eigen::COLAMDOrdering<int>> factors(matrix);
@@ -139,7 +144,8 @@ FactorReport UnsymmetricSolver::factorise(const SymmetricMatrix& symmetric, cons
   if (n == 0) return report_;
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
   for (int column = 0; column < n; ++column) {
-    for (GeneralMatrix::InnerIterator entry(matrix_, column); entry; ++entry) sums[entry.row()] += std::abs(entry.value());
+    for (GeneralMatrix::InnerIterator entry(matrix_, column); entry; ++entry)
+      sums[entry.row()] += std::abs(entry.value());
   }
   norm_ = sums.maxCoeff();
   for (int pass = 0; options_.equilibrate && pass < most_scaling_passes; ++pass) {
@@ -162,7 +168,8 @@ void UnsymmetricSolver::factorise_scaled(const GeneralMatrix& working) {
   }
   if (factors_->info() != Eigen::Success) {
     report_ = {FactorVerdict::singular, dependent_columns(working), std::numeric_limits<double>::max_digits10};
-    if (report_.null_rows.empty()) throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
+    if (report_.null_rows.empty())
+      throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
     return;
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(working.rows());
@@ -180,12 +187,15 @@ double UnsymmetricSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
       [this](const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums, double* result) {
         general_residual(matrix_, b, high, low, sums, result);
       },
-      [this](Eigen::Ref<Eigen::MatrixXd> columns) { columns = factors_->solve(columns).eval(); }, row_factors_, column_factors_, norm_};
+      [this](Eigen::Ref<Eigen::MatrixXd> columns) { columns = factors_->solve(columns).eval(); }, row_factors_,
+      column_factors_, norm_};
   const double worst = refine(system, options_.refinement_steps, rhs);
   if (worst <= LinearSolver::worst_residual) return worst;
-  throw Error("inaccurate-solution",
-              fmt::format("the unsymmetric solver reaches a relative residual of {:.1e} only; refinement does not improve it", worst),
-              "the matrix is nearly singular: look for parts that hardly anything holds");
+  throw Error(
+      "inaccurate-solution",
+      fmt::format("the unsymmetric solver reaches a relative residual of {:.1e} only; refinement does not improve it",
+                  worst),
+      "the matrix is nearly singular: look for parts that hardly anything holds");
 }
 
 }  // namespace comma::solver

@@ -1,7 +1,8 @@
 // Unsymmetric systems: what springs without a potential, friction and loads that follow the body add to a stiffness.
 //
-// Almost all of such a matrix is symmetric, and models without those parts must not pay for them. So K = S + W is kept in
-// two: S symmetric, as everywhere else, and the skew-symmetric W, which has entries only where an element needs them.
+// Almost all of such a matrix is symmetric, and models without those parts must not pay for them. So K = S + W is kept
+// in two: S symmetric, as everywhere else, and the skew-symmetric W, which has entries only where an element needs
+// them.
 #pragma once
 
 #include <memory>
@@ -18,21 +19,21 @@ using GeneralMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// S + W (n x n).
 GeneralMatrix full_matrix(const SymmetricMatrix& symmetric, const SkewMatrix& skew);
 
-/// K^T K, lower triangle. What K does not resist, this does not either: |K x|^2 = x . K^T K x. It lets motions that nothing
-/// holds be named where K itself is not symmetric; its entries are squares, so that digits count double.
+/// K^T K, lower triangle. What K does not resist, this does not either: |K x|^2 = x . K^T K x. It lets motions that
+/// nothing holds be named where K itself is not symmetric; its entries are squares, so that digits count double.
 SymmetricMatrix gram_matrix(const GeneralMatrix& matrix);
 
-/// P A Q = L U with partial pivoting (Eigen's SparseLU, after Demmel, Eisenstat, Gilbert, Li, Liu, "A supernodal approach to
-/// sparse partial pivoting", SIAM J. Matrix Anal. Appl. 20, 1999) of the matrix equilibrated by rows and columns; solutions are
-/// refined as those of symmetric systems (refinement.hpp).
+/// P A Q = L U with partial pivoting (Eigen's SparseLU, after Demmel, Eisenstat, Gilbert, Li, Liu, "A supernodal
+/// approach to sparse partial pivoting", SIAM J. Matrix Anal. Appl. 20, 1999) of the matrix equilibrated by rows and
+/// columns; solutions are refined as those of symmetric systems (refinement.hpp).
 class UnsymmetricSolver {
  public:
   explicit UnsymmetricSolver(const LinearOptions& options);
   ~UnsymmetricSolver();
 
-  /// Analysis and factorisation; keeps a copy for refinement. Verdict `ok` or `singular`: a pivot of the equilibrated matrix
-  /// below 10^-singular_digits of the largest entry in its column is null; `null_rows` are the unknowns (columns) behind
-  /// them. Throws Error `not-finite` as LinearSolver::factorise, `out-of-memory`.
+  /// Analysis and factorisation; keeps a copy for refinement. Verdict `ok` or `singular`: a pivot of the equilibrated
+  /// matrix below 10^-singular_digits of the largest entry in its column is null; `null_rows` are the unknowns
+  /// (columns) behind them. Throws Error `not-finite` as LinearSolver::factorise, `out-of-memory`.
   FactorReport factorise(const SymmetricMatrix& symmetric, const SkewMatrix& skew);
 
   /// rhs: n x k, overwritten by the solution. Returns the largest relative residual of the columns. Throws Error

@@ -51,23 +51,25 @@ struct PressureLoad {
   double shear = 0.0;
   FieldFunction pressure_function;  ///< when set, replaces `pressure`
   FieldFunction shear_function;
-  NodalFunction pressure_at_nodes = {};  ///< when set, replaces both pressures; interpolated by the shape functions of the cell
+  NodalFunction pressure_at_nodes =
+      {};  ///< when set, replaces both pressures; interpolated by the shape functions of the cell
 };
 
-/// A force per unit of the cell's own measure, in global axes: per volume in a solid, per area in a plane body (of thickness 1) or
-/// on a face, per length on an edge. Per radian in an axisymmetric body, where measures are those of the meridian plane times r.
+/// A force per unit of the cell's own measure, in global axes: per volume in a solid, per area in a plane body (of
+/// thickness 1) or on a face, per length on an edge. Per radian in an axisymmetric body, where measures are those of
+/// the meridian plane times r.
 struct DistributedForce {
   int cell;
   std::array<double, 3> force{};
-  std::array<FieldFunction, 3> functions;  ///< one that is set replaces that component of `force`
+  std::array<FieldFunction, 3> functions;                ///< one that is set replaces that component of `force`
   std::array<NodalFunction, 3> functions_at_nodes = {};  ///< the same, interpolated by the shape functions of the cell
 };
 
 /// In which axes the loads of a bar or beam are given: global, or own_axes() of the cell.
 enum class BeamAxes : std::uint8_t { global, own };
 
-/// Forces and moments per length on a bar or beam: FX FY FZ MX MY MZ, or N VY VZ MT MFY MFZ in its own axes. They vary linearly
-/// between the ends, where functions are evaluated (U4.44.01, FORCE_POUTRE).
+/// Forces and moments per length on a bar or beam: FX FY FZ MX MY MZ, or N VY VZ MT MFY MFZ in its own axes. They vary
+/// linearly between the ends, where functions are evaluated (U4.44.01, FORCE_POUTRE).
 struct BeamForce {
   int cell;
   BeamAxes axes = BeamAxes::global;
@@ -75,7 +77,8 @@ struct BeamForce {
   std::array<FieldFunction, 6> functions;  ///< one that is set replaces that component of `force`
 };
 
-/// Weight: each mass m of the cells gets the force m * acceleration. Cells without mass, such as skin cells, take no part.
+/// Weight: each mass m of the cells gets the force m * acceleration. Cells without mass, such as skin cells, take no
+/// part.
 struct GravityLoad {
   std::vector<int> cells;
   std::array<double, 3> acceleration{};
@@ -84,29 +87,29 @@ struct GravityLoad {
 /// Centrifugal force of a steady rotation: m speed^2 times the vector from the axis to the mass.
 struct RotationLoad {
   std::vector<int> cells;
-  double speed = 0.0;               ///< radians per unit of time
-  std::array<double, 3> axis{};     ///< direction, of any length
-  std::array<double, 3> centre{};   ///< a point of the axis
+  double speed = 0.0;              ///< radians per unit of time
+  std::array<double, 3> axis{};    ///< direction, of any length
+  std::array<double, 3> centre{};  ///< a point of the axis
 };
 
-/// Strain that a solid or plane element has without stress: xx, yy, zz, xy, xz, yz in global axes, as tensor components (half
-/// the shear angles). In an axisymmetric body zz is the hoop direction.
+/// Strain that a solid or plane element has without stress: xx, yy, zz, xy, xz, yz in global axes, as tensor components
+/// (half the shear angles). In an axisymmetric body zz is the hoop direction.
 struct InitialStrain {
   int cell;
   std::array<double, 6> strain{};
   std::array<FieldFunction, 6> functions;  ///< one that is set replaces that component of `strain`
 };
 
-/// The same for a bar or beam in its own axes: elongation along x, then the curvatures d(rotation)/dx about y and z (beams
-/// only). Functions are evaluated at the middle of the cell.
+/// The same for a bar or beam in its own axes: elongation along x, then the curvatures d(rotation)/dx about y and z
+/// (beams only). Functions are evaluated at the middle of the cell.
 struct InitialSlenderStrain {
   int cell;
   std::array<double, 3> strain{};
   std::array<FieldFunction, 3> functions;
 };
 
-/// The same for a plate in its own axes, about the surface of the mesh: e_xx, e_yy, e_xy (half the shear angle), then the curvatures k_xx, k_yy, k_xy
-/// (half the twist) that bending moments MXX ... of the same sign go with.
+/// The same for a plate in its own axes, about the surface of the mesh: e_xx, e_yy, e_xy (half the shear angle), then
+/// the curvatures k_xx, k_yy, k_xy (half the twist) that bending moments MXX ... of the same sign go with.
 struct InitialPlateStrain {
   int cell;
   std::array<double, 6> strain{};
@@ -116,7 +119,8 @@ struct InitialPlateStrain {
 /// Where in the thickness of a plate a force acts.
 enum class PlateLevel : std::uint8_t { mesh, middle, upper, lower };
 
-/// Forces and moments per area of a plate: FX FY FZ MX MY MZ, or in its own axes F1 F2 F3 MF1 MF2, whose sixth is not used.
+/// Forces and moments per area of a plate: FX FY FZ MX MY MZ, or in its own axes F1 F2 F3 MF1 MF2, whose sixth is not
+/// used.
 struct PlateForce {
   int cell;
   bool in_own_axes = false;
@@ -130,7 +134,8 @@ struct ElementField;
 struct Load {
   std::vector<LinearRelation> relations;
   std::vector<RigidLink> rigid_links;  ///< whose relations are among `relations`
-  /// How many unknowns a relation adds where relations are not eliminated (U4.44.01, DOUBLE_LAGRANGE): see relation_multipliers.hpp.
+  /// How many unknowns a relation adds where relations are not eliminated (U4.44.01, DOUBLE_LAGRANGE): see
+  /// relation_multipliers.hpp.
   int multipliers_per_relation = 2;
   std::vector<NodalForce> nodal_forces;
   std::vector<PressureLoad> pressures;
@@ -141,15 +146,18 @@ struct Load {
   std::vector<InitialStrain> initial_strains;
   std::vector<InitialSlenderStrain> initial_slender_strains;
   std::vector<InitialPlateStrain> initial_plate_strains;
-  std::vector<std::shared_ptr<const ElementField>> initial_strain_fields;  ///< at integration points: EPXX ... of continua, EPXX KY KZ of beams, EXX ... KXY of plates
-  std::vector<std::shared_ptr<const ElementField>> initial_stress_fields;  ///< at integration points: SIXX ...; they push and leave no other trace
+  std::vector<std::shared_ptr<const ElementField>>
+      initial_strain_fields;  ///< at integration points: EPXX ... of continua, EPXX KY KZ of beams, EXX ... KXY of
+                              ///< plates
+  std::vector<std::shared_ptr<const ElementField>>
+      initial_stress_fields;  ///< at integration points: SIXX ...; they push and leave no other trace
   std::vector<PlateForce> plate_forces;
 };
 
 /// A load as a computation applies it.
 struct AppliedLoad {
   std::shared_ptr<const Load> load;
-  TimeFunction multiplier;  ///< empty: 1
+  TimeFunction multiplier;    ///< empty: 1
   bool differential = false;  ///< its conditions on displacements count from the initial state (DIDI of U4.51.03)
 };
 

@@ -8,8 +8,8 @@
 
 namespace comma::solver {
 
-/// A component of fields at rising instants, linear in time between them; one alone holds at all times. Fields are at nodes, at the nodes of cells, or one
-/// value a cell.
+/// A component of fields at rising instants, linear in time between them; one alone holds at all times. Fields are at
+/// nodes, at the nodes of cells, or one value a cell.
 class LoadHistory {
  public:
   void add(double instant, Field field, int component);
@@ -18,7 +18,8 @@ class LoadHistory {
   Coverage coverage(int node) const { return coverage(-1, {&node, 1}); }
   /// At which instants all nodes of the cell have one there.
   Coverage coverage(int cell, std::span<const int> nodes) const;
-  /// At a node, of fields at nodes. Throws Error `out-of-function` for a time before the first or after the last instant.
+  /// At a node, of fields at nodes. Throws Error `out-of-function` for a time before the first or after the last
+  /// instant.
   double at(int node, double time) const { return at(-1, 0, node, time); }
   /// At node number `local` of a cell, which is `node` of the mesh.
   double at(int cell, int local, int node, double time) const;

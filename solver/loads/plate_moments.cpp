@@ -30,7 +30,10 @@ std::vector<NodalForce> plate_moment_forces(const Mesh& mesh, const PlateMoment&
   for (const CellSample& sample : samples.of(mesh.cell_types[static_cast<std::size_t>(load.cell)], CellRole::skin)) {
     const CellPoint point = locate(mesh, load.cell, sample);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      shares[a].push_back({{point.at[0], point.at[1], point.at[2]}, sample.weight * point.measure(dimension(mesh.cell_types[static_cast<std::size_t>(load.cell)])) * sample.values[static_cast<Eigen::Index>(a)]});
+      shares[a].push_back(
+          {{point.at[0], point.at[1], point.at[2]},
+           sample.weight * point.measure(dimension(mesh.cell_types[static_cast<std::size_t>(load.cell)])) *
+               sample.values[static_cast<Eigen::Index>(a)]});
   }
   std::vector<NodalForce> forces;
   for (std::size_t a = 0; a < nodes.size(); ++a) {

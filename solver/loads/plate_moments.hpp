@@ -16,8 +16,8 @@ struct PlateMoment {
   std::array<FieldFunction, 3> functions;  ///< one that is set replaces that component of `moment`
 };
 
-/// The moments at the nodes of the cell that do the same work on rotations that are linear between the nodes: on the drilling
-/// rotation as well, where the moment has a part about the normal.
+/// The moments at the nodes of the cell that do the same work on rotations that are linear between the nodes: on the
+/// drilling rotation as well, where the moment has a part about the normal.
 std::vector<NodalForce> plate_moment_forces(const Mesh& mesh, const PlateMoment& load);
 
 }  // namespace comma::solver

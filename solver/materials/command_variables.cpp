@@ -50,12 +50,14 @@ Field blend(const Field& a, const Field& b, double share, Parameter variable) {
 Field at_time(const CommandVariable& variable, double time) {
   std::vector<double> instants;
   for (const VariableSnapshot& snapshot : variable.snapshots) instants.push_back(snapshot.instant);
-  const auto [first, share] = time_bracket(instants, time, variable.left, variable.right, fmt::format("the command variable {}", name_of(variable.variable)));
+  const auto [first, share] = time_bracket(instants, time, variable.left, variable.right,
+                                           fmt::format("the command variable {}", name_of(variable.variable)));
   const Field& before = *variable.snapshots[first].field;
   return share == 0.0 ? before : blend(before, *variable.snapshots[first + 1].field, share, variable.variable);
 }
 
-/// From the first value, so that one that is the same everywhere stays it to the last bit: strains are made from differences to a reference.
+/// From the first value, so that one that is the same everywhere stays it to the last bit: strains are made from
+/// differences to a reference.
 double interpolate(std::span<const double> shape, auto&& value_at) {
   const double first = value_at(0);
   double sum = 0.0;
@@ -68,9 +70,11 @@ double interpolate(std::span<const double> shape, auto&& value_at) {
 VariableState::VariableState(const Mesh& mesh, std::span<const CommandVariable> variables, double time) : time_(time) {
   for (const CommandVariable& variable : variables) {
     check(mesh, variable);
-    gives_strains_ = gives_strains_ || std::ranges::find(strain_parameters, variable.variable) != strain_parameters.end();
+    gives_strains_ =
+        gives_strains_ || std::ranges::find(strain_parameters, variable.variable) != strain_parameters.end();
     const int index = static_cast<int>(entries_.size());
-    entries_.push_back({variable.variable, variable.reference, at_time(variable, variable.instant ? variable.instant(time) : time)});
+    entries_.push_back(
+        {variable.variable, variable.reference, at_time(variable, variable.instant ? variable.instant(time) : time)});
     std::vector<int>& entry_of_cell = entry_of_cell_[static_cast<std::size_t>(variable.variable)];
     entry_of_cell.resize(mesh.cell_types.size(), -1);
     if (variable.cells.empty()) std::fill(entry_of_cell.begin(), entry_of_cell.end(), index);

@@ -2,10 +2,12 @@
 
 namespace comma::solver {
 
-ContactSpringResponse respond(const ContactSpring& spring, double gap, const Eigen::Vector2d& displacement, const Eigen::Vector2d& slip) {
+ContactSpringResponse respond(const ContactSpring& spring, double gap, const Eigen::Vector2d& displacement,
+                              const Eigen::Vector2d& slip) {
   // Of the bound, what rounding leaves of a force that has been brought back to it.
   constexpr double rounding_share = 1e-14;
-  ContactSpringResponse response{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), displacement, ContactSpringStatus::open};
+  ContactSpringResponse response{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), displacement,
+                                 ContactSpringStatus::open};
   if (gap > 0.0) return response;
   response.force[0] = spring.normal * gap;
   response.tangent(0, 0) = spring.normal;

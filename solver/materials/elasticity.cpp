@@ -22,18 +22,15 @@ bool all_constant(const std::array<Property, 3>& properties) {
   return properties[0].is_constant() && properties[1].is_constant() && properties[2].is_constant();
 }
 
-bool is_zero(const Property& property) {
-  return property.is_constant() && property(MaterialPoint()) == 0.0;
-}
+bool is_zero(const Property& property) { return property.is_constant() && property(MaterialPoint()) == 0.0; }
 
-bool is_zero(const Expansion& expansion) {
-  return is_zero(expansion.coefficient);
-}
+bool is_zero(const Expansion& expansion) { return is_zero(expansion.coefficient); }
 
 double positive(double modulus, const char* name) {
   if (modulus > 0.0) return modulus;
-  throw Error("invalid-material", fmt::format("an orthotropic material has {} = {}, but it must be positive", name, modulus),
-              modulus == 0.0 ? fmt::format("give {}: only plane bodies do without E_N (C_PLAN), G_LN and G_TN", name) : "");
+  throw Error(
+      "invalid-material", fmt::format("an orthotropic material has {} = {}, but it must be positive", name, modulus),
+      modulus == 0.0 ? fmt::format("give {}: only plane bodies do without E_N (C_PLAN), G_LN and G_TN", name) : "");
 }
 
 /// Compliance in the axes L, T, N. Where N does not count, moduli that are absent become those in the plane.
@@ -45,7 +42,9 @@ Matrix6d own_compliance(const OrthotropicElasticity& material, const MaterialPoi
     const double shear = material.shear[i](at);
     const bool stands_free = i == 2 && across == AcrossPlane::free && young == 0.0;
     compliance(i, i) = stands_free ? 0.0 : 1.0 / positive(young, young_names[i]);
-    compliance(3 + i, 3 + i) = i > 0 && across != AcrossPlane::solid && shear == 0.0 ? compliance(3, 3) : 1.0 / positive(shear, shear_names[i]);
+    compliance(3 + i, 3 + i) = i > 0 && across != AcrossPlane::solid && shear == 0.0
+                                   ? compliance(3, 3)
+                                   : 1.0 / positive(shear, shear_names[i]);
   }
   for (int pair = 0; pair < 3; ++pair) {
     const int i = tensor_row[3 + pair];
@@ -126,13 +125,16 @@ void check_elasticity(const IsotropicModuli& material) {
     throw Error("invalid-material", fmt::format("Young's modulus is {}, but it must be positive", material.young));
   }
   if (!(material.poisson > -1.0 && material.poisson <= 0.5))
-    throw Error("invalid-material", fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5", material.poisson));
+    throw Error("invalid-material",
+                fmt::format("Poisson's ratio is {}, but it must lie between -1 and 0.5", material.poisson));
 }
 
 void require_compressible(double poisson) {
   if (poisson < 0.5) return;
-  throw Error("invalid-material", "Poisson's ratio is 0.5: such a body keeps its volume, and its stresses do not follow from strains alone",
-              "0.499999999 with INCO_UP or INCO_UPG is that to nine digits (elements of displacements alone lock above 0.49); 0.5 itself goes with elastic plane stress, plates, beams and bars");
+  throw Error("invalid-material",
+              "Poisson's ratio is 0.5: such a body keeps its volume, and its stresses do not follow from strains alone",
+              "0.499999999 with INCO_UP or INCO_UPG is that to nine digits (elements of displacements alone lock above "
+              "0.49); 0.5 itself goes with elastic plane stress, plates, beams and bars");
 }
 
 Matrix6d solid_stiffness(const IsotropicModuli& material) {
@@ -258,7 +260,9 @@ double thermal_strain(const Expansion& expansion, const MaterialPoint& at) {
 
 double inelastic_axial_strain(const IsotropicElasticity& material, const MaterialPoint& at) {
   if (!given_strain(at).isZero(0.0)) {
-    throw Error("unsupported", "a strain that is known beforehand (EPSA) is given to a bar, beam or plate, but only solids and plane bodies take it up",
+    throw Error("unsupported",
+                "a strain that is known beforehand (EPSA) is given to a bar, beam or plate, but only solids and plane "
+                "bodies take it up",
                 "give it to the cells of the continuum alone");
   }
   return expansion(material, at);
@@ -274,6 +278,5 @@ Vector6d inelastic_strain(const CellMaterial& material, const MaterialPoint& at)
   }
   return strain + given_strain(at);
 }
-
 
 }  // namespace comma::solver

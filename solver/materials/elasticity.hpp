@@ -37,7 +37,8 @@ Eigen::Matrix4d plane_strain_stiffness(const IsotropicModuli& material);
 /// Plane stress: the row and column of zz are zero.
 Eigen::Matrix4d plane_stress_stiffness(const IsotropicModuli& material);
 
-/// What a plane body lets its material do across the plane, in which N stands then: nothing bears there (`free`: plane stress), or nothing shears
+/// What a plane body lets its material do across the plane, in which N stands then: nothing bears there (`free`: plane
+/// stress), or nothing shears
 /// (`held`: plane strain, round an axis).
 enum class AcrossPlane : std::uint8_t { solid, held, free };
 
@@ -69,7 +70,8 @@ Matrix6d solid_compliance(const CellMaterial& material, const MaterialPoint& at)
 Matrix6d strain_rotation(const Eigen::Matrix3d& axes);
 
 /// Mean coefficients of expansion are given from the definition temperature T_d; from the reference temperature T_r on,
-/// the strain is, on the length at T_d (what the length at T_r adds is of second order, and Code_Aster leaves it out: hsnv125f),
+/// the strain is, on the length at T_d (what the length at T_r adds is of second order, and Code_Aster leaves it out:
+/// hsnv125f),
 ///
 ///     alpha(T) (T - T_d) - alpha(T_r) (T_r - T_d)       (U4.43.01, TEMP_DEF_ALPHA)
 ///

@@ -21,8 +21,9 @@ inline constexpr double from_reference = std::numeric_limits<double>::quiet_NaN(
 
 /// Mean thermal expansion, and the temperature from which it was measured.
 struct Expansion {
-  Expansion(double constant = 0.0) : coefficient(constant) {}  // NOLINT(google-explicit-constructor): a number is an expansion
-  Expansion(Property measured, double from = from_reference)   // NOLINT(google-explicit-constructor)
+  Expansion(double constant = 0.0)
+      : coefficient(constant) {}  // NOLINT(google-explicit-constructor): a number is an expansion
+  Expansion(Property measured, double from = from_reference)  // NOLINT(google-explicit-constructor)
       : coefficient(std::move(measured)), definition_temperature(from) {}
   Property coefficient;
   double definition_temperature = from_reference;

@@ -33,7 +33,8 @@ struct Converted {
 
 }  // namespace
 
-TabulatedFunction expansion_from(double reference, const TabulatedFunction& measured, double definition_temperature, double nearness) {
+TabulatedFunction expansion_from(double reference, const TabulatedFunction& measured, double definition_temperature,
+                                 double nearness) {
   TabulatedFunction table = measured;
   const double value = measured(reference);
   const double span = reference - definition_temperature;
@@ -53,11 +54,13 @@ Property mean_expansion(TabulatedFunction measured, double definition_temperatur
     const double temperature = at[Parameter::temperature];
     const double reference = at.reference(Parameter::temperature);
     if (std::isnan(temperature))
-      throw Error("missing-variable", "the thermal expansion depends on the temperature, which is not given here", "assign the temperature to these cells");
+      throw Error("missing-variable", "the thermal expansion depends on the temperature, which is not given here",
+                  "assign the temperature to these cells");
     if (std::isnan(reference)) throw Error("missing-reference", "a temperature is given without its reference value");
     std::shared_ptr<const Converted> converted = last->load();
     if (!converted || converted->reference != reference) {
-      converted = std::make_shared<const Converted>(Converted{reference, expansion_from(reference, measured, definition_temperature, nearness)});
+      converted = std::make_shared<const Converted>(
+          Converted{reference, expansion_from(reference, measured, definition_temperature, nearness)});
       last->store(converted);
     }
     return converted->table(temperature);

@@ -1,4 +1,5 @@
-// What lies beyond linear elasticity: hardening curves and the motion of the yield surface of metals, the energy of rubber.
+// What lies beyond linear elasticity: hardening curves and the motion of the yield surface of metals, the energy of
+// rubber.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,8 @@
 
 namespace comma::solver {
 
-/// The traction curve is bilinear: beyond `yield` (stress) it has the slope `slope` (stress over total strain), less than Young's modulus.
+/// The traction curve is bilinear: beyond `yield` (stress) it has the slope `slope` (stress over total strain), less
+/// than Young's modulus.
 struct LinearHardening {
   Property slope{};
   Property yield{};
@@ -21,8 +23,8 @@ struct AsymmetricHardening {
   LinearHardening compression;
 };
 
-/// Stress over total strain in simple traction, the yield point first (R5.03.02); one curve, or one for each of some rising
-/// temperatures, between which and beyond which (`left`, `right`) R(p) follows.
+/// Stress over total strain in simple traction, the yield point first (R5.03.02); one curve, or one for each of some
+/// rising temperatures, between which and beyond which (`left`, `right`) R(p) follows.
 struct TractionHardening {
   std::vector<double> temperatures;
   std::vector<TabulatedFunction> curves;
@@ -37,14 +39,14 @@ struct PowerHardening {
   double exponent = 1.0;  ///< n
 };
 
-/// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m, after a plateau of Lueders' bands: R(p) = R(plateau) for
-/// p below it (U4.43.01, ECRO_NL).
+/// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m, after a plateau of Lueders' bands: R(p)
+/// = R(plateau) for p below it (U4.43.01, ECRO_NL).
 struct NonlinearHardening {
-  double initial = 0.0;   ///< R0
-  double slope = 0.0;     ///< H
-  double first = 0.0;     ///< R1
+  double initial = 0.0;  ///< R0
+  double slope = 0.0;    ///< H
+  double first = 0.0;    ///< R1
   double first_rate = 0.0;
-  double second = 0.0;    ///< R2
+  double second = 0.0;  ///< R2
   double second_rate = 0.0;
   double power_factor = 0.0;  ///< K
   double power_offset = 0.0;  ///< p0

@@ -9,9 +9,22 @@
 namespace comma::solver {
 
 std::string_view name_of(Parameter parameter) {
-  constexpr std::array<std::string_view, parameter_count> names = {
-      "temperature", "drying",    "hydration", "neutral variable 1", "neutral variable 2", "neutral variable 3", "strain xx", "strain yy",
-      "strain zz",   "strain xy", "strain xz", "strain yz",          "time",               "X",                  "Y",         "Z"};
+  constexpr std::array<std::string_view, parameter_count> names = {"temperature",
+                                                                   "drying",
+                                                                   "hydration",
+                                                                   "neutral variable 1",
+                                                                   "neutral variable 2",
+                                                                   "neutral variable 3",
+                                                                   "strain xx",
+                                                                   "strain yy",
+                                                                   "strain zz",
+                                                                   "strain xy",
+                                                                   "strain xz",
+                                                                   "strain yz",
+                                                                   "time",
+                                                                   "X",
+                                                                   "Y",
+                                                                   "Z"};
   return names[static_cast<std::size_t>(parameter)];
 }
 

@@ -12,8 +12,8 @@
 
 namespace comma::solver {
 
-/// What properties may depend on. The first ones, up to the strains, are command variables (U4.43.03, AFFE_VARC), which have a
-/// reference value; the strains have none.
+/// What properties may depend on. The first ones, up to the strains, are command variables (U4.43.03, AFFE_VARC), which
+/// have a reference value; the strains have none.
 enum class Parameter : std::uint8_t {
   temperature,
   drying,
@@ -35,8 +35,9 @@ enum class Parameter : std::uint8_t {
 inline constexpr int parameter_count = 16;
 inline constexpr int command_variable_count = 12;
 /// The components of the strain that is known beforehand.
-inline constexpr std::array<Parameter, 6> strain_parameters = {Parameter::strain_xx, Parameter::strain_yy, Parameter::strain_zz,
-                                                               Parameter::strain_xy, Parameter::strain_xz, Parameter::strain_yz};
+inline constexpr std::array<Parameter, 6> strain_parameters = {Parameter::strain_xx, Parameter::strain_yy,
+                                                               Parameter::strain_zz, Parameter::strain_xy,
+                                                               Parameter::strain_xz, Parameter::strain_yz};
 
 /// "temperature" ... for messages.
 std::string_view name_of(Parameter parameter);

@@ -24,8 +24,8 @@ SpringResponse bilinear_response(double first, double last, double bound, double
   return {std::copysign(bound + last * (std::abs(displacement) - bend), displacement), last};
 }
 
-/// |F - X(a)| = yield with F = k (u - a): what is left of it falls as a moves on, the less the further, so that Newton's method does not pass the root
-/// but from its side, and an interval that holds the root catches it.
+/// |F - X(a)| = yield with F = k (u - a): what is left of it falls as a moves on, the less the further, so that
+/// Newton's method does not pass the root but from its side, and an interval that holds the root catches it.
 SpringResponse hardening_response(const HardeningSpring& law, double stiffness, double displacement, double plastic) {
   const double trial = stiffness * (displacement - plastic);
   const double apart = trial - centre(law, plastic).first;

@@ -1,4 +1,5 @@
-// Laws of one component of a discrete element: bilinear elasticity, and plasticity whose hardening is kinematic (R5.03.17, DIS_BILI_ELAS and DIS_ECRO_CINE).
+// Laws of one component of a discrete element: bilinear elasticity, and plasticity whose hardening is kinematic
+// (R5.03.17, DIS_BILI_ELAS and DIS_ECRO_CINE).
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ struct BilinearSpring {
   double bound = 0.0;  ///< FPRE, > 0
 };
 
-/// The centre X of the elastic domain |F - X| <= yield moves with the plastic displacement a: X = slope a / (1 + (slope |a| / limit)^power)^(1 / power).
+/// The centre X of the elastic domain |F - X| <= yield moves with the plastic displacement a: X = slope a / (1 + (slope
+/// |a| / limit)^power)^(1 / power).
 struct HardeningSpring {
   double yield = 0.0;  ///< LIMY, > 0
   double slope = 0.0;  ///< KCIN, >= 0
@@ -31,14 +33,15 @@ struct SpringLaws {
 
 struct SpringResponse {
   double force;
-  double tangent;          ///< derivative of the force by the displacement
-  double plastic = 0.0;    ///< the part of the displacement that the force does not come from
+  double tangent;        ///< derivative of the force by the displacement
+  double plastic = 0.0;  ///< the part of the displacement that the force does not come from
 };
 
 /// The force at a displacement, with the stiffnesses as they are at the moment.
 SpringResponse bilinear_response(double first, double last, double bound, double displacement);
 
-/// The same of a spring with the elastic stiffness, > 0, from the plastic displacement where the step began; implicit in the step.
+/// The same of a spring with the elastic stiffness, > 0, from the plastic displacement where the step began; implicit
+/// in the step.
 SpringResponse hardening_response(const HardeningSpring& law, double stiffness, double displacement, double plastic);
 
 }  // namespace comma::solver

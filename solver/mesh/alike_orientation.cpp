@@ -41,8 +41,9 @@ class Sheet {
     for (const int cell : cells_) {
       const int wanted = dimension(mesh_.cell_types[cell]);
       if (wanted != 1 && (wanted != 2 || measure == Measure::tangent)) {
-        throw Error("wrong-cell", fmt::format("{} {} has no {} to turn", name_of(mesh_.cell_types[cell]), mesh_.cell_name(cell),
-                                              measure == Measure::tangent ? "tangent" : "normal"));
+        throw Error("wrong-cell",
+                    fmt::format("{} {} has no {} to turn", name_of(mesh_.cell_types[cell]), mesh_.cell_name(cell),
+                                measure == Measure::tangent ? "tangent" : "normal"));
       }
       for_facets(cell, [&](Facet facet, bool) { neighbours_[facet].push_back(cell); });
     }
@@ -72,8 +73,8 @@ class Sheet {
  private:
   using Facet = std::array<int, 2>;
 
-  /// Visits the edges of a face (or the ends of a line) and whether the cell passes them from the lower to the higher node
-  /// (or begins there).
+  /// Visits the edges of a face (or the ends of a line) and whether the cell passes them from the lower to the higher
+  /// node (or begins there).
   template <class Visit>
   void for_facets(int cell, Visit visit) const {
     const auto nodes = mesh_.cell(cell);
@@ -113,7 +114,8 @@ class Sheet {
       if (is_new) {
         open.push_back(other);
       } else if (known->second != sense) {
-        throw Error("not-orientable", fmt::format("the cells {} and {} cannot run alike", mesh_.cell_name(cell), mesh_.cell_name(other)),
+        throw Error("not-orientable",
+                    fmt::format("the cells {} and {} cannot run alike", mesh_.cell_name(cell), mesh_.cell_name(other)),
                     "the sheet is one-sided, or more than two cells meet in an edge: name parts of it one by one");
       }
     }
@@ -131,8 +133,9 @@ class Sheet {
     const Vector own = measured(mesh_, cell, measure_);
     const double along = own.dot(wanted);
     if (std::abs(along) > smallest_sine * own.norm() * wanted.norm()) return along < 0.0;
-    throw Error("ambiguous-direction", fmt::format("the direction gives cell {} no sense: it is square to its {}", mesh_.cell_name(cell),
-                                                   measure_ == Measure::tangent ? "tangent" : "normal"));
+    throw Error("ambiguous-direction",
+                fmt::format("the direction gives cell {} no sense: it is square to its {}", mesh_.cell_name(cell),
+                            measure_ == Measure::tangent ? "tangent" : "normal"));
   }
 
   std::vector<int> unlike(int first) const {
@@ -140,7 +143,8 @@ class Sheet {
     for (const int cell : cells_) {
       const auto sense = turned_.find(cell);
       if (sense == turned_.end()) {
-        throw Error("several-pieces", fmt::format("cell {} is not connected with {}", mesh_.cell_name(cell), mesh_.cell_name(first)),
+        throw Error("several-pieces",
+                    fmt::format("cell {} is not connected with {}", mesh_.cell_name(cell), mesh_.cell_name(first)),
                     "turn the pieces one by one");
       }
       if (sense->second) found.push_back(cell);
@@ -163,10 +167,16 @@ int orient(Mesh& mesh, std::span<const int> cells, Measure measure, const std::o
 
 }  // namespace
 
-int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) { return orient(mesh, cells, Measure::normal, seed); }
+int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) {
+  return orient(mesh, cells, Measure::normal, seed);
+}
 
-int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) { return orient(mesh, cells, Measure::tangent, seed); }
+int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed) {
+  return orient(mesh, cells, Measure::tangent, seed);
+}
 
-std::optional<std::pair<int, int>> unlike_neighbours(const Mesh& mesh, std::span<const int> cells) { return Sheet(mesh, cells, Measure::normal).unlike_neighbours(); }
+std::optional<std::pair<int, int>> unlike_neighbours(const Mesh& mesh, std::span<const int> cells) {
+  return Sheet(mesh, cells, Measure::normal).unlike_neighbours();
+}
 
 }  // namespace comma::solver

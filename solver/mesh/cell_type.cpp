@@ -83,24 +83,14 @@ constexpr std::array<BoundaryFacet, 6> hexa27_faces = {{{quad9, {0, 3, 2, 1, 11,
                                                         {quad9, {3, 0, 4, 7, 11, 12, 19, 15, 24}},
                                                         {quad9, {4, 5, 6, 7, 16, 17, 18, 19, 25}}}};
 
-const Traits& traits_of(CellType type) {
-  return traits[static_cast<std::size_t>(type)];
-}
+const Traits& traits_of(CellType type) { return traits[static_cast<std::size_t>(type)]; }
 
 }  // namespace
 
-int node_count(CellType type) {
-  return traits_of(type).nodes;
-}
-int corner_count(CellType type) {
-  return traits_of(type).corners;
-}
-int dimension(CellType type) {
-  return traits_of(type).dimension;
-}
-std::string_view name_of(CellType type) {
-  return traits_of(type).name;
-}
+int node_count(CellType type) { return traits_of(type).nodes; }
+int corner_count(CellType type) { return traits_of(type).corners; }
+int dimension(CellType type) { return traits_of(type).dimension; }
+std::string_view name_of(CellType type) { return traits_of(type).name; }
 
 std::optional<CellType> cell_type_named(std::string_view name) {
   const auto* found = std::ranges::find(traits, name, &Traits::name);

@@ -19,43 +19,65 @@ using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
 CellType quadratic(CellType type) {
   switch (type) {
-    case seg2: return seg3;
-    case tria3: return tria6;
-    case quad4: return quad8;
-    case tetra4: return tetra10;
-    case pyram5: return pyram13;
-    case penta6: return penta15;
-    case hexa8: return hexa20;
-    default: return type;
+    case seg2:
+      return seg3;
+    case tria3:
+      return tria6;
+    case quad4:
+      return quad8;
+    case tetra4:
+      return tetra10;
+    case pyram5:
+      return pyram13;
+    case penta6:
+      return penta15;
+    case hexa8:
+      return hexa20;
+    default:
+      return type;
   }
 }
 
 CellType linear(CellType type) {
   switch (type) {
     case seg3:
-    case seg4: return seg2;
+    case seg4:
+      return seg2;
     case tria6:
-    case tria7: return tria3;
+    case tria7:
+      return tria3;
     case quad8:
-    case quad9: return quad4;
-    case tetra10: return tetra4;
-    case pyram13: return pyram5;
+    case quad9:
+      return quad4;
+    case tetra10:
+      return tetra4;
+    case pyram13:
+      return pyram5;
     case penta15:
-    case penta18: return penta6;
+    case penta18:
+      return penta6;
     case hexa20:
-    case hexa27: return hexa8;
-    default: return type;
+    case hexa27:
+      return hexa8;
+    default:
+      return type;
   }
 }
 
 CellType target_of(CellType type, Conversion conversion) {
   switch (conversion) {
-    case Conversion::to_quadratic: return quadratic(type);
-    case Conversion::to_linear: return linear(type);
-    case Conversion::hexa20_to_27: return type == hexa20 ? hexa27 : type == quad8 ? quad9 : type;
-    case Conversion::penta15_to_18: return type == penta15 ? penta18 : type == quad8 ? quad9 : type;
-    case Conversion::quad8_to_9: return type == quad8 ? quad9 : type;
-    case Conversion::tria6_to_7: return type == tria6 ? tria7 : type;
+    case Conversion::to_quadratic:
+      return quadratic(type);
+    case Conversion::to_linear:
+      return linear(type);
+    case Conversion::hexa20_to_27:
+      return type == hexa20 ? hexa27 : type == quad8 ? quad9 : type;
+    case Conversion::penta15_to_18:
+      return type == penta15 ? penta18 : type == quad8 ? quad9 : type;
+    case Conversion::quad8_to_9:
+      return type == quad8 ? quad9 : type;
+    case Conversion::tria6_to_7:
+      return type == tria6 ? tria7 : type;
   }
   return type;
 }
@@ -65,13 +87,19 @@ using Triangle = std::array<std::size_t, 3>;
 /// The triangles of a quadrangle, by its own nodes; none of another cell.
 std::span<const Triangle> triangles_in(CellType type) {
   static constexpr std::array<Triangle, 2> of_quad4 = {{{0, 1, 2}, {0, 2, 3}}};
-  static constexpr std::array<Triangle, 6> of_quad8 = {{{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}}};
-  static constexpr std::array<Triangle, 8> of_quad9 = {{{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
+  static constexpr std::array<Triangle, 6> of_quad8 = {
+      {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}}};
+  static constexpr std::array<Triangle, 8> of_quad9 = {
+      {{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
   switch (type) {
-    case quad4: return of_quad4;
-    case quad8: return of_quad8;
-    case quad9: return of_quad9;
-    default: return {};
+    case quad4:
+      return of_quad4;
+    case quad8:
+      return of_quad8;
+    case quad9:
+      return of_quad9;
+    default:
+      return {};
   }
 }
 
@@ -101,7 +129,11 @@ class MiddleNodes {
 class QuadraticExtension {
  public:
   QuadraticExtension(const Mesh& mesh, MiddleNodes& middles, int cell, CellType to)
-      : mesh_(mesh), middles_(middles), from_(mesh.cell_types[cell]), to_(to), nodes_(mesh.cell(cell).begin(), mesh.cell(cell).end()) {}
+      : mesh_(mesh),
+        middles_(middles),
+        from_(mesh.cell_types[cell]),
+        to_(to),
+        nodes_(mesh.cell(cell).begin(), mesh.cell(cell).end()) {}
 
   std::vector<int> extend() {
     const bool has_edges = node_count(from_) > corner_count(from_);
@@ -117,7 +149,9 @@ class QuadraticExtension {
   }
 
  private:
-  Eigen::Vector3d place(int local) const { return Eigen::Vector3d(mesh_.nodes[nodes_[static_cast<std::size_t>(local)]].data()); }
+  Eigen::Vector3d place(int local) const {
+    return Eigen::Vector3d(mesh_.nodes[nodes_[static_cast<std::size_t>(local)]].data());
+  }
 
   std::vector<int> corners(std::span<const int> local) const {
     std::vector<int> result;
@@ -131,13 +165,15 @@ class QuadraticExtension {
     return sum / static_cast<double>(local.size());
   }
 
-  /// The eight-node quadrangle at its centre: each corner counts -1/4, each mid-edge node 1/2; the six-node triangle: -1/9 and 4/9.
+  /// The eight-node quadrangle at its centre: each corner counts -1/4, each mid-edge node 1/2; the six-node triangle:
+  /// -1/9 and 4/9.
   Eigen::Vector3d face_centre(std::span<const int> face) const {
     const bool triangle = face.size() == 3;
     Eigen::Vector3d sum = (triangle ? -1.0 / 3.0 : -1.0) * mean(face);
     const auto edges = middle_edges(from_);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const bool on_face = std::ranges::all_of(edges[i], [&](int corner) { return std::ranges::find(face, corner) != face.end(); });
+      const bool on_face =
+          std::ranges::all_of(edges[i], [&](int corner) { return std::ranges::find(face, corner) != face.end(); });
       if (on_face) sum += (triangle ? 4.0 / 9.0 : 0.5) * place(corner_count(from_) + static_cast<int>(i));
     }
     return sum;
@@ -220,7 +256,8 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
   MiddleNodes middles(result);
   std::vector<CellType> types = mesh.cell_types;
   std::vector<std::vector<int>> nodes;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
   std::vector<bool> left(mesh.nodes.size(), false);
   int changed = 0;
   for (const int cell : cells) {
@@ -246,14 +283,17 @@ Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
   Mesh result = mesh;
   std::vector<CellType> types = mesh.cell_types;
   std::vector<std::vector<int>> nodes;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
   NewNames names(result.cell_names, "M");
   std::map<int, std::vector<int>> others;  // the other triangles of a quadrangle
   for (const int cell : cells) {
     const auto pieces = triangles_in(mesh.cell_types[cell]);
     if (pieces.empty()) continue;
     const std::vector<int> whole = nodes[cell];
-    const auto piece = [&](std::size_t i) { return std::vector{whole[pieces[i][0]], whole[pieces[i][1]], whole[pieces[i][2]]}; };
+    const auto piece = [&](std::size_t i) {
+      return std::vector{whole[pieces[i][0]], whole[pieces[i][1]], whole[pieces[i][2]]};
+    };
     nodes[cell] = piece(0);
     types[cell] = tria3;
     for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -268,7 +308,8 @@ Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
   for (auto& [name, members] : result.cell_groups) {
     const std::vector<int> before = members;
     for (const int member : before)
-      if (const auto other = others.find(member); other != others.end()) members.insert(members.end(), other->second.begin(), other->second.end());
+      if (const auto other = others.find(member); other != others.end())
+        members.insert(members.end(), other->second.begin(), other->second.end());
   }
   return result;
 }

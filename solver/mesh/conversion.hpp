@@ -1,4 +1,5 @@
-// Meshes made from others: more or fewer nodes in the cells, cells doubled, points, a part of a mesh (CREA_MAILLAGE, U4.23.02).
+// Meshes made from others: more or fewer nodes in the cells, cells doubled, points, a part of a mesh (CREA_MAILLAGE,
+// U4.23.02).
 #pragma once
 
 #include <span>
@@ -18,20 +19,22 @@ enum class Conversion {
   tria6_to_7,     ///< TRIA6 get their middle
 };
 
-/// The mesh with the cells converted; others stay, groups hold the same cells and, as far as they remain, the same nodes. New
-/// nodes are shared by the cells that share an edge or a face: mid-edge nodes halve the edge, middles of faces and solids lie
-/// where the serendipity shape functions of the cell put them, so that its geometry stays. Throws Error `no-cell` if none of
-/// the cells can be converted.
+/// The mesh with the cells converted; others stay, groups hold the same cells and, as far as they remain, the same
+/// nodes. New nodes are shared by the cells that share an edge or a face: mid-edge nodes halve the edge, middles of
+/// faces and solids lie where the serendipity shape functions of the cell put them, so that its geometry stays. Throws
+/// Error `no-cell` if none of the cells can be converted.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
 
-/// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third; QUAD8 into four at the corners and two between the mid-edge
-/// nodes, along the diagonal from the fifth to the seventh; QUAD9 into eight around its middle. Throws Error `no-cell` if there are none.
+/// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third;
+/// QUAD8 into four at the corners and two between the mid-edge nodes, along the diagonal from the fifth to the seventh;
+/// QUAD9 into eight around its middle. Throws Error `no-cell` if there are none.
 Mesh with_triangles(const Mesh& mesh, std::span<const int> cells);
 
 /// Doubles cells, on the same nodes, into a new cell group. Throws Error `group-exists`.
 void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& group);
 
-/// Makes a point cell at each of the nodes; into a new cell group unless its name is empty. Throws Error `group-exists`.
+/// Makes a point cell at each of the nodes; into a new cell group unless its name is empty. Throws Error
+/// `group-exists`.
 void add_points(Mesh& mesh, std::span<const int> nodes, const std::string& group);
 
 /// The cells alone, and their nodes, under their names. All groups stay as far as their members do; empty ones go.

@@ -9,7 +9,9 @@ namespace comma::solver {
 
 class DisjointSets {
  public:
-  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit DisjointSets(int size) : parent_(static_cast<std::size_t>(size)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   /// The smallest number of i's set.
   int root(int i) {

@@ -118,7 +118,8 @@ std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, No
   std::vector<int> result;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     auto own = mesh.cell(cell);
-    if (criterion == NodeCriterion::corners) own = own.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell])));
+    if (criterion == NodeCriterion::corners)
+      own = own.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell])));
     const auto hits = std::ranges::count_if(own, [&](int node) { return chosen[static_cast<std::size_t>(node)]; });
     const auto size = static_cast<std::ptrdiff_t>(own.size());
     const bool wanted = criterion == NodeCriterion::any        ? hits > 0
@@ -147,14 +148,16 @@ std::vector<int> nodes_in_ball(const Mesh& mesh, const Point& centre, double rad
 }
 
 std::vector<int> nodes_on_sphere(const Mesh& mesh, const Point& centre, double radius, double tolerance) {
-  return nodes_where(
-      mesh, [&](const Vector& position) { return std::abs((position - to_vector(centre)).norm() - radius) <= tolerance; });
+  return nodes_where(mesh, [&](const Vector& position) {
+    return std::abs((position - to_vector(centre)).norm() - radius) <= tolerance;
+  });
 }
 
 std::vector<int> nodes_in_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius) {
   const Vector direction = unit(to_vector(axis));
-  return nodes_where(
-      mesh, [&](const Vector& position) { return distance_from_axis(position, to_vector(point), direction) <= radius; });
+  return nodes_where(mesh, [&](const Vector& position) {
+    return distance_from_axis(position, to_vector(point), direction) <= radius;
+  });
 }
 
 std::vector<int> nodes_on_cylinder(const Mesh& mesh, const Point& point, const Point& axis, double radius,

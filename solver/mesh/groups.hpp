@@ -30,12 +30,13 @@ std::vector<int> nodes_of_cells(const Mesh& mesh, std::span<const int> cells, No
 
 /// How many of its nodes must be chosen for a cell to be.
 enum class NodeCriterion { all, any, majority, corners };
-/// The cells of the mesh, rising, whose nodes (`corners`: whose corners, all of them) are among `nodes` as the criterion says.
+/// The cells of the mesh, rising, whose nodes (`corners`: whose corners, all of them) are among `nodes` as the
+/// criterion says.
 std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, NodeCriterion criterion);
 
 /// The face cells (in a plane mesh: the line cells) whose normal makes at most `angle` (in radians) with `direction`;
-/// `either_sense`: or with its opposite. The normal is that of the corners, by the right-hand rule; a line's is its direction
-/// turned by -90 degrees. Error `zero-vector` where the direction has no length.
+/// `either_sense`: or with its opposite. The normal is that of the corners, by the right-hand rule; a line's is its
+/// direction turned by -90 degrees. Error `zero-vector` where the direction has no length.
 std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, double angle, bool either_sense);
 
 /// Lengths below are in the mesh's unit; `tolerance` is a distance. All return the nodes of the mesh, rising.
@@ -60,8 +61,8 @@ std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Poin
 std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start = {},
                                   std::optional<int> end = {}, std::optional<Point> direction = {});
 
-/// The first of the nodes at which the way from one to the next turns back (by more than 90 degrees), and does not go along edges of
-/// cells before and behind it; none where they follow each other along a line.
+/// The first of the nodes at which the way from one to the next turns back (by more than 90 degrees), and does not go
+/// along edges of cells before and behind it; none where they follow each other along a line.
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes);
 
 double distance(const Point& a, const Point& b);

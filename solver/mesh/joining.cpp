@@ -39,7 +39,8 @@ class NearNodes {
 
   /// The nearest node within `reach` of a place, -1 if there is none.
   int find(const Point& at, double reach) const {
-    auto node = std::lower_bound(nodes_.begin(), nodes_.end(), at[0] - reach, [&](int candidate, double x) { return mesh_.nodes[candidate][0] < x; });
+    auto node = std::lower_bound(nodes_.begin(), nodes_.end(), at[0] - reach,
+                                 [&](int candidate, double x) { return mesh_.nodes[candidate][0] < x; });
     int nearest = -1;
     double best = reach;
     for (; node != nodes_.end() && mesh_.nodes[*node][0] <= at[0] + reach; ++node) {
@@ -84,7 +85,8 @@ std::string free_name(const Groups& groups, const std::string& name) {
 }
 
 /// Groups that lose all of their members go.
-void append_groups(Groups& target, const Groups& source, const std::vector<int>& places, std::vector<std::pair<std::string, std::string>>& renamed) {
+void append_groups(Groups& target, const Groups& source, const std::vector<int>& places,
+                   std::vector<std::pair<std::string, std::string>>& renamed) {
   for (const auto& [name, members] : source) {
     std::vector<int> kept;
     std::unordered_set<int> seen;
@@ -109,8 +111,8 @@ void append_patches(Mesh& target, const Mesh& source, const std::vector<int>& pl
 }
 
 /// `partners`: the node of the first mesh that stands for each of the second's, -1 for most.
-JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>& partners, std::span<const int> first_gone,
-                  std::span<const int> second_gone) {
+JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>& partners,
+                  std::span<const int> first_gone, std::span<const int> second_gone) {
   JoinedMesh result;
   Mesh& mesh = result.mesh;
   mesh.dimension = std::max(first.dimension, second.dimension);
@@ -141,16 +143,20 @@ JoinedMesh superposed(const Mesh& first, const Mesh& second) {
   return joined(first, second, std::vector<int>(second.nodes.size(), -1), {}, {});
 }
 
-JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> first_cells, std::span<const int> second_cells) {
+JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> first_cells,
+                 std::span<const int> second_cells) {
   const double reach = gluing_tolerance * std::min(shortest_distance(first), shortest_distance(second));
   const NearNodes candidates(first, first.nodes_of_cells(first_cells));
   std::vector<int> partners(second.nodes.size(), -1);
   for (const int node : second.nodes_of_cells(second_cells)) {
     partners[static_cast<std::size_t>(node)] = candidates.find(second.nodes[node], reach);
     if (partners[static_cast<std::size_t>(node)] >= 0) continue;
-    throw Error("not-coincident", fmt::format("node {} of the second mesh lies on no node of the first mesh's group: the nearest must be within {:.3g}",
-                                              second.node_name(node), reach),
-                "glue groups whose nodes coincide");
+    throw Error(
+        "not-coincident",
+        fmt::format(
+            "node {} of the second mesh lies on no node of the first mesh's group: the nearest must be within {:.3g}",
+            second.node_name(node), reach),
+        "glue groups whose nodes coincide");
   }
   return joined(first, second, partners, first_cells, second_cells);
 }

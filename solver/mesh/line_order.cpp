@@ -126,11 +126,13 @@ bool has_edge(CellType type, std::span<const int> nodes, std::span<const int> li
   if (!contains(nodes, a) || !contains(nodes, b)) return false;
   if (dimension(type) == 1) {
     const auto inner = nodes.subspan(2);
-    return contains(inner, a) || contains(inner, b) || std::ranges::none_of(inner, [&](int node) { return contains(line, node); });
+    return contains(inner, a) || contains(inner, b) ||
+           std::ranges::none_of(inner, [&](int node) { return contains(line, node); });
   }
   return std::ranges::any_of(boundary_facets(type), [&](const BoundaryFacet& facet) {
     std::vector<int> own;
-    for (int i = 0; i < node_count(facet.type); ++i) own.push_back(nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
+    for (int i = 0; i < node_count(facet.type); ++i)
+      own.push_back(nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
     return has_edge(facet.type, own, line, a, b);
   });
 }
@@ -143,7 +145,9 @@ bool joined_by_edge(const Mesh& mesh, std::span<const int> line, int a, int b) {
 }
 
 bool turns_back(const Mesh& mesh, int before, int node, int after) {
-  const auto at = [&](int index) { return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(index)].data()); };
+  const auto at = [&](int index) {
+    return Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(index)].data());
+  };
   return (at(node) - at(before)).dot(at(after) - at(node)) < 0.0;
 }
 
@@ -157,7 +161,8 @@ std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, 
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes) {
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     if (!turns_back(mesh, nodes[i - 1], nodes[i], nodes[i + 1])) continue;
-    if (!joined_by_edge(mesh, nodes, nodes[i - 1], nodes[i]) || !joined_by_edge(mesh, nodes, nodes[i], nodes[i + 1])) return nodes[i];
+    if (!joined_by_edge(mesh, nodes, nodes[i - 1], nodes[i]) || !joined_by_edge(mesh, nodes, nodes[i], nodes[i + 1]))
+      return nodes[i];
   }
   return std::nullopt;
 }

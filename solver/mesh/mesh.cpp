@@ -51,18 +51,10 @@ int find_name(const std::vector<std::string>& names, char prefix, std::string_vi
 
 }  // namespace
 
-std::string Mesh::node_name(int index) const {
-  return name_at(node_names, 'N', index);
-}
-std::string Mesh::cell_name(int index) const {
-  return name_at(cell_names, 'M', index);
-}
-int Mesh::find_node(std::string_view name) const {
-  return find_name(node_names, 'N', name, node_count());
-}
-int Mesh::find_cell(std::string_view name) const {
-  return find_name(cell_names, 'M', name, cell_count());
-}
+std::string Mesh::node_name(int index) const { return name_at(node_names, 'N', index); }
+std::string Mesh::cell_name(int index) const { return name_at(cell_names, 'M', index); }
+int Mesh::find_node(std::string_view name) const { return find_name(node_names, 'N', name, node_count()); }
+int Mesh::find_cell(std::string_view name) const { return find_name(cell_names, 'M', name, cell_count()); }
 
 int Mesh::add_cell(CellType type, std::span<const int> cell_nodes) {
   assert(static_cast<int>(cell_nodes.size()) == comma::solver::node_count(type));

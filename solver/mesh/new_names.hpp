@@ -13,7 +13,8 @@ namespace comma::solver {
 /// Names in use, and new ones that are not among them. Keeps a reference to the list.
 class NewNames {
  public:
-  NewNames(std::vector<std::string>& names, std::string prefix) : names_(names), prefix_(std::move(prefix)), used_(names.begin(), names.end()) {}
+  NewNames(std::vector<std::string>& names, std::string prefix)
+      : names_(names), prefix_(std::move(prefix)), used_(names.begin(), names.end()) {}
 
   /// Gives the next member a name, in a mesh whose members have names.
   void add() {

@@ -54,9 +54,10 @@ bool same_sense(std::span<const int> nodes, std::span<const int> facet_nodes, in
   return facet_nodes[static_cast<std::size_t>(next)] == nodes[1];
 }
 
-/// Turns a line or face cell round. The corners of a face are taken in the opposite order, the last one first, as Code_Aster does: the reference cell of a
-/// triangle is not alike in all corners, and contact brings points that fall beside a face back within it; the first edge gives principal directions in a
-/// skin their signs (surface_stresses.hpp).
+/// Turns a line or face cell round. The corners of a face are taken in the opposite order, the last one first, as
+/// Code_Aster does: the reference cell of a triangle is not alike in all corners, and contact brings points that fall
+/// beside a face back within it; the first edge gives principal directions in a skin their signs
+/// (surface_stresses.hpp).
 void reverse(std::span<int> nodes, CellType type) {
   const int corners = corner_count(type);
   if (dimension(type) == 1) {
@@ -69,7 +70,8 @@ void reverse(std::span<int> nodes, CellType type) {
   if (quadratic) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners - 1);
 }
 
-/// Of `support`, or of all cells of one dimension more than one of the skin: those that may have a facet of the skin, whose corners are among its nodes.
+/// Of `support`, or of all cells of one dimension more than one of the skin: those that may have a facet of the skin,
+/// whose corners are among its nodes.
 std::vector<int> cells_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support) {
   std::array<bool, 4> wanted{};
   std::vector<bool> is_of_skin(static_cast<std::size_t>(mesh.node_count()), false);
@@ -79,7 +81,8 @@ std::vector<int> cells_behind(const Mesh& mesh, std::span<const int> skin, std::
   }
   const auto touches = [&](int cell) {
     const int least = dimension(mesh.cell_types[cell]);  // corners of its smallest facet
-    return std::ranges::count_if(mesh.cell(cell), [&](int node) { return is_of_skin[static_cast<std::size_t>(node)]; }) >= least;
+    return std::ranges::count_if(mesh.cell(cell),
+                                 [&](int node) { return is_of_skin[static_cast<std::size_t>(node)]; }) >= least;
   };
   std::vector<int> behind;
   const auto take = [&](int cell) {
@@ -96,7 +99,9 @@ std::vector<int> cells_behind(const Mesh& mesh, std::span<const int> skin, std::
   return behind;
 }
 
-FacetMap facets_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support = {}) { return map_facets(mesh, cells_behind(mesh, skin, support)); }
+FacetMap facets_behind(const Mesh& mesh, std::span<const int> skin, std::span<const int> support = {}) {
+  return map_facets(mesh, cells_behind(mesh, skin, support));
+}
 
 CellFacet support_of(const Mesh& mesh, int cell, const FacetMap& facets) {
   const auto found = facets.find(facet_key(mesh, cell));
@@ -134,7 +139,9 @@ namespace {
 void require_no_solids(const Mesh& mesh, std::span<const int> skin) {
   for (const int cell : skin)
     if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3)
-      throw Error("wrong-cell", fmt::format("the group holds the solid cell {} ({}), which is no skin", mesh.cell_name(cell), name_of(mesh.cell_types[static_cast<std::size_t>(cell)])),
+      throw Error("wrong-cell",
+                  fmt::format("the group holds the solid cell {} ({}), which is no skin", mesh.cell_name(cell),
+                              name_of(mesh.cell_types[static_cast<std::size_t>(cell)])),
                   "name a group of the faces alone (DEFI_GROUP, CREA_GROUP_MA with TYPE_MAILLE='2D')");
 }
 
@@ -156,7 +163,8 @@ std::vector<int> loose_skin(const Mesh& mesh, std::span<const int> skin, std::sp
   require_no_solids(mesh, skin);
   const FacetMap facets = facets_behind(mesh, skin, support);
   std::vector<int> loose;
-  std::ranges::copy_if(skin, std::back_inserter(loose), [&](int cell) { return !facets.contains(facet_key(mesh, cell)); });
+  std::ranges::copy_if(skin, std::back_inserter(loose),
+                       [&](int cell) { return !facets.contains(facet_key(mesh, cell)); });
   return loose;
 }
 

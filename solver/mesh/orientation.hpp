@@ -13,38 +13,39 @@ namespace comma::solver {
 /// Turns a line or face round; its first node stays first on a face.
 void turn_cell(Mesh& mesh, int cell);
 
-/// Turns each of the skin cells so that its normal points out of the volume (or plane) cell behind it. `support` limits the
-/// search to those cells; empty: all cells of one dimension more. Returns how many were turned. Throws Error
+/// Turns each of the skin cells so that its normal points out of the volume (or plane) cell behind it. `support` limits
+/// the search to those cells; empty: all cells of one dimension more. Returns how many were turned. Throws Error
 /// `skin-without-support` naming a cell that bounds nothing, `skin-inside-body` one that lies between two cells of the
 /// support.
 int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> support = {});
 
-/// Those of the skin cells that bound no cell of the support (default as above): the surface of a rigid body, say, which has no
-/// inside.
+/// Those of the skin cells that bound no cell of the support (default as above): the surface of a rigid body, say,
+/// which has no inside.
 std::vector<int> loose_skin(const Mesh& mesh, std::span<const int> skin, std::span<const int> support = {});
 
-/// Those of the skin cells whose normals point into the body behind them. Cells that bound no body, or lie between two, have
-/// no outer side and are left out.
+/// Those of the skin cells whose normals point into the body behind them. Cells that bound no body, or lie between two,
+/// have no outer side and are left out.
 std::vector<int> inward_skin(const Mesh& mesh, std::span<const int> skin);
 
-/// How a set of cells is to run: the normals (faces, and lines of a plane mesh) or the tangents (lines) of the cells at a node
-/// make an acute angle with a direction.
+/// How a set of cells is to run: the normals (faces, and lines of a plane mesh) or the tangents (lines) of the cells at
+/// a node make an acute angle with a direction.
 struct OrientationSeed {
   int node;
   Point direction;
 };
 
-/// Turns faces or lines so that the normals of neighbours agree (MODI_MAILLAGE ORIE_NORM_COQUE, U4.23.04): they agree with the
-/// seed or, without one, with the first cell. Returns how many were turned. Throws Error `not-orientable` naming two cells
-/// whose normals cannot agree, `several-pieces` where a cell is not connected with the others, `wrong-cell` for points and
-/// solids, `unknown-node` where no cell is at the seed's node, `ambiguous-direction` where the direction lies in the cells.
+/// Turns faces or lines so that the normals of neighbours agree (MODI_MAILLAGE ORIE_NORM_COQUE, U4.23.04): they agree
+/// with the seed or, without one, with the first cell. Returns how many were turned. Throws Error `not-orientable`
+/// naming two cells whose normals cannot agree, `several-pieces` where a cell is not connected with the others,
+/// `wrong-cell` for points and solids, `unknown-node` where no cell is at the seed's node, `ambiguous-direction` where
+/// the direction lies in the cells.
 int orient_normals(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed);
 
 /// Turns lines so that each begins where its neighbour ends (ORIE_LIGNE). Returns and throws as above.
 int orient_lines(Mesh& mesh, std::span<const int> cells, const std::optional<OrientationSeed>& seed);
 
-/// Two of the faces or lines that share an edge (or an end) with no third one and do not run alike: their normals point to different sides.
-/// Throws `wrong-cell` for points and solids.
+/// Two of the faces or lines that share an edge (or an end) with no third one and do not run alike: their normals point
+/// to different sides. Throws `wrong-cell` for points and solids.
 std::optional<std::pair<int, int>> unlike_neighbours(const Mesh& mesh, std::span<const int> cells);
 
 }  // namespace comma::solver

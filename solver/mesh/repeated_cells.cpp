@@ -11,18 +11,24 @@ namespace {
 class SortedCells {
  public:
   explicit SortedCells(const Mesh& mesh) : mesh_(mesh), nodes_(mesh.connectivity) {
-    for (int cell = 0; cell < mesh.cell_count(); ++cell) std::sort(nodes_.begin() + mesh.cell_starts[cell], nodes_.begin() + mesh.cell_starts[cell + 1]);
+    for (int cell = 0; cell < mesh.cell_count(); ++cell)
+      std::sort(nodes_.begin() + mesh.cell_starts[cell], nodes_.begin() + mesh.cell_starts[cell + 1]);
   }
 
-  bool same(int a, int b) const { return mesh_.cell_types[a] == mesh_.cell_types[b] && std::ranges::equal(nodes(a), nodes(b)); }
+  bool same(int a, int b) const {
+    return mesh_.cell_types[a] == mesh_.cell_types[b] && std::ranges::equal(nodes(a), nodes(b));
+  }
   bool before(int a, int b) const {
     if (mesh_.cell_types[a] != mesh_.cell_types[b]) return mesh_.cell_types[a] < mesh_.cell_types[b];
-    const auto order = std::lexicographical_compare_three_way(nodes(a).begin(), nodes(a).end(), nodes(b).begin(), nodes(b).end());
+    const auto order =
+        std::lexicographical_compare_three_way(nodes(a).begin(), nodes(a).end(), nodes(b).begin(), nodes(b).end());
     return order != 0 ? order < 0 : a < b;
   }
 
  private:
-  std::span<const int> nodes(int cell) const { return std::span(nodes_).subspan(mesh_.cell_starts[cell], mesh_.cell(cell).size()); }
+  std::span<const int> nodes(int cell) const {
+    return std::span(nodes_).subspan(mesh_.cell_starts[cell], mesh_.cell(cell).size());
+  }
 
   const Mesh& mesh_;
   std::vector<int> nodes_;

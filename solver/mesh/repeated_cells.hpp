@@ -12,7 +12,8 @@ struct RepeatedCell {
   int again;  ///< one more of it, whose nodes may stand in another order
 };
 
-/// All cells that repeat an earlier one, rising (U4.21.01, VERI_MAIL). Points do not count: discrete elements beside each other are made of them.
+/// All cells that repeat an earlier one, rising (U4.21.01, VERI_MAIL). Points do not count: discrete elements beside
+/// each other are made of them.
 std::vector<RepeatedCell> repeated_cells(const Mesh& mesh);
 
 /// Cells that have one of their nodes more than once, rising.

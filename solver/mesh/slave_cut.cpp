@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
@@ -32,7 +32,9 @@ struct Cell {
   std::vector<int> nodes;
 };
 
-std::span<const int> corners_of(const Cell& cell) { return std::span(cell.nodes).first(static_cast<std::size_t>(corner_count(cell.type))); }
+std::span<const int> corners_of(const Cell& cell) {
+  return std::span(cell.nodes).first(static_cast<std::size_t>(corner_count(cell.type)));
+}
 
 FacetKey key_of(std::span<const int> corners) {
   FacetKey key = {-1, -1, -1, -1};
@@ -47,7 +49,8 @@ std::vector<Cell> facets_of(const Cell& cell) {
   std::vector<Cell> facets;
   for (const BoundaryFacet& local : boundary_facets(cell.type)) {
     Cell& facet = facets.emplace_back(Cell{local.type, {}});
-    for (int i = 0; i < node_count(local.type); ++i) facet.nodes.push_back(cell.nodes[static_cast<std::size_t>(local.nodes[static_cast<std::size_t>(i)])]);
+    for (int i = 0; i < node_count(local.type); ++i)
+      facet.nodes.push_back(cell.nodes[static_cast<std::size_t>(local.nodes[static_cast<std::size_t>(i)])]);
   }
   return facets;
 }
@@ -55,13 +58,20 @@ std::vector<Cell> facets_of(const Cell& cell) {
 /// The cell between a facet and an apex.
 std::optional<CellType> cone_type(CellType base) {
   switch (base) {
-    case seg2: return tria3;
-    case seg3: return tria6;
-    case tria3: return tetra4;
-    case tria6: return tetra10;
-    case quad4: return pyram5;
-    case quad8: return pyram13;
-    default: return std::nullopt;
+    case seg2:
+      return tria3;
+    case seg3:
+      return tria6;
+    case tria3:
+      return tetra4;
+    case tria6:
+      return tetra10;
+    case quad4:
+      return pyram5;
+    case quad8:
+      return pyram13;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -70,8 +80,13 @@ bool has_inner_node(CellType type) { return type == seg3 || type == tria7 || typ
 class SlaveCutter {
  public:
   SlaveCutter(const Mesh& mesh, HexaCut hexa_cut)
-      : source_(mesh), result_(mesh), hexa_cut_(hexa_cut), node_names_(result_.node_names, "NS"), cell_names_(result_.cell_names, "MS") {
-    for (int cell = 0; cell < mesh.cell_count(); ++cell) cells_.push_back({mesh.cell_types[cell], {mesh.cell(cell).begin(), mesh.cell(cell).end()}});
+      : source_(mesh),
+        result_(mesh),
+        hexa_cut_(hexa_cut),
+        node_names_(result_.node_names, "NS"),
+        cell_names_(result_.cell_names, "MS") {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell)
+      cells_.push_back({mesh.cell_types[cell], {mesh.cell(cell).begin(), mesh.cell(cell).end()}});
     pieces_.resize(cells_.size());
   }
 
@@ -120,9 +135,11 @@ class SlaveCutter {
   int body_behind(int face) const {
     const auto found = bodies_.find(key_of(corners_of(cell(face))));
     if (found == bodies_.end() || found->second.empty())
-      throw Error("no-body", fmt::format("no body stands behind the slave face {}", source_.cell_name(face)), "choose faces on the skin of a body");
+      throw Error("no-body", fmt::format("no body stands behind the slave face {}", source_.cell_name(face)),
+                  "choose faces on the skin of a body");
     if (found->second.size() > 1)
-      throw Error("inner-face", fmt::format("the slave face {} lies between two bodies", source_.cell_name(face)), "choose faces on the skin of a body");
+      throw Error("inner-face", fmt::format("the slave face {} lies between two bodies", source_.cell_name(face)),
+                  "choose faces on the skin of a body");
     return found->second.front();
   }
 
@@ -140,13 +157,14 @@ class SlaveCutter {
       prepare_centre(cell(face));
       body_pieces = cones(facets_of(cell(body)), key, body);
     }
-    for (const int skin : skins_.at(key)) replace(skin, around_inner ? pieces_around_inner(cell(skin)) : pieces_of_face(skin, key));
+    for (const int skin : skins_.at(key))
+      replace(skin, around_inner ? pieces_around_inner(cell(skin)) : pieces_of_face(skin, key));
     remove_body(body);
     for (const int piece : replace(body, std::move(body_pieces))) add_body(piece);
   }
 
-  /// The node at the centre of a face, and in front of its corners what their edges to the centre carry. On quadratic faces they
-  /// lie on the surface that the shape functions describe.
+  /// The node at the centre of a face, and in front of its corners what their edges to the centre carry. On quadratic
+  /// faces they lie on the surface that the shape functions describe.
   void prepare_centre(const Cell& face) {
     middles_.clear();
     const auto corners = static_cast<std::size_t>(corner_count(face.type));
@@ -177,7 +195,9 @@ class SlaveCutter {
     const std::size_t next = (i + 1) % 4;
     const std::size_t across = (i + 2) % 4;
     const std::size_t last = (i + 3) % 4;
-    return (-3 * (at(next) + at(last)) - 2 * at(across) + 9 * (at(4 + i) + at(4 + last)) + 3 * (at(4 + next) + at(4 + across))) / 16;
+    return (-3 * (at(next) + at(last)) - 2 * at(across) + 9 * (at(4 + i) + at(4 + last)) +
+            3 * (at(4 + next) + at(4 + across))) /
+           16;
   }
 
   int middle(int corner) {
@@ -193,8 +213,11 @@ class SlaveCutter {
       if (key_of(corners_of(facet)) == face) continue;
       const auto type = cone_type(facet.type);
       if (!type)
-        throw Error("unsupported", fmt::format("the {} cell {} behind a slave face cannot be cut", name_of(cell(of).type), result_.cell_name(of)),
-                    "use the quadratic cells without nodes inside their facets there (HEXA20, PENTA15), or HEXA27 behind QUAD9");
+        throw Error("unsupported",
+                    fmt::format("the {} cell {} behind a slave face cannot be cut", name_of(cell(of).type),
+                                result_.cell_name(of)),
+                    "use the quadratic cells without nodes inside their facets there (HEXA20, PENTA15), or HEXA27 "
+                    "behind QUAD9");
       pieces.push_back(cone(facet, *type));
     }
     return pieces;
@@ -209,30 +232,36 @@ class SlaveCutter {
   Cell cone(const Cell& base, CellType type) {
     Cell result{type, std::vector<int>(static_cast<std::size_t>(node_count(type)), centre_)};
     const BoundaryFacet& own = boundary_facets(type).front();
-    for (std::size_t i = 0; i < base.nodes.size(); ++i) result.nodes[static_cast<std::size_t>(own.nodes[i])] = base.nodes[i];
+    for (std::size_t i = 0; i < base.nodes.size(); ++i)
+      result.nodes[static_cast<std::size_t>(own.nodes[i])] = base.nodes[i];
     const int apex = corner_count(type) - 1;
     const auto edges = middle_edges(type);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       if (edges[e][0] != apex && edges[e][1] != apex) continue;
       const int corner = edges[e][0] == apex ? edges[e][1] : edges[e][0];
-      result.nodes[static_cast<std::size_t>(corner_count(type)) + e] = middle(result.nodes[static_cast<std::size_t>(corner)]);
+      result.nodes[static_cast<std::size_t>(corner_count(type)) + e] =
+          middle(result.nodes[static_cast<std::size_t>(corner)]);
     }
     return result;
   }
 
   void prepare_inner(int face, int body) {
     if (cell(body).type != hexa8 && cell(body).type != quad4)
-      throw Error("unsupported", fmt::format("the {} cell {} behind a slave face cannot be cut into hexahedra", name_of(cell(body).type), source_.cell_name(face)),
+      throw Error("unsupported",
+                  fmt::format("the {} cell {} behind a slave face cannot be cut into hexahedra",
+                              name_of(cell(body).type), source_.cell_name(face)),
                   "write DECOUPE_HEXA='PYRA'");
     inner_.clear();
     Vector3d centre = Vector3d::Zero();
     for (const int node : cell(face).nodes) centre += place(node) / static_cast<double>(cell(face).nodes.size());
-    for (const int node : cell(face).nodes) inner_.emplace(node, add_node(centre + inner_share * (place(node) - centre)));
+    for (const int node : cell(face).nodes)
+      inner_.emplace(node, add_node(centre + inner_share * (place(node) - centre)));
   }
 
   std::vector<Cell> pieces_around_inner(const Cell& face) const {
     const auto inner = [&](std::size_t i) { return inner_.at(face.nodes[i]); };
-    if (face.type == seg2) return {{seg2, {inner(0), inner(1)}}, {seg2, {face.nodes[0], inner(0)}}, {seg2, {inner(1), face.nodes[1]}}};
+    if (face.type == seg2)
+      return {{seg2, {inner(0), inner(1)}}, {seg2, {face.nodes[0], inner(0)}}, {seg2, {inner(1), face.nodes[1]}}};
     std::vector<Cell> pieces = {{quad4, {inner(0), inner(1), inner(2), inner(3)}}};
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
@@ -247,7 +276,8 @@ class SlaveCutter {
     return add_node((1 - inner_depth) * place(shallow) + inner_depth * beneath);
   }
 
-  /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's other sides.
+  /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's
+  /// other sides.
   std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) {
     std::vector<int> corner = cell(body).nodes;  // the first two on the face
     while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
@@ -286,7 +316,8 @@ class SlaveCutter {
     return pieces;
   }
 
-  /// The other end of the edge that leaves a face of a hexahedron at a corner: the corner opposite to it on a facet beside the face.
+  /// The other end of the edge that leaves a face of a hexahedron at a corner: the corner opposite to it on a facet
+  /// beside the face.
   static int below(const Cell& body, const Cell& face, int corner) {
     const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
     for (const Cell& facet : facets_of(body)) {

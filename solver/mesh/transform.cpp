@@ -48,7 +48,8 @@ void change_axes(Mesh& mesh, const Point& x, const Point& y) {
   const Vector first = unit(to_vector(x));
   const Vector third = first.cross(unit(to_vector(y)));
   if (!(third.norm() > smallest_angle)) {
-    throw Error("zero-vector", "the two directions of the new axes lie along each other", "give two different directions");
+    throw Error("zero-vector", "the two directions of the new axes lie along each other",
+                "give two different directions");
   }
   Eigen::Matrix3d axes;
   axes << first.transpose(), third.normalized().cross(first).transpose(), third.normalized().transpose();
@@ -56,7 +57,8 @@ void change_axes(Mesh& mesh, const Point& x, const Point& y) {
 }
 
 void displace(Mesh& mesh, const NodalField& displacements) {
-  const std::array columns = {displacements.component("DX"), displacements.component("DY"), displacements.component("DZ")};
+  const std::array columns = {displacements.component("DX"), displacements.component("DY"),
+                              displacements.component("DZ")};
   const std::size_t expected = mesh.nodes.size() * displacements.components.size();
   if (columns[0] < 0 || displacements.values.size() != expected) {
     throw Error("incompatible-field", "the field is not one of displacements on the nodes of this mesh",

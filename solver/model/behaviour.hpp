@@ -17,18 +17,18 @@ enum class Kinematics : std::uint8_t {
 
 enum class Relation : std::uint8_t {
   elastic,
-  hyperelastic,           ///< rubber, in Green and Lagrange's strains (R5.03.19)
-  isotropic_linear,       ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
-  isotropic_traction,     ///< ... by a traction curve
-  isotropic_power,        ///< ... by a power law
-  isotropic_nonlinear,    ///< ... by saturating exponentials and a power
-  kinematic_linear,       ///< von Mises, the centre of the yield surface moving with the plastic strain
-  mixed_linear,           ///< both, the isotropic part linear (R5.03.16)
-  mixed_traction,         ///< both, the isotropic part from a traction curve
-  asymmetric_linear,      ///< of bars: isotropic hardening, linear, one for tension and one for compression (R5.03.09)
-  contact_spring,         ///< contact and friction inside a discrete element (R5.03.17)
-  bilinear_spring,        ///< a discrete element whose components are elastic with two slopes (R5.03.17)
-  hardening_spring,       ///< a discrete element whose components flow, with kinematic hardening (R5.03.17)
+  hyperelastic,         ///< rubber, in Green and Lagrange's strains (R5.03.19)
+  isotropic_linear,     ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
+  isotropic_traction,   ///< ... by a traction curve
+  isotropic_power,      ///< ... by a power law
+  isotropic_nonlinear,  ///< ... by saturating exponentials and a power
+  kinematic_linear,     ///< von Mises, the centre of the yield surface moving with the plastic strain
+  mixed_linear,         ///< both, the isotropic part linear (R5.03.16)
+  mixed_traction,       ///< both, the isotropic part from a traction curve
+  asymmetric_linear,    ///< of bars: isotropic hardening, linear, one for tension and one for compression (R5.03.09)
+  contact_spring,       ///< contact and friction inside a discrete element (R5.03.17)
+  bilinear_spring,      ///< a discrete element whose components are elastic with two slopes (R5.03.17)
+  hardening_spring,     ///< a discrete element whose components flow, with kinematic hardening (R5.03.17)
 };
 
 struct CellBehaviour {
@@ -42,10 +42,11 @@ struct CellBehaviour {
 
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {
-  return behaviour.relation != Relation::elastic || (behaviour.from_initial_state && (behaviour.kinematics == Kinematics::small || behaviour.kinematics == Kinematics::green_lagrange)) ||
-         behaviour.kinematics == Kinematics::logarithmic ||
-         behaviour.kinematics == Kinematics::multiplicative || behaviour.kinematics == Kinematics::updated ||
-         behaviour.kinematics == Kinematics::large_rotations;
+  return behaviour.relation != Relation::elastic ||
+         (behaviour.from_initial_state &&
+          (behaviour.kinematics == Kinematics::small || behaviour.kinematics == Kinematics::green_lagrange)) ||
+         behaviour.kinematics == Kinematics::logarithmic || behaviour.kinematics == Kinematics::multiplicative ||
+         behaviour.kinematics == Kinematics::updated || behaviour.kinematics == Kinematics::large_rotations;
 }
 
 /// One a cell; empty: linear elasticity in small strains everywhere.

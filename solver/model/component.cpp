@@ -7,7 +7,8 @@ namespace comma::solver {
 
 namespace {
 
-constexpr std::array<std::string_view, component_count> component_names = {"DX", "DY", "DZ", "DRX", "DRY", "DRZ", "PRES", "GONF"};
+constexpr std::array<std::string_view, component_count> component_names = {"DX",  "DY",  "DZ",   "DRX",
+                                                                           "DRY", "DRZ", "PRES", "GONF"};
 
 }  // namespace
 

@@ -16,15 +16,19 @@ inline constexpr int component_count = 8;
 inline constexpr int motion_count = 6;
 
 inline constexpr std::array translation_components = {Component::dx, Component::dy, Component::dz};
-constexpr bool is_rotation(Component component) { return component == Component::drx || component == Component::dry || component == Component::drz; }
+constexpr bool is_rotation(Component component) {
+  return component == Component::drx || component == Component::dry || component == Component::drz;
+}
 constexpr bool is_motion(Component component) { return static_cast<int>(component) < motion_count; }
 
-std::string_view name_of(Component component);               ///< "DX" ...
+std::string_view name_of(Component component);  ///< "DX" ...
 std::optional<Component> component_named(std::string_view name);
 
 /// A set of components, one bit each.
 using ComponentMask = std::uint16_t;
-constexpr ComponentMask mask_of(Component component) { return static_cast<ComponentMask>(1u << static_cast<unsigned>(component)); }
+constexpr ComponentMask mask_of(Component component) {
+  return static_cast<ComponentMask>(1u << static_cast<unsigned>(component));
+}
 constexpr bool contains(ComponentMask mask, Component component) { return (mask & mask_of(component)) != 0; }
 
 }  // namespace comma::solver

@@ -18,7 +18,8 @@ std::vector<Eigen::Vector3d> positions_at(const Eigen::VectorXd& u, const Mesh& 
   std::vector<Eigen::Vector3d> positions;
   positions.reserve(static_cast<std::size_t>(mesh.node_count()));
   for (int node = 0; node < mesh.node_count(); ++node)
-    positions.push_back(Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data()) + displacement_of(node, u, dofs));
+    positions.push_back(Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data()) +
+                        displacement_of(node, u, dofs));
   return positions;
 }
 

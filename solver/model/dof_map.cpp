@@ -12,7 +12,8 @@ DofMap::DofMap(const Model& model) : masks_(model.mesh->nodes.size(), 0), starts
     for (const int node : nodes) masks_[node] |= mask;
     const ComponentMask at_corners = model.corner_components_of(cell);
     if (at_corners == 0) continue;
-    for (const int node : nodes.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell])))) masks_[node] |= at_corners;
+    for (const int node : nodes.first(static_cast<std::size_t>(corner_count(mesh.cell_types[cell]))))
+      masks_[node] |= at_corners;
   }
   starts_.reserve(masks_.size() + 1);
   for (int node = 0; node < node_count(); ++node) {

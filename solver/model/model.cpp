@@ -108,9 +108,7 @@ bool is_plate(Formulation formulation) {
   return formulation == Formulation::thin_plate || formulation == Formulation::shear_plate;
 }
 
-bool is_bar(Formulation formulation) {
-  return formulation == Formulation::bar || formulation == Formulation::bar_2d;
-}
+bool is_bar(Formulation formulation) { return formulation == Formulation::bar || formulation == Formulation::bar_2d; }
 
 bool is_beam(Formulation formulation) {
   return formulation == Formulation::euler_beam || formulation == Formulation::timoshenko_beam;

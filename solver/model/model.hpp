@@ -12,15 +12,35 @@ namespace comma::solver {
 
 /// The mechanical assumption of a cell. `none`: the cell carries no element.
 enum class Formulation : std::uint8_t {
-  none, solid, solid_reduced, plane_strain, plane_strain_reduced, plane_stress, plane_stress_reduced,
-  axisymmetric, axisymmetric_reduced, bar, bar_2d, euler_beam, timoshenko_beam,
-  spring_3d, spring_rotation_3d, spring_2d, spring_rotation_2d, thin_plate, shear_plate,
-  solid_pressure, plane_strain_pressure, axisymmetric_pressure,     // with the pressure as an unknown
-  solid_swelling, plane_strain_swelling, axisymmetric_swelling      // with the change of volume besides
+  none,
+  solid,
+  solid_reduced,
+  plane_strain,
+  plane_strain_reduced,
+  plane_stress,
+  plane_stress_reduced,
+  axisymmetric,
+  axisymmetric_reduced,
+  bar,
+  bar_2d,
+  euler_beam,
+  timoshenko_beam,
+  spring_3d,
+  spring_rotation_3d,
+  spring_2d,
+  spring_rotation_2d,
+  thin_plate,
+  shear_plate,
+  solid_pressure,
+  plane_strain_pressure,
+  axisymmetric_pressure,  // with the pressure as an unknown
+  solid_swelling,
+  plane_strain_swelling,
+  axisymmetric_swelling  // with the change of volume besides
 };
 
-/// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric bodies,
-/// 0 for formulations without a continuum.
+/// Dimension of the cells that carry a continuum formulation's stiffness: 3 for solids, 2 for plane and axisymmetric
+/// bodies, 0 for formulations without a continuum.
 int continuum_dimension(Formulation formulation);
 /// Whether elements of a formulation exist on cells of a type at all, skin elements included.
 bool has_element(Formulation formulation, CellType type);
@@ -36,9 +56,9 @@ bool is_beam(Formulation formulation);
 bool is_plane_stress(Formulation formulation);  ///< with full or reduced integration
 bool is_reduced(Formulation formulation);       ///< integrated at fewer points
 
-/// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces and
-/// edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact. The edges of plates are skin
-/// elements too, which take forces along a line.
+/// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces
+/// and edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact. The edges of
+/// plates are skin elements too, which take forces along a line.
 struct Model {
   std::shared_ptr<Mesh> mesh;             ///< shared: a group added to the mesh later is known here
   std::vector<Formulation> formulations;  ///< one a cell

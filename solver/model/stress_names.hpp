@@ -8,7 +8,8 @@ namespace comma::solver {
 
 inline constexpr std::array<std::string_view, 4> plane_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY"};
 /// Of plates: forces and moments per length.
-inline constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NYY", "NXY", "MXX", "MYY", "MXY", "QX", "QY"};
+inline constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NYY", "NXY", "MXX",
+                                                                      "MYY", "MXY", "QX",  "QY"};
 inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 inline constexpr std::array<std::string_view, 6> beam_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
 

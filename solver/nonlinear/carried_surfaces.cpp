@@ -39,9 +39,12 @@ void require_carried_surfaces(const StaticProblem& problem) {
         for (const int node : model.mesh->cell(cell)) {
           if (carried[static_cast<std::size_t>(node)]) continue;
           throw Error("floating-surface",
-                      fmt::format("{} is a {} surface of contact, and nothing carries it: its node {} belongs to no element with stiffness, and no condition moves it", model.mesh->cell_name(cell),
-                                  cells == &zone.master_cells ? "master" : "slave", model.mesh->node_name(node)),
-                      "leave the cell out of the surface (DEFI_GROUP), give what is behind it an element (AFFE_MODELE), or impose its motion where it is rigid");
+                      fmt::format("{} is a {} surface of contact, and nothing carries it: its node {} belongs to no "
+                                  "element with stiffness, and no condition moves it",
+                                  model.mesh->cell_name(cell), cells == &zone.master_cells ? "master" : "slave",
+                                  model.mesh->node_name(node)),
+                      "leave the cell out of the surface (DEFI_GROUP), give what is behind it an element "
+                      "(AFFE_MODELE), or impose its motion where it is rigid");
         }
       }
     }

@@ -5,8 +5,8 @@
 
 namespace comma::solver {
 
-/// Throws Error `floating-surface` naming a facet of a contact surface and a node of it that no element with stiffness reaches and that no condition
-/// moves: contact would push it before itself as if nothing were there.
+/// Throws Error `floating-surface` naming a facet of a contact surface and a node of it that no element with stiffness
+/// reaches and that no condition moves: contact would push it before itself as if nothing were there.
 void require_carried_surfaces(const StaticProblem& problem);
 
 }  // namespace comma::solver

@@ -19,7 +19,8 @@ Inequalities stacked(const Inequalities& upper, const Inequalities& lower) {
   for (int row = 0; row < upper.rows.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(upper.rows, row); it; ++it) entries.emplace_back(row, it.col(), it.value());
   for (int row = 0; row < lower.rows.outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(lower.rows, row); it; ++it) entries.emplace_back(shift + row, it.col(), it.value());
+    for (RowMatrix::InnerIterator it(lower.rows, row); it; ++it)
+      entries.emplace_back(shift + row, it.col(), it.value());
   result.rows.resize(shift + lower.rows.rows(), upper.rows.cols());
   result.rows.setFromTriplets(entries.begin(), entries.end());
   result.bounds.resize(result.rows.rows());
@@ -42,18 +43,22 @@ ConditionSet make_conditions(std::vector<ContactPair> pairs, std::span<const Uni
   const Inequalities gaps = gap_rows(set.pairs, mesh, dofs, set.row_slots);
   const Inequalities bounds = unilateral_rows(unilateral, mesh, dofs, time);
   if (!bounds.bounds.allFinite())
-    throw Error("not-finite", fmt::format("a bound of a unilateral condition is infinite or not a number at t = {:.6g}", time), "look at the function of COEF_IMPO");
+    throw Error("not-finite",
+                fmt::format("a bound of a unilateral condition is infinite or not a number at t = {:.6g}", time),
+                "look at the function of COEF_IMPO");
   set.full = stacked(gaps, bounds);
   const int pair_count = static_cast<int>(set.pairs.size());
   for (const int slot : set.row_slots) set.row_zones.push_back(set.pairs[static_cast<std::size_t>(slot)].zone);
   for (int row = 0; row < static_cast<int>(bounds.bounds.size()); ++row) set.row_slots.push_back(pair_count + row);
-  for (std::size_t k = 0; k < unilateral.size(); ++k) set.row_zones.insert(set.row_zones.end(), unilateral[k].nodes.size(), static_cast<int>(k));
+  for (std::size_t k = 0; k < unilateral.size(); ++k)
+    set.row_zones.insert(set.row_zones.end(), unilateral[k].nodes.size(), static_cast<int>(k));
   set.slot_count = pair_count + static_cast<int>(bounds.bounds.size());
   return set;
 }
 
 bool same_rows(const ConditionSet& a, const ConditionSet& b) {
-  return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && a.full.softness == b.full.softness && same_matrix(a.full.rows, b.full.rows);
+  return a.row_slots == b.row_slots && a.full.bounds == b.full.bounds && a.full.softness == b.full.softness &&
+         same_matrix(a.full.rows, b.full.rows);
 }
 
 std::vector<int> unknowns_behind(const std::set<int>& nodes, const DofMap& dofs, const Elimination& elimination) {
@@ -63,7 +68,8 @@ std::vector<int> unknowns_behind(const std::set<int>& nodes, const DofMap& dofs,
     for (int component = 0; component < component_count; ++component) {
       const int dof = dofs.dof(node, static_cast<Component>(component));
       if (dof < 0) continue;
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(transformation, dof); it; ++it) unknowns.insert(static_cast<int>(it.col()));
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(transformation, dof); it; ++it)
+        unknowns.insert(static_cast<int>(it.col()));
     }
   return {unknowns.begin(), unknowns.end()};
 }

@@ -15,13 +15,13 @@
 
 namespace comma::solver {
 
-/// A slot is a place for a multiplier that outlives re-pairing: first the pairs (each slave node of each zone, paired or
-/// not), then the unilateral conditions node by node.
+/// A slot is a place for a multiplier that outlives re-pairing: first the pairs (each slave node of each zone, paired
+/// or not), then the unilateral conditions node by node.
 struct ConditionSet {
   std::vector<ContactPair> pairs;
-  Inequalities full;              ///< over all degrees of freedom
-  std::vector<int> row_slots;     ///< slot behind each full row
-  std::vector<int> row_zones;     ///< its zone of contact, or its unilateral condition
+  Inequalities full;           ///< over all degrees of freedom
+  std::vector<int> row_slots;  ///< slot behind each full row
+  std::vector<int> row_zones;  ///< its zone of contact, or its unilateral condition
   int slot_count = 0;
 
   bool empty() const { return full.bounds.size() == 0; }

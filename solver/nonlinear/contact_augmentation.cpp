@@ -8,15 +8,16 @@
 namespace comma::solver {
 namespace {
 
-/// An augmentation between nodes of this share of the stiffness of the bodies changes the solution by less than figures are compared by (2e-8 in a block that opens), and pressures keep enough digits in it.
+/// An augmentation between nodes of this share of the stiffness of the bodies changes the solution by less than figures
+/// are compared by (2e-8 in a block that opens), and pressures keep enough digits in it.
 constexpr double least_augmentation = 1e-10;
 /// By this it is lowered at a time.
 constexpr double softer_augmentation = 1e-2;
 
 }  // namespace
 
-/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law holds in the mean alone, and the augmentation is in
-/// the solution.
+/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law
+/// holds in the mean alone, and the augmentation is in the solution.
 std::vector<char> MixedContact::shared_multipliers() const {
   std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0), taken = shared;
   for (const CondensedPoint& point : problem_.points)
@@ -28,13 +29,18 @@ std::vector<char> MixedContact::shared_multipliers() const {
   return shared;
 }
 
-/// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as stiff as the bodies
-/// suits any unit of length. Where points lie between nodes it does, but the softer the less: one too soft beside the bodies is raised to where the solution
-/// hardly changes, and pressures no longer lose their digits in it.
+/// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as
+/// stiff as the bodies suits any unit of length. Where points lie between nodes it does, but the softer the less: one
+/// too soft beside the bodies is raised to where the solution hardly changes, and pressures no longer lose their digits
+/// in it.
 void MixedContact::add_natural_augmentation() {
   const std::vector<char> shared = shared_multipliers();
-  std::vector<double> least(definition_.zones.size(), std::numeric_limits<double>::infinity());  // of points that share multipliers: one a zone, in which points weigh by it
-  const auto is_shared = [&](const CondensedPoint& point) { return shared[static_cast<std::size_t>(point.nodes[0])] != 0; };
+  std::vector<double> least(definition_.zones.size(),
+                            std::numeric_limits<double>::infinity());  // of points that share multipliers: one a zone,
+                                                                       // in which points weigh by it
+  const auto is_shared = [&](const CondensedPoint& point) {
+    return shared[static_cast<std::size_t>(point.nodes[0])] != 0;
+  };
   for (std::size_t p = 0; p < points_.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || point.node_count == 0) continue;
@@ -51,7 +57,8 @@ void MixedContact::add_natural_augmentation() {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || point.node_count == 0 || !is_shared(point)) continue;
     const double lowest = least_augmentation * least[static_cast<std::size_t>(points_[p].zone)];
-    const double present = std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points_[p].zone)]), lowest);
+    const double present =
+        std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points_[p].zone)]), lowest);
     if (!point.law.penalised) point.law.augmentation = present;
     if (!point.law.friction_penalised) point.law.friction_augmentation = present;
   }
@@ -61,8 +68,9 @@ double MixedContact::augmentation_of(const ContactZone& zone) const {
   return zone.mixed.keeps_augmentation ? zone.mixed.augmentation : augmentation_share_ * zone.mixed.augmentation;
 }
 
-/// A point between nodes that opens while these press on loses friction at once, since its limit is that of the pressure without the augmentation: no statuses need hold the law then.
-/// A softer augmentation makes that jump smaller. Whether any became softer.
+/// A point between nodes that opens while these press on loses friction at once, since its limit is that of the
+/// pressure without the augmentation: no statuses need hold the law then. A softer augmentation makes that jump
+/// smaller. Whether any became softer.
 bool MixedContact::lower_augmentation() {
   if (problem_.components == 1) return false;
   const auto all = [this] {

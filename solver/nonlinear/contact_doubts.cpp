@@ -25,7 +25,9 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
   if (rows_.rows() == 0) return;
   note_coarse_faces(u, doubts);
   note_friction_between_nodes(doubts);
-  const auto is_penalised = [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction_penalised; };
+  const auto is_penalised = [](const ContactZone& zone) {
+    return zone.mixed.penalised || zone.mixed.friction_penalised;
+  };
   if (std::ranges::none_of(definition_.zones, is_penalised)) return;
   const Eigen::VectorXd now = jumps(u);
   note_held_overlaps(now, doubts);
@@ -39,7 +41,8 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
 
 Eigen::VectorXd MixedContact::forces_of(int zone, Eigen::VectorXd forces) const {
   for (std::size_t p = 0; p < points_.size(); ++p)
-    if (points_[p].zone != zone && problem_.points[p].rows > 0) forces.segment(problem_.points[p].first_row, problem_.points[p].rows).setZero();
+    if (points_[p].zone != zone && problem_.points[p].rows > 0)
+      forces.segment(problem_.points[p].first_row, problem_.points[p].rows).setZero();
   return forces;
 }
 
@@ -54,7 +57,8 @@ void MixedContact::note_loose_bodies(ContactDoubts& doubts) const {
     for (int c = 0; c < held; ++c, ++count) {
       const int row = point.first_row + c;
       const double size = std::sqrt(reduced_rows_.row(row).squaredNorm());
-      for (RowMatrix::InnerIterator it(reduced_rows_, row); it && size > 0.0; ++it) entries.emplace_back(count, static_cast<int>(it.col()), it.value() / size);
+      for (RowMatrix::InnerIterator it(reduced_rows_, row); it && size > 0.0; ++it)
+        entries.emplace_back(count, static_cast<int>(it.col()), it.value() / size);
     }
   }
   RowMatrix rows(count, reduced_rows_.cols());
@@ -86,7 +90,8 @@ Eigen::VectorXd MixedContact::pushed_by(const Eigen::VectorXd& contact_forces) {
   return schur_->times(forces).head(contact_forces.size());
 }
 
-/// Zone by zone, by all forces or by its own alone: those of another zone may push the other way, and where a zone has none they are no measure of it.
+/// Zone by zone, by all forces or by its own alone: those of another zone may push the other way, and where a zone has
+/// none they are no measure of it.
 std::vector<double> MixedContact::pushed_back() {
   std::vector<double> result(definition_.zones.size(), 0.0);
   if (!schur_ || forces_.size() == 0) return result;
@@ -117,9 +122,12 @@ double MixedContact::motion_of(int zone, const Eigen::VectorXd& u) const {
   return most;
 }
 
-/// Between nodes the law holds in the mean over the points of a face: one that is pressed at few of its points cannot press there alone, and lets the master in.
+/// Between nodes the law holds in the mean over the points of a face: one that is pressed at few of its points cannot
+/// press there alone, and lets the master in.
 void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts) {
-  const auto counts = [](const CondensedPoint& point) { return point.rows > 0 && point.node_count > 1 && !point.law.penalised; };
+  const auto counts = [](const CondensedPoint& point) {
+    return point.rows > 0 && point.node_count > 1 && !point.law.penalised;
+  };
   if (std::ranges::none_of(problem_.points, counts)) return;
   const Eigen::VectorXd now = jumps(u);
   std::vector<double> overlap(definition_.zones.size(), 0.0), area = overlap;
@@ -135,12 +143,16 @@ void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& do
   const std::vector<double> pushed = pushed_back();
   for (std::size_t zone = 0; zone < area.size(); ++zone) {
     if (!(area[zone] > 0.0)) continue;
-    const double mean = overlap[zone] / area[zone], reach = std::max(pushed[zone], doubtful_share * motion_of(static_cast<int>(zone), u));
-    if (mean > doubtful_passage * reach) doubts.note({.kind = DoubtKind::coarse_face, .zone = static_cast<int>(zone), .share = mean / reach, .length = mean});
+    const double mean = overlap[zone] / area[zone],
+                 reach = std::max(pushed[zone], doubtful_share * motion_of(static_cast<int>(zone), u));
+    if (mean > doubtful_passage * reach)
+      doubts.note(
+          {.kind = DoubtKind::coarse_face, .zone = static_cast<int>(zone), .share = mean / reach, .length = mean});
   }
 }
 
-/// The limit of friction is that of the multiplier, without the augmentation by the gap, and a face that is partly in contact has little of the multiplier where it presses, or more of it than presses.
+/// The limit of friction is that of the multiplier, without the augmentation by the gap, and a face that is partly in
+/// contact has little of the multiplier where it presses, or more of it than presses.
 void MixedContact::note_friction_between_nodes(ContactDoubts& doubts) const {
   struct Friction {
     double limit = 0.0, missing = 0.0;              ///< of points between nodes, and what those that slide lack
@@ -162,23 +174,30 @@ void MixedContact::note_friction_between_nodes(ContactDoubts& doubts) const {
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const Friction& zone = zones[k];
     const int number = static_cast<int>(k);
-    if (zone.missing > doubtful_friction * zone.limit) doubts.note({.kind = DoubtKind::weak_friction, .zone = number, .share = zone.missing / zone.limit});
+    if (zone.missing > doubtful_friction * zone.limit)
+      doubts.note({.kind = DoubtKind::weak_friction, .zone = number, .share = zone.missing / zone.limit});
     const double beyond = zone.shear_of_all - zone.limit_of_all;
-    if (zone.limit > 0.0 && beyond > doubtful_friction * zone.limit_of_all) doubts.note({.kind = DoubtKind::strong_friction, .zone = number, .share = beyond / zone.limit_of_all});
+    if (zone.limit > 0.0 && beyond > doubtful_friction * zone.limit_of_all)
+      doubts.note({.kind = DoubtKind::strong_friction, .zone = number, .share = beyond / zone.limit_of_all});
   }
 }
 
-void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const {
+void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
+                              ContactDoubts& doubts) const {
   const ContactZone& definition = definition_.zones[static_cast<std::size_t>(zone)];
   double depth = 0.0;
   double reach = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p)) continue;
+    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p))
+      continue;
     depth = std::max(depth, -now[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
   }
-  ContactDoubt doubt{.kind = DoubtKind::soft_penalty, .zone = zone, .length = depth, .penalty = penalties_.contact_penalty(definition.mixed, zone)};
+  ContactDoubt doubt{.kind = DoubtKind::soft_penalty,
+                     .zone = zone,
+                     .length = depth,
+                     .penalty = penalties_.contact_penalty(definition.mixed, zone)};
   // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
   if (problem_.springs.empty()) note_soft_penalty(doubt, reach, doubts);
   const double size = extent(mesh_, definition.slave_cells);
@@ -189,14 +208,15 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
   doubts.note(doubt);
 }
 
-void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
-                              ContactDoubts& doubts) const {
+void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now,
+                              const Eigen::VectorXd& without, ContactDoubts& doubts) const {
   const double least = negligible_slip * motion_of(zone, u);
   double creep = 0.0;
   double reach = 0.0;
   double limit = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking) continue;
+    if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking)
+      continue;
     const CondensedPoint& point = problem_.points[p];
     creep = std::max(creep, slip_of(point, now));
     limit = std::max(limit, point.share_augmentation > 0.0 ? 1.0 : point.law.friction * forces_[point.first_row]);
@@ -205,7 +225,8 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
   const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(zone)].mixed;
   const bool is_allowed = mixed.largest_slip && creep <= *mixed.largest_slip;
   if (is_allowed || creep <= least || creep <= doubtful_share * reach) return;
-  ContactDoubt doubt{.kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
+  ContactDoubt doubt{
+      .kind = DoubtKind::soft_friction, .zone = zone, .share = std::min(1.0, creep / reach), .length = creep};
   doubt.penalty = penalties_.friction_penalty(mixed, zone);
   // With it, friction is at its limit after a small share of the present creep.
   doubt.wanted = std::pow(10.0, std::ceil(std::log10(std::max(doubt.penalty, limit / (penalty_goal * creep)))));
@@ -214,7 +235,8 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
 
 void MixedContact::note_unshared_friction(ContactDoubts& doubts) const {
   for (std::size_t p = 0; p < points_.size(); ++p)
-    if (problem_.points[p].rows > 1 && problem_.points[p].share_augmentation > 0.0) doubts.note({.kind = DoubtKind::unshared_friction, .zone = points_[p].zone});
+    if (problem_.points[p].rows > 1 && problem_.points[p].share_augmentation > 0.0)
+      doubts.note({.kind = DoubtKind::unshared_friction, .zone = points_[p].zone});
 }
 
 void MixedContact::note_lowered_augmentation(ContactDoubts& doubts) const {
@@ -222,8 +244,14 @@ void MixedContact::note_lowered_augmentation(ContactDoubts& doubts) const {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     const double given = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.augmentation;
-    if (point.rows == 0 || point.law.penalised || !shared[static_cast<std::size_t>(point.nodes[0])] || !(point.law.augmentation < given)) continue;
-    doubts.note({.kind = DoubtKind::lowered_augmentation, .zone = points_[p].zone, .share = given / point.law.augmentation, .penalty = given, .wanted = point.law.augmentation});
+    if (point.rows == 0 || point.law.penalised || !shared[static_cast<std::size_t>(point.nodes[0])] ||
+        !(point.law.augmentation < given))
+      continue;
+    doubts.note({.kind = DoubtKind::lowered_augmentation,
+                 .zone = points_[p].zone,
+                 .share = given / point.law.augmentation,
+                 .penalty = given,
+                 .wanted = point.law.augmentation});
   }
 }
 
@@ -232,7 +260,11 @@ void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts&
     const double depth = -now[problem_.points[p].first_row];
     const double size = extent(mesh_, points_[p].cell);
     if (depth <= overlap_share * size) continue;
-    doubts.note({.kind = DoubtKind::held_overlap, .zone = points_[p].zone, .share = depth / size, .length = depth, .cell = points_[p].cell});
+    doubts.note({.kind = DoubtKind::held_overlap,
+                 .zone = points_[p].zone,
+                 .share = depth / size,
+                 .length = depth,
+                 .cell = points_[p].cell});
   }
 }
 

@@ -13,7 +13,8 @@ double excess_over(double limit, double value) { return value / std::max(limit, 
 
 }  // namespace
 
-double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) {
+double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
+                 const Eigen::VectorXd& variable_forces) {
   const double size = std::max(largest_component(loads), largest_component(loads - internal));
   return variable_forces.size() ? std::max(size, largest_component(internal + variable_forces)) : size;
 }
@@ -28,13 +29,16 @@ Eigen::VectorXd RowWeights::weighed(const Eigen::VectorXd& reduced_residual) con
   return reduced_.cwiseProduct(reduced_residual);
 }
 
-double RowWeights::load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) const {
+double RowWeights::load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
+                             const Eigen::VectorXd& variable_forces) const {
   if (!all_.size()) return solver::load_size(loads, internal, variable_forces);
-  const Eigen::VectorXd pushed = variable_forces.size() ? Eigen::VectorXd(all_.cwiseProduct(variable_forces)) : variable_forces;
+  const Eigen::VectorXd pushed =
+      variable_forces.size() ? Eigen::VectorXd(all_.cwiseProduct(variable_forces)) : variable_forces;
   return solver::load_size(all_.cwiseProduct(loads), all_.cwiseProduct(internal), pushed);
 }
 
-ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding, double referred, std::optional<double> by_component) const {
+ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, double load, bool is_rounding,
+                                                            double referred, std::optional<double> by_component) const {
   Measure result;
   result.absolute = residual;
   const bool has_history = smallest_load_ > 0.0;
@@ -42,11 +46,14 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   result.relative = vanished ? -1.0 : residual / load;
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
   const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
-  const double to_loads = is_rounding ? 0.0 : vanished ? excess_over(vanished_limit, residual) : excess_over(relative_limit(), result.relative);
+  const double to_loads = is_rounding ? 0.0
+                          : vanished  ? excess_over(vanished_limit, residual)
+                                      : excess_over(relative_limit(), result.relative);
   // One that is not given neither holds nor fails.
   std::vector<double> excesses;
   if (options_.absolute_residual) excesses.push_back(excess_over(*options_.absolute_residual, residual));
-  if (options_.referred_residual) excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.referred_residual, referred));
+  if (options_.referred_residual)
+    excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.referred_residual, referred));
   if (options_.component_residual) {
     const double share = by_component.value_or(vanished ? 0.0 : result.relative);
     excesses.push_back(is_rounding ? 0.0 : excess_over(*options_.component_residual, share));
@@ -57,7 +64,9 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   return result;
 }
 
-bool ConvergenceCriterion::has_vanished(double load) const { return !(load > (smallest_load_ > 0.0 ? vanishing_load * smallest_load_ : 0.0)); }
+bool ConvergenceCriterion::has_vanished(double load) const {
+  return !(load > (smallest_load_ > 0.0 ? vanishing_load * smallest_load_ : 0.0));
+}
 
 void ConvergenceCriterion::accept(double load) {
   if (load > 0.0 && !has_vanished(load)) smallest_load_ = smallest_load_ > 0.0 ? std::min(smallest_load_, load) : load;

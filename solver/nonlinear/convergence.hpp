@@ -10,8 +10,9 @@
 
 namespace comma::solver {
 
-/// What a residual is measured against: the largest of the loads, of what they leave to supports and contact, and of these and the forces of the command
-/// variables together, which the internal ones balance (R5.03.01). `variable_forces`: as Assembler::variable_forces() gives them.
+/// What a residual is measured against: the largest of the loads, of what they leave to supports and contact, and of
+/// these and the forces of the command variables together, which the internal ones balance (R5.03.01).
+/// `variable_forces`: as Assembler::variable_forces() gives them.
 double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces);
 
 /// Measures residuals beside forces where some rows are none: see Assembler::residual_weights().
@@ -21,7 +22,8 @@ class RowWeights {
   void take(const Assembler& assembler, const Elimination& elimination);
   Eigen::VectorXd weighed(const Eigen::VectorXd& reduced_residual) const;
   /// load_size() with weights.
-  double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces) const;
+  double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
+                   const Eigen::VectorXd& variable_forces) const;
 
  private:
   Eigen::VectorXd all_;  ///< empty: 1
@@ -29,11 +31,12 @@ class RowWeights {
 };
 
 /// Residual against loads, both as the largest component over the degrees of freedom (R5.03.01, convergence criteria):
-/// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI asks
-/// |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force;
-/// RESI_COMP_RELA asks it of the largest residual and the largest internal force of each kind of component. Where the loads vanish a relative test means nothing: the criterion then is absolute, as large a residual as
-/// the least loaded converged step would have been allowed. A residual that is all rounding also passes the relative test:
-/// a body that moves freely has no load but rounding to compare with.
+/// RESI_GLOB_RELA asks |R| <= r |L|, L the external forces with the reactions of supports and contact; RESI_GLOB_MAXI
+/// asks |R| <= r; RESI_REFE_RELA asks |R_i| <= r F_i of each component, F_i its reference force; RESI_COMP_RELA asks it
+/// of the largest residual and the largest internal force of each kind of component. Where the loads vanish a relative
+/// test means nothing: the criterion then is absolute, as large a residual as the least loaded converged step would
+/// have been allowed. A residual that is all rounding also passes the relative test: a body that moves freely has no
+/// load but rounding to compare with.
 class ConvergenceCriterion {
  public:
   explicit ConvergenceCriterion(const NewtonOptions& options) : options_(options) {}
@@ -42,15 +45,18 @@ class ConvergenceCriterion {
     double absolute = 0.0;
     double relative = 0.0;  ///< -1 where the loads vanish
     bool converged = false;
-    double excess = 0.0;    ///< by what factor the residual exceeds what is asked; at most 1 where it has converged
+    double excess = 0.0;  ///< by what factor the residual exceeds what is asked; at most 1 where it has converged
   };
 
-  /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes of it.
-  /// `referred`: the largest share that a component of the residual has of its reference force, read where RESI_REFE_RELA is given;
-  /// `by_component`: that of RESI_COMP_RELA, nothing where no internal force is known yet: then the residual is measured against the loads.
-  Measure measure(double residual, double load, bool is_rounding, double referred = 0.0, std::optional<double> by_component = std::nullopt) const;
+  /// `residual` and `load`: the largest components, in force. `is_rounding`: no component exceeds what rounding makes
+  /// of it. `referred`: the largest share that a component of the residual has of its reference force, read where
+  /// RESI_REFE_RELA is given; `by_component`: that of RESI_COMP_RELA, nothing where no internal force is known yet:
+  /// then the residual is measured against the loads.
+  Measure measure(double residual, double load, bool is_rounding, double referred = 0.0,
+                  std::optional<double> by_component = std::nullopt) const;
 
-  /// Remembers the load of a converged step, or of the state that a computation begins with. One that has vanished is no measure of later ones.
+  /// Remembers the load of a converged step, or of the state that a computation begins with. One that has vanished is
+  /// no measure of later ones.
   void accept(double load);
 
  private:

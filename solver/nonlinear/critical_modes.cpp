@@ -45,7 +45,8 @@ SymmetricMatrix identity(Eigen::Index size) {
   return matrix;
 }
 
-NodalField shape_of(const Eigen::VectorXd& vector, const std::vector<int>& kept, const Elimination& elimination, const DofMap& dofs) {
+NodalField shape_of(const Eigen::VectorXd& vector, const std::vector<int>& kept, const Elimination& elimination,
+                    const DofMap& dofs) {
   Eigen::VectorXd reduced = Eigen::VectorXd::Zero(elimination.reduced_size());
   for (std::size_t k = 0; k < kept.size(); ++k) reduced[kept[k]] = vector[static_cast<Eigen::Index>(k)];
   return to_field(elimination.transformation() * reduced, dofs, "DEPL_R");
@@ -55,7 +56,8 @@ bool has_sign(double value, InstabilitySign sign) {
   return sign == InstabilitySign::either || (value > 0.0) == (sign == InstabilitySign::positive);
 }
 
-/// With the stiffness of stresses apart the load itself is critical from a factor of 1 down; without, a stiffness below zero tells.
+/// With the stiffness of stresses apart the load itself is critical from a factor of 1 down; without, a stiffness below
+/// zero tells.
 bool is_instability(const StabilityAnalysis& analysis, double value) {
   if (!analysis.geometric) return value < 0.0;
   return has_sign(value, analysis.sign) && std::abs(value) <= 1.0 + analysis.precision;
@@ -65,14 +67,22 @@ bool is_instability(const StabilityAnalysis& analysis, double value) {
 
 void require_modes(const StabilityAnalysis& analysis, const StaticProblem& problem) {
   if (problem.contact || !problem.unilateral.empty() || !problem.followers.empty())
-    throw Error("unsupported", "modes of buckling are not known together with contact, unilateral conditions or loads that follow", "leave out CRIT_STAB");
+    throw Error("unsupported",
+                "modes of buckling are not known together with contact, unilateral conditions or loads that follow",
+                "leave out CRIT_STAB");
   if (std::ranges::any_of(problem.driven, [](const AppliedLoad& each) { return gives_initial_strains(*each.load); }))
-    throw Error("unsupported", "modes of buckling are not known together with initial strains (PRE_EPSI) whose intensity PILOTAGE finds", "leave out CRIT_STAB");
+    throw Error(
+        "unsupported",
+        "modes of buckling are not known together with initial strains (PRE_EPSI) whose intensity PILOTAGE finds",
+        "leave out CRIT_STAB");
   if (!problem.behaviours || !analysis.geometric) return;
   for (std::size_t cell = 0; cell < problem.behaviours->size(); ++cell) {
-    if (problem.model->formulations[cell] == Formulation::none || (*problem.behaviours)[cell].kinematics == Kinematics::small) continue;
+    if (problem.model->formulations[cell] == Formulation::none ||
+        (*problem.behaviours)[cell].kinematics == Kinematics::small)
+      continue;
     throw Error("unsupported",
-                fmt::format("cell {}: in large displacements what stresses add is part of the stiffness already", problem.model->mesh->cell_name(static_cast<int>(cell))),
+                fmt::format("cell {}: in large displacements what stresses add is part of the stiffness already",
+                            problem.model->mesh->cell_name(static_cast<int>(cell))),
                 "give RIGI_GEOM='NON' in CRIT_STAB, or DEFORMATION='PETIT'");
   }
 }
@@ -85,20 +95,25 @@ bool is_stability_due(const StabilityAnalysis& analysis, double instant, int num
   });
 }
 
-StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u, const Assembler& assembler,
-                               const Elimination& elimination, const DofMap& dofs) {
+StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u,
+                               const Assembler& assembler, const Elimination& elimination, const DofMap& dofs) {
   const std::vector<int> kept = kept_unknowns(analysis, elimination, dofs);
   const SymmetricMatrix stiffness = part_of(SymmetricMatrix(elimination.reduce(assembler.stiffness(u))), kept);
-  const SymmetricMatrix other = analysis.geometric ? SymmetricMatrix(-part_of(SymmetricMatrix(elimination.reduce(assembler.geometric_stiffness(u))), kept))
-                                                   : identity(stiffness.rows());
+  const SymmetricMatrix other =
+      analysis.geometric
+          ? SymmetricMatrix(-part_of(SymmetricMatrix(elimination.reduce(assembler.geometric_stiffness(u))), kept))
+          : identity(stiffness.rows());
   SkewMatrix skew;
   if (!assembler.is_symmetric()) skew = part_of(elimination.reduce_skew(assembler.skew_stiffness(u)), kept);
   const Pencil pencil{stiffness, assembler.is_symmetric() ? nullptr : &skew, other};
-  const EigenPairs pairs = analysis.selection == ModeSelection::band ? eigenvalues_between(pencil, analysis.first, analysis.last) : smallest_eigenvalues(pencil, analysis.count);
+  const EigenPairs pairs = analysis.selection == ModeSelection::band
+                               ? eigenvalues_between(pencil, analysis.first, analysis.last)
+                               : smallest_eigenvalues(pencil, analysis.count);
   StabilityReport report;
   report.instant = instant;
   for (std::size_t k = 0; k < pairs.values.size(); ++k) {
-    report.modes.push_back({pairs.values[k], shape_of(pairs.vectors.col(static_cast<Eigen::Index>(k)), kept, elimination, dofs)});
+    report.modes.push_back(
+        {pairs.values[k], shape_of(pairs.vectors.col(static_cast<Eigen::Index>(k)), kept, elimination, dofs)});
     report.unstable = report.unstable || is_instability(analysis, pairs.values[k]);
   }
   return report;

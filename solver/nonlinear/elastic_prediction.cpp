@@ -19,20 +19,24 @@ using Eigen::VectorXd;
 constexpr double strain_for_unit = 0.05;
 
 bool hardens_isotropically(Relation relation) {
-  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction || relation == Relation::isotropic_power ||
-         relation == Relation::isotropic_nonlinear;
+  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction ||
+         relation == Relation::isotropic_power || relation == Relation::isotropic_nonlinear;
 }
 
 /// 3/2 of the product of the deviators of two stresses.
 double deviatoric_product(const Vector6d& a, const Vector6d& b) {
   const double mean_a = a.head<3>().mean(), mean_b = b.head<3>().mean();
-  return 1.5 * ((a.head<3>().array() - mean_a).matrix().dot((b.head<3>().array() - mean_b).matrix()) + 2.0 * a.tail<3>().dot(b.tail<3>()));
+  return 1.5 * ((a.head<3>().array() - mean_a).matrix().dot((b.head<3>().array() - mean_b).matrix()) +
+                2.0 * a.tail<3>().dot(b.tail<3>()));
 }
 
 }  // namespace
 
-ElasticPrediction::ElasticPrediction(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const std::vector<int>& cells, const VectorXd& u)
-    : dofs_(dofs), elastic_(*problem.model, *problem.materials, *problem.properties, dofs), rest_(VectorXd::Zero(dofs.size())) {
+ElasticPrediction::ElasticPrediction(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler,
+                                     const std::vector<int>& cells, const VectorXd& u)
+    : dofs_(dofs),
+      elastic_(*problem.model, *problem.materials, *problem.properties, dofs),
+      rest_(VectorXd::Zero(dofs.size())) {
   elastic_.set_time(assembler.state().time());
   const ElementField stresses = assembler.stresses(u);
   const ElementField variables = assembler.internal_variables(u);
@@ -44,14 +48,21 @@ ElasticPrediction::ElasticPrediction(const StaticProblem& problem, const DofMap&
     for (const int cell : cells)
       if (continuum.covers(cell)) add_cell(problem, cell, stresses, variables);
   }
-  if (points_.empty()) throw Error("missing-cells", "no cell that the path is to control has plasticity", "name cells of a body that flows");
+  if (points_.empty())
+    throw Error("missing-cells", "no cell that the path is to control has plasticity",
+                "name cells of a body that flows");
 }
 
-void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const ElementField& stresses, const ElementField& variables) {
+void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const ElementField& stresses,
+                                 const ElementField& variables) {
   const Mesh& mesh = *problem.model->mesh;
-  const CellBehaviour behaviour = problem.behaviours ? (*problem.behaviours)[static_cast<std::size_t>(cell)] : CellBehaviour();
+  const CellBehaviour behaviour =
+      problem.behaviours ? (*problem.behaviours)[static_cast<std::size_t>(cell)] : CellBehaviour();
   if (!hardens_isotropically(behaviour.relation) || behaviour.kinematics != Kinematics::small) {
-    throw Error("unsupported", fmt::format("cell {}: an elastic prediction controls von Mises plasticity with isotropic hardening in small strains alone", mesh.cell_name(cell)),
+    throw Error("unsupported",
+                fmt::format("cell {}: an elastic prediction controls von Mises plasticity with isotropic hardening in "
+                            "small strains alone",
+                            mesh.cell_name(cell)),
                 "name cells with such a law, or control a displacement (DDL_IMPO, LONG_ARC)");
   }
   const Material& material = *problem.materials->by_cell[static_cast<std::size_t>(cell)];
@@ -62,9 +73,12 @@ void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const E
   const TensorReader stress(stresses, stress_components);
   for (int point = 0; point < stresses.points(cell); ++point) {
     const ContinuumSample& sample = samples[static_cast<std::size_t>(point)];
-    const MaterialPoint at = continuum.material_point(cell, elastic_.state(), sample, continuum.locate(cell, sample).at, point);
-    points_.push_back({static_cast<std::size_t>(cell), point, plastic_point(elasticity, material.plasticity, behaviour.relation, at),
-                       behaviour.relation == Relation::isotropic_nonlinear, variables.at(cell, point, cumulated), stress.at(cell, point)});
+    const MaterialPoint at =
+        continuum.material_point(cell, elastic_.state(), sample, continuum.locate(cell, sample).at, point);
+    points_.push_back({static_cast<std::size_t>(cell), point,
+                       plastic_point(elasticity, material.plasticity, behaviour.relation, at),
+                       behaviour.relation == Relation::isotropic_nonlinear, variables.at(cell, point, cumulated),
+                       stress.at(cell, point)});
   }
 }
 
@@ -75,13 +89,15 @@ double ElasticPrediction::limit(const Point& point, double wanted) const {
   return hardening(point.law.curve, point.cumulated + flow).first + 3.0 * point.law.shear * flow;
 }
 
-/// Each point admits an interval, in which its prediction stays below the limit: all together admit what these share, and the largest
-/// excess is the wanted one at the ends.
-std::vector<double> ElasticPrediction::intensities(double wanted, const VectorXd& constant, const VectorXd& linear) const {
+/// Each point admits an interval, in which its prediction stays below the limit: all together admit what these share,
+/// and the largest excess is the wanted one at the ends.
+std::vector<double> ElasticPrediction::intensities(double wanted, const VectorXd& constant,
+                                                   const VectorXd& linear) const {
   const ElementField at_rest = elastic_.stresses(rest_);
   const ElementField by_constant = elastic_.stresses(constant);
   const ElementField by_linear = elastic_.stresses(linear);
-  const TensorReader resting(at_rest, stress_components), constant_part(by_constant, stress_components), linear_part(by_linear, stress_components);
+  const TensorReader resting(at_rest, stress_components), constant_part(by_constant, stress_components),
+      linear_part(by_linear, stress_components);
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   for (const Point& point : points_) {

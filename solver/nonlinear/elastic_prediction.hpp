@@ -11,15 +11,18 @@
 
 namespace comma::solver {
 
-/// Von Mises' plasticity with isotropic hardening in small strains. The excess is the prediction over the radius of the yield surface, less
-/// one; for VMIS_ISOT_NL a twentieth of it is the plastic strain that the return would make.
+/// Von Mises' plasticity with isotropic hardening in small strains. The excess is the prediction over the radius of the
+/// yield surface, less one; for VMIS_ISOT_NL a twentieth of it is the plastic strain that the return would make.
 class ElasticPrediction {
  public:
-  /// From the state at u, where the step begins. `cells`: those that are looked at; empty: all. Keeps no reference to u.
-  /// Throws Error `unsupported` for a cell with another law or in large strains, `missing-cells` where there is none.
-  ElasticPrediction(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const std::vector<int>& cells, const Eigen::VectorXd& u);
+  /// From the state at u, where the step begins. `cells`: those that are looked at; empty: all. Keeps no reference to
+  /// u. Throws Error `unsupported` for a cell with another law or in large strains, `missing-cells` where there is
+  /// none.
+  ElasticPrediction(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler,
+                    const std::vector<int>& cells, const Eigen::VectorXd& u);
 
-  /// The intensities x, rising, at which the largest excess of all points is `wanted`, for the increment constant + x linear of the displacements.
+  /// The intensities x, rising, at which the largest excess of all points is `wanted`, for the increment constant + x
+  /// linear of the displacements.
   std::vector<double> intensities(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
 
  private:

@@ -12,15 +12,18 @@
 namespace comma::solver {
 
 /// "DY at N12": where a reduced residual is largest.
-std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs, const Mesh& mesh);
+std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elimination, const DofMap& dofs,
+                        const Mesh& mesh);
 
 /// Of the code of an error: what a shorter step may overcome.
 bool is_failure_of_step(std::string_view code);
 
-/// An error as it is, but of a singular stiffness with what helps bodies that only inequalities hold: these are solved on the compliance of bodies that stand without them.
+/// An error as it is, but of a singular stiffness with what helps bodies that only inequalities hold: these are solved
+/// on the compliance of bodies that stand without them.
 Error advised(const Error& error, const StaticProblem& problem);
 
-/// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it has finite residuals.
+/// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it
+/// has finite residuals.
 bool stands_unconverged(const NewtonOptions& options, std::span<const IterationReport> history);
 
 /// What iterations were about.
@@ -31,17 +34,20 @@ struct IteratedProblem {
 };
 
 /// Error `no-convergence` of Newton's iterations: the history, the worst place, the likely cause.
-[[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history, const NewtonOptions& options, const IteratedProblem& problem);
+[[noreturn]] void throw_no_convergence(double time, std::span<const IterationReport> history,
+                                       const NewtonOptions& options, const IteratedProblem& problem);
 
-/// Error `no-convergence`: a body that contact alone was to hold has moved by so many sizes of the mesh. `unheld`: as above.
+/// Error `no-convergence`: a body that contact alone was to hold has moved by so many sizes of the mesh. `unheld`: as
+/// above.
 [[noreturn]] void throw_lost_body(double time, double sizes, const std::string& unheld);
 
 /// Error `contact-cycling`: the active set needed more changes than allowed.
 [[noreturn]] void throw_active_set_limit(int limit, bool by_gradients);
 
-/// Error `contact-cycling`: the statuses of points did not settle. `has_negative_weight`: of a point, by its rule of integration. `unheld`: in words, what nothing but
-/// contact holds, or empty.
-[[noreturn]] void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has_negative_weight, const std::string& unheld);
+/// Error `contact-cycling`: the statuses of points did not settle. `has_negative_weight`: of a point, by its rule of
+/// integration. `unheld`: in words, what nothing but contact holds, or empty.
+[[noreturn]] void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has_negative_weight,
+                                        const std::string& unheld);
 
 /// How far the geometry moved at each update, relative (RESI_GEOM), and whether pairings came back.
 struct GeometryHistory {

@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 constexpr std::size_t cycle_length_limit = 4;
 /// Updates in which the geometry should come twice as near to rest.
 constexpr std::size_t patience = 10;
-/// After this many updates they are relaxed where the last one moves the geometry by more than half of any before, and points keep their facets within a margin: within the
-/// widest one after `updates_to_widest`, and a hundredth less in each before. That leaves `updates_at_widest` at least to settle.
+/// After this many updates they are relaxed where the last one moves the geometry by more than half of any before, and
+/// points keep their facets within a margin: within the widest one after `updates_to_widest`, and a hundredth less in
+/// each before. That leaves `updates_at_widest` at least to settle.
 constexpr int free_updates = 5;
 constexpr int updates_to_widest = 11;
 constexpr int updates_at_widest = 3;
@@ -27,7 +28,8 @@ constexpr double telling_margin = 1e-3;
 constexpr double least_relaxation = 0.05;
 /// Of the displacement of a step: what solutions may differ by from one update to the next although nothing has moved.
 constexpr double rounding_of_solutions = 1e-10;
-/// Updates are accelerated where less than this is tolerated and the last one moved less than that, by this share of the one before at most; so many moves are combined.
+/// Updates are accelerated where less than this is tolerated and the last one moved less than that, by this share of
+/// the one before at most; so many moves are combined.
 constexpr double accelerated_tolerance = 1e-8;
 constexpr double accelerated_change = 1e-2;
 constexpr double nearing_share = 0.9;
@@ -36,12 +38,15 @@ constexpr std::size_t accelerated_moves = 3;
 constexpr double negligible_displacement = 1e-11;
 
 bool same_facets(const std::vector<ContactPair>& a, const std::vector<ContactPair>& b) {
-  return std::ranges::equal(a, b, [](const ContactPair& one, const ContactPair& other) { return one.facet == other.facet && one.status == other.status; });
+  return std::ranges::equal(a, b, [](const ContactPair& one, const ContactPair& other) {
+    return one.facet == other.facet && one.status == other.status;
+  });
 }
 
 }  // namespace
 
-GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start, const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
+GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start,
+                               const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
   GeometryChange change;
   double moved = 0.0;
   double largest = 0.0;
@@ -53,7 +58,8 @@ GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen
     if (here > moved) change.worst = node;
     moved = std::max(moved, here);
     whole = std::max(whole, at.norm());
-    for (const double coordinate : mesh.nodes[static_cast<std::size_t>(node)]) reach = std::max(reach, std::abs(coordinate));
+    for (const double coordinate : mesh.nodes[static_cast<std::size_t>(node)])
+      reach = std::max(reach, std::abs(coordinate));
     largest = std::max(largest, (at - displacement_of(node, start, dofs)).norm());
   }
   // Nothing is asked of a step that only rounding moves, of displacements or of places.
@@ -62,7 +68,8 @@ GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen
   return change;
 }
 
-GeometryUpdates::GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start)
+GeometryUpdates::GeometryUpdates(const ContactDefinition& contact, const Mesh& mesh, const DofMap& dofs,
+                                 const Eigen::VectorXd& start)
     : contact_(contact), mesh_(mesh), dofs_(dofs), start_(start) {}
 
 bool GeometryUpdates::settled(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
@@ -95,7 +102,8 @@ Eigen::VectorXd GeometryUpdates::relaxed(const Eigen::VectorXd& paired, const Ei
   }
   Eigen::VectorXd move = now - paired;
   const Eigen::VectorXd turn = last_move_.size() ? Eigen::VectorXd(move - last_move_) : Eigen::VectorXd();
-  const bool nears = static_cast<int>(changes.size()) < free_updates || changes.back() < 0.5 * *std::min_element(changes.begin(), changes.end() - 1);
+  const bool nears = static_cast<int>(changes.size()) < free_updates ||
+                     changes.back() < 0.5 * *std::min_element(changes.begin(), changes.end() - 1);
   if (!nears && turn.squaredNorm() > 0.0)
     relaxation_ = std::clamp(-relaxation_ * last_move_.dot(turn) / turn.squaredNorm(), least_relaxation, 1.0);
   last_move_ = std::move(move);
@@ -110,8 +118,8 @@ bool GeometryUpdates::only_rounding_moves() const {
   return changes.back() <= rounding_of_solutions && changes.back() > 0.5 * before;
 }
 
-/// Anderson's acceleration (Walker and Ni, SIAM Journal on Numerical Analysis 49, 2011) of updates that come nearer to rest, each by about as much, where many digits are wanted:
-/// the combination of the last moves that is the least.
+/// Anderson's acceleration (Walker and Ni, SIAM Journal on Numerical Analysis 49, 2011) of updates that come nearer to
+/// rest, each by about as much, where many digits are wanted: the combination of the last moves that is the least.
 std::optional<Eigen::VectorXd> GeometryUpdates::accelerated(const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
   const auto& changes = history_.changes;
   const bool nears = changes.size() > 1 && changes.back() < nearing_share * *(changes.end() - 2);
@@ -141,11 +149,15 @@ bool GeometryUpdates::goes_to_and_fro() const {
   return *most <= contact_.restless_tolerance && *least > 0.5 * *std::min_element(changes.begin(), recent);
 }
 
-void GeometryUpdates::note_doubts(const std::vector<ContactPair>& pairs, const std::vector<ContactPoint>& points, ContactDoubts& doubts) const {
-  if (restless_ > std::sqrt(contact_.geometry_tolerance)) doubts.note({.kind = DoubtKind::restless_geometry, .share = restless_, .node = worst_});
+void GeometryUpdates::note_doubts(const std::vector<ContactPair>& pairs, const std::vector<ContactPoint>& points,
+                                  ContactDoubts& doubts) const {
+  if (restless_ > std::sqrt(contact_.geometry_tolerance))
+    doubts.note({.kind = DoubtKind::restless_geometry, .share = restless_, .node = worst_});
   const double margin = margin_of(static_cast<int>(history_.changes.size()) - 1);
   if (margin < telling_margin) return;
-  const auto note = [&](int zone, int node) { doubts.note({.kind = DoubtKind::kept_facet, .zone = zone, .share = margin, .node = node}); };
+  const auto note = [&](int zone, int node) {
+    doubts.note({.kind = DoubtKind::kept_facet, .zone = zone, .share = margin, .node = node});
+  };
   for (const ContactPair& pair : pairs)
     if (pair.kept) note(pair.zone, pair.slave);
   for (const ContactPoint& point : points)
@@ -161,7 +173,9 @@ void GeometryUpdates::note_cycle(const std::vector<ContactPair>& pairs) {
 }
 
 void GeometryUpdates::require_more(double time) const {
-  if (contact_.geometry_update != GeometryUpdate::automatic || static_cast<int>(history_.changes.size()) < std::max(1, contact_.max_geometry_updates)) return;
+  if (contact_.geometry_update != GeometryUpdate::automatic ||
+      static_cast<int>(history_.changes.size()) < std::max(1, contact_.max_geometry_updates))
+    return;
   throw_geometry_failure(time, history_, contact_);
 }
 

@@ -21,7 +21,8 @@ void take_displacements(const NodalField& field, const DofMap& dofs, Eigen::Vect
 Eigen::VectorXd displacements_at(double time, const Result& result, const DofMap& dofs, const Eigen::VectorXd& rest) {
   std::vector<std::pair<double, const NodalField*>> known;
   for (const ResultStep& step : result.steps)
-    if (const auto found = step.fields.find("DEPL"); found != step.fields.end()) known.emplace_back(step.instant, &std::get<NodalField>(found->second));
+    if (const auto found = step.fields.find("DEPL"); found != step.fields.end())
+      known.emplace_back(step.instant, &std::get<NodalField>(found->second));
   if (known.empty()) throw Error("missing-field", "the result that steps should start from has no displacement (DEPL)");
   const auto next = std::ranges::find_if(known, [&](const auto& each) { return each.first >= time; });
   const auto& to = next == known.end() ? known.back() : *next;

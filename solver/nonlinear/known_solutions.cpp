@@ -17,7 +17,8 @@ bool KnownSolutions::take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorX
     const double unknown = std::abs(factor) * known.solution.cwiseAbs().maxCoeff();
     if (!((load - factor * known.load).array().abs() <= backward_error * unknown * row_sizes.array()).all()) continue;
     load = factor * known.solution;
-    std::rotate(known_.begin() + static_cast<std::ptrdiff_t>(k), known_.begin() + static_cast<std::ptrdiff_t>(k) + 1, known_.end());
+    std::rotate(known_.begin() + static_cast<std::ptrdiff_t>(k), known_.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                known_.end());
     return true;
   }
   return false;

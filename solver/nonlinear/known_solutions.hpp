@@ -8,13 +8,14 @@
 
 namespace comma::solver {
 
-/// With one factor and loads that grow in proportion, increments of the load and of contact forces are multiples of those of an earlier
-/// step, but for rounding: so are the solutions. Keeps the last few; what belongs to another matrix has to be forgotten.
+/// With one factor and loads that grow in proportion, increments of the load and of contact forces are multiples of
+/// those of an earlier step, but for rounding: so are the solutions. Keeps the last few; what belongs to another matrix
+/// has to be forgotten.
 class KnownSolutions {
  public:
-  /// Overwrites the load (n) by its solution, if it is a multiple of a known one. The multiple of the solution then leaves of each
-  /// equation less than `backward_error` of its row of |K| (`row_sizes`, n: sums of |K_ij|) times the largest unknown, which is what
-  /// the rounding of a direct solution leaves.
+  /// Overwrites the load (n) by its solution, if it is a multiple of a known one. The multiple of the solution then
+  /// leaves of each equation less than `backward_error` of its row of |K| (`row_sizes`, n: sums of |K_ij|) times the
+  /// largest unknown, which is what the rounding of a direct solution leaves.
   bool take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorXd& row_sizes);
   /// K^-1 load.
   void add(Eigen::VectorXd load, Eigen::VectorXd solution);
@@ -23,7 +24,8 @@ class KnownSolutions {
   static constexpr double backward_error = 1e-14;
 
  private:
-  /// The increment of the load and that of contact forces come by turns, and change in the first steps before statuses settle.
+  /// The increment of the load and that of contact forces come by turns, and change in the first steps before statuses
+  /// settle.
   static constexpr std::size_t most = 4;
 
   struct Pair {

@@ -30,7 +30,8 @@ NewtonOptions tangent_options(const LinearStaticOptions& options, std::size_t so
 
 class LinearStaticAnalysis {
  public:
-  LinearStaticAnalysis(const StaticProblem& problem, const LinearStaticOptions& options, std::size_t solutions, Counters& counters)
+  LinearStaticAnalysis(const StaticProblem& problem, const LinearStaticOptions& options, std::size_t solutions,
+                       Counters& counters)
       : problem_(problem),
         dofs_(*problem.model),
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
@@ -56,7 +57,8 @@ class LinearStaticAnalysis {
       tangent_.solve(step);
       reduced += step;
       u = elimination_.transformation() * reduced + offset;
-      const double share = largest_component(step) / std::max(largest_component(reduced), std::numeric_limits<double>::min());
+      const double share =
+          largest_component(step) / std::max(largest_component(reduced), std::numeric_limits<double>::min());
       if (share <= negligible_correction || (k > 0 && share > 0.5 * last)) break;
       last = share;
     }
@@ -71,8 +73,12 @@ class LinearStaticAnalysis {
     const double imbalance = largest_component(elimination_.transformation().transpose() * (external - internal));
     const double forces = std::max(largest_component(external), largest_component(internal));
     if (imbalance <= worst_imbalance * forces) return;
-    throw Error("inaccurate-solution", fmt::format("the nodes are out of balance by {:.1e} of the forces on them: the stiffness is singular or nearly so", imbalance / forces),
-                "let null pivots be tested (NPREC=8, STOP_SINGULIER='OUI'), which tells what nothing holds");
+    throw Error(
+        "inaccurate-solution",
+        fmt::format(
+            "the nodes are out of balance by {:.1e} of the forces on them: the stiffness is singular or nearly so",
+            imbalance / forces),
+        "let null pivots be tested (NPREC=8, STOP_SINGULIER='OUI'), which tells what nothing holds");
   }
 
   ResultStep archive(double time, const Eigen::VectorXd& u, bool stresses) const {
@@ -94,7 +100,8 @@ class LinearStaticAnalysis {
 
 void refuse_conditions(const StaticProblem& problem) {
   if (!problem.contact && problem.unilateral.empty()) return;
-  throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions", "solve the problem as a nonlinear one");
+  throw Error("unsupported", "linear statics takes neither contact nor unilateral conditions",
+              "solve the problem as a nonlinear one");
 }
 
 }  // namespace

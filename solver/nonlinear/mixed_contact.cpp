@@ -36,7 +36,9 @@ Vector3d spread_of_faces(const Mesh& mesh, const std::vector<int>& cells) {
     const auto nodes = mesh.cell(cell);
     if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 2) continue;
     const bool is_triangle = corner_count(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3;
-    const Vector3d normal = (place(mesh, nodes[2]) - place(mesh, nodes[0])).cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
+    const Vector3d normal =
+        (place(mesh, nodes[2]) - place(mesh, nodes[0]))
+            .cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
     if (normal.norm() > 0.0) spread += normal.cwiseAbs2() / normal.norm();
   }
   return spread;
@@ -71,7 +73,8 @@ bool has_friction(const ContactDefinition& definition) {
 }  // namespace
 
 MixedContact::MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
-                           const Elimination& elimination, TangentSystem& tangent, Counters& counters, std::vector<int> support)
+                           const Elimination& elimination, TangentSystem& tangent, Counters& counters,
+                           std::vector<int> support)
     : definition_(definition),
       model_(model),
       mesh_(*model.mesh),
@@ -95,11 +98,14 @@ void MixedContact::number_multipliers() {
       continue;
     }
     const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
-    const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(), each.mixed.frictionless_nodes.end());
+    const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(),
+                                               each.mixed.frictionless_nodes.end());
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
       if (!excluded.contains(node) &&
-          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size())).second)
-        problem_.smooth.push_back(!(each.mixed.friction > 0.0) || (frictionless.contains(node) && !each.mixed.frictionless_direction));
+          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size()))
+              .second)
+        problem_.smooth.push_back(!(each.mixed.friction > 0.0) ||
+                                  (frictionless.contains(node) && !each.mixed.frictionless_direction));
   }
   dimension_ = is_solid ? 3 : 2;
   problem_.node_count = static_cast<int>(problem_.smooth.size());
@@ -146,7 +152,9 @@ CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
   apply_penalties(point.zone, result);
   result.bilateral = zone.mixed.bilateral;
   const auto excluded = excluded_direction(zone.mixed, point, mesh_);
-  if (excluded && (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm()))) result.law.friction = 0.0;
+  if (excluded &&
+      (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
+    result.law.friction = 0.0;
   if (result.law.friction > 0.0) result.components = dimension_ == 2 || excluded ? 2 : 3;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -166,9 +174,11 @@ void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& d
       if (share[axis] == 0.0) continue;
       const int dof = dofs_.dof(node, translation_components[axis]);
       if (dof < 0)
-        throw Error("unknown-dof",
-                    fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node), name_of(translation_components[axis])),
-                    "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
+        throw Error(
+            "unknown-dof",
+            fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node),
+                        name_of(translation_components[axis])),
+            "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
       entries.emplace_back(row, dof, share[axis]);
     }
   };
@@ -182,8 +192,8 @@ void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& d
   for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
 }
 
-/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at the nodes of a face then speak of the same
-/// directions, whatever state a computation begins with.
+/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at
+/// the nodes of a face then speak of the same directions, whatever state a computation begins with.
 void MixedContact::choose_directions(Positions positions, double time) {
   if (dimension_ == 2) {
     zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
@@ -212,18 +222,25 @@ void MixedContact::choose_directions(Positions positions, double time) {
 MixedContact::Directions MixedContact::directions(const ContactPoint& point) const {
   const Vector3d& normal = point.normal;
   if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
-  const Vector3d excluded = excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_).value_or(Vector3d::Zero());
-  const Vector3d second = excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
+  const Vector3d excluded =
+      excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_)
+          .value_or(Vector3d::Zero());
+  const Vector3d second =
+      excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
   const Vector3d along = second - normal.dot(second) * normal;
   if (!(along.norm() > empty_row_tolerance * second.norm()))
-    throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
-                "give a direction along the surface (DIRE_EXCL_FROT)");
+    throw Error(
+        "degenerate-facet",
+        fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
+        "give a direction along the surface (DIRE_EXCL_FROT)");
   return {normal, along.normalized().cross(normal), along.normalized()};
 }
 
 /// The gap between the initial places of the nodes.
 double MixedContact::initial_gap(const ContactPoint& point) const {
-  const auto initial = [&](int node) { return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]); };
+  const auto initial = [&](int node) {
+    return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]);
+  };
   if (!point.shares.empty()) {
     double gap = -point.offset;
     for (const GapShare& share : point.shares) gap += share.coefficient.dot(initial(share.node));
@@ -250,7 +267,8 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
 void MixedContact::count_slips() {
   const Eigen::VectorXd before = rows_ * reference_;
   for (const CondensedPoint& point : problem_.points)
-    for (int c = 1; c < point.components && point.first_row >= 0; ++c) base_[point.first_row + c] = -before[point.first_row + c];
+    for (int c = 1; c < point.components && point.first_row >= 0; ++c)
+      base_[point.first_row + c] = -before[point.first_row + c];
 }
 
 /// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
@@ -264,7 +282,8 @@ void MixedContact::build_rows() {
       each.first_row = static_cast<int>(base.size());
       each.rows = each.components;
       const Directions along = directions(point);
-      for (int c = 0; c < each.rows; ++c) add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
+      for (int c = 0; c < each.rows; ++c)
+        add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
       base.push_back(initial_gap(point));
       base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
     }
@@ -280,8 +299,8 @@ void MixedContact::build_rows() {
   share_friction();
 }
 
-/// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier lie on its node, and no penalty lets them
-/// creep, the solution is that of shears, which need no scale.
+/// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier
+/// lie on its node, and no penalty lets them creep, the solution is that of shears, which need no scale.
 void MixedContact::share_friction() {
   if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
   const std::vector<char> shared = shared_multipliers();
@@ -328,11 +347,13 @@ bool MixedContact::is_faced_again() const {
   return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
 }
 
-/// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the next geometry (the mixed
-/// formulation alone; ssnv104e tells). A body that touches nothing yet must not pass through the other.
+/// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the
+/// next geometry (the mixed formulation alone; ssnv104e tells). A body that touches nothing yet must not pass through
+/// the other.
 void MixedContact::hold_back_points() {
   held_back_.clear();
-  const bool waits = step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
+  const bool waits =
+      step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
   step_begins_ = false;
   for (std::size_t p = 0; p < points_.size() && waits; ++p) {
     CondensedPoint& point = problem_.points[p];
@@ -356,7 +377,8 @@ void MixedContact::settle_blocked_points() {
   for (std::size_t p = 0; p < problem_.points.size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
-    if (largest_entry(reduced_rows_, point.first_row) > empty_row_tolerance * largest_entry(rows_, point.first_row)) continue;
+    if (largest_entry(reduced_rows_, point.first_row) > empty_row_tolerance * largest_entry(rows_, point.first_row))
+      continue;
     point.rows = 0;
     blocked_.push_back(p);
   }
@@ -368,8 +390,8 @@ void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
     if (definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.penalised) continue;
     if (gap >= -overlap_tolerance * extent(mesh_, points_[p].cell)) continue;
     throw Error("contradictory-conditions",
-                fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}", mesh_.cell_name(points_[p].cell),
-                            mesh_.cell_name(points_[p].facet), -gap),
+                fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}",
+                            mesh_.cell_name(points_[p].cell), mesh_.cell_name(points_[p].facet), -gap),
                 "free the nodes along the normal, or take them out of the contact (SANS_GROUP_NO)");
   }
 }
@@ -379,19 +401,23 @@ std::vector<ZoneMemory> MixedContact::zone_definitions() const {
   std::vector<ZoneMemory> zones;
   for (const ContactZone& zone : definition_.zones) {
     const MixedZone& mixed = zone.mixed;
-    zones.push_back({mixed.bilateral,
-                     {},
-                     {mixed.penalised ? mixed.augmentation : 0.0, mixed.friction_penalised ? mixed.friction_penalty : 0.0, mixed.largest_depth ? 1.0 : 0.0, mixed.largest_slip ? 1.0 : 0.0,
-                      definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0}});
+    zones.push_back(
+        {mixed.bilateral,
+         {},
+         {mixed.penalised ? mixed.augmentation : 0.0, mixed.friction_penalised ? mixed.friction_penalty : 0.0,
+          mixed.largest_depth ? 1.0 : 0.0, mixed.largest_slip ? 1.0 : 0.0,
+          definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0}});
   }
   return zones;
 }
 
 std::shared_ptr<const ContactMemory> MixedContact::memory() const {
-  const bool is_bilateral = std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
+  const bool is_bilateral =
+      std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
   if (!is_bilateral && !penalties_.are_raised()) return nullptr;
   std::vector<ZoneMemory> zones = zone_definitions();
-  for (std::size_t p = 0; p < points_.size(); ++p) zones[static_cast<std::size_t>(points_[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    zones[static_cast<std::size_t>(points_[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
   return std::make_shared<const ContactMemory>(ContactMemory{std::move(zones), penalties_});
 }
 
@@ -413,7 +439,8 @@ std::vector<char> MixedContact::held_points() {
   for (std::size_t p = 0; p < points_.size(); ++p) points[static_cast<std::size_t>(points_[p].zone)].push_back(p);
   for (std::size_t zone = 0; zone < std::min(points.size(), memory->zones.size()); ++zone) {
     const ZoneMemory& before = memory->zones[zone];
-    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != points[zone].size()) continue;
+    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != points[zone].size())
+      continue;
     for (std::size_t k = 0; k < points[zone].size(); ++k) held[points[zone][k]] = before.closed[k];
   }
   return held;
@@ -427,7 +454,8 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
     if (point.rows == 0) continue;
     const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
     const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points_[p].cell);
-    if (held[p] != 0 || zone.initial == InitialContact::all || (zone.initial == InitialContact::interpenetrating && touches))
+    if (held[p] != 0 || zone.initial == InitialContact::all ||
+        (zone.initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }
@@ -470,7 +498,8 @@ void MixedContact::update_schur() {
   const auto& springs = tangent_.springs();
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < reduced_rows_.outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(reduced_rows_, row); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    for (RowMatrix::InnerIterator it(reduced_rows_, row); it; ++it)
+      entries.emplace_back(row, static_cast<int>(it.col()), it.value());
   int next = static_cast<int>(reduced_rows_.rows());
   std::vector<int> keys = row_keys();
   problem_.springs.clear();
@@ -502,7 +531,8 @@ void MixedContact::forget() {
 
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   update_schur();
-  // One step a time, statuses depend on the augmentation, and so does whether the iterations converge: it is the user's.
+  // One step a time, statuses depend on the augmentation, and so does whether the iterations converge: it is the
+  // user's.
   if (!is_joint()) add_natural_augmentation();
   const std::vector<ContactStatus> statuses = state_.statuses;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
@@ -514,7 +544,8 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   return changes;
 }
 
-/// Jumps begin as they were before the loads of this iteration were applied: bodies that contact alone holds are taken far by these, and the law of friction is not linear on the way back.
+/// Jumps begin as they were before the loads of this iteration were applied: bodies that contact alone holds are taken
+/// far by these, and the law of friction is not linear on the way back.
 void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset) {
   problem_.begin.resize(0);
   if (problem_.components == 1) return;
@@ -532,10 +563,10 @@ double MixedContact::displacement_of_surfaces(const Eigen::VectorXd& u) const {
   return largest;
 }
 
-/// Solves the law of contact with the compliance at hand and moves the bodies. By how much forces on the rows change, as a share of the
-/// largest; nothing where a compliance that is not exact finds no solution.
-std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
-                                           Eigen::VectorXd& corrected) {
+/// Solves the law of contact with the compliance at hand and moves the bodies. By how much forces on the rows change,
+/// as a share of the largest; nothing where a compliance that is not exact finds no solution.
+std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset,
+                                           Eigen::VectorXd& forces, Eigen::VectorXd& corrected) {
   const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
   const Eigen::VectorXd free = jumps(u);
   problem_.displacement = displacement_of_surfaces(u);
@@ -550,7 +581,8 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   }
   begin_near(before, offset);
   problem_.indefinite = tangent_.is_indefinite();
-  problem_.farthest = problem_.springs.empty() ? std::numeric_limits<double>::infinity() : farthest_motion * extent(mesh_);
+  problem_.farthest =
+      problem_.springs.empty() ? std::numeric_limits<double>::infinity() : farthest_motion * extent(mesh_);
   if (!problem_.springs.empty() || problem_.indefinite) close_nearest(free);
 
   const CondensedState earlier = state_;
@@ -560,7 +592,8 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   rubs_by_shears_ = solution.by_shears;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
     if (schur_->is_exact()) {
-      const bool negative = std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
+      const bool negative =
+          std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
       throw_condensed_limit(problem_.max_iterations, definition_, negative, tangent_.unheld());
     }
     state_ = earlier;
@@ -588,8 +621,10 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || is_free_of_force(p)) continue;
     const std::optional<double> deepest = penalties_.allowed_depth(mixed);
-    const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty, mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
-    excess.softness[zone] = std::max(excess.softness[zone], (points_[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
+    const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
+                                  mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
+    excess.softness[zone] =
+        std::max(excess.softness[zone], (points_[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
       excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
@@ -614,14 +649,16 @@ std::vector<char> MixedContact::closed_points() const {
 }
 
 int MixedContact::closed_count() const {
-  return static_cast<int>(std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
+  return static_cast<int>(
+      std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
 }
 
 double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) const {
   const Eigen::VectorXd now = jumps(u);
   double deepest = 0.0;
   for (std::size_t p = 0; p < points_.size(); ++p)
-    if (problem_.points[p].rows > 0 && !is_free_of_force(p) && (problem_.points[p].law.penalised || !of_penalties)) deepest = std::max(deepest, -now[problem_.points[p].first_row]);
+    if (problem_.points[p].rows > 0 && !is_free_of_force(p) && (problem_.points[p].law.penalised || !of_penalties))
+      deepest = std::max(deepest, -now[problem_.points[p].first_row]);
   return deepest;
 }
 

@@ -26,7 +26,8 @@ void add_forces(const Vector3d& normal, const Vector3d& shear, NodeContact& sum)
   if (sum.normal_force > 0.0) sum.pair.normal = whole / sum.normal_force;
 }
 
-/// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them do.
+/// Faces that share a slave node may each have a point there, with a normal of its own: the node bears what all of them
+/// do.
 void add_contact(const NodeContact& contact, NodeContact& sum) {
   sum.sticking = sum.closed && contact.closed ? sum.sticking && contact.sticking : sum.sticking || contact.sticking;
   sum.closed |= contact.closed;
@@ -66,8 +67,9 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
   displacements.values = std::move(values);
 }
 
-/// Where the pressure of a node on the axis does not show in its force (bears_nothing), it is that of the face: the parabola about the axis, a + b r^2, through the other two nodes.
-/// With a penalty nothing keeps the node from a little gap between two that are pressed.
+/// Where the pressure of a node on the axis does not show in its force (bears_nothing), it is that of the face: the
+/// parabola about the axis, a + b r^2, through the other two nodes. With a penalty nothing keeps the node from a little
+/// gap between two that are pressed.
 void MixedContact::show_pressures_on_axis(const std::function<double*(int)>& place) const {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
@@ -75,14 +77,17 @@ void MixedContact::show_pressures_on_axis(const std::function<double*(int)>& pla
     const auto nodes = mesh_.cell(point.cell);
     const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
     const bool closed = state_.statuses[p] != ContactStatus::open || (is_free_of_force(p) && at_end < 0.0);
-    if (closed && at_middle < 0.0) place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
-    else if (is_free_of_force(p)) place(point.node)[0] = 0.0;
+    if (closed && at_middle < 0.0)
+      place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
+    else if (is_free_of_force(p))
+      place(point.node)[0] = 0.0;
   }
 }
 
 /// Shares of the limit where conditions prescribe how points slide.
 void MixedContact::add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const {
-  if (std::ranges::none_of(problem_.points, [](const CondensedPoint& point) { return point.idle_friction > 0.0; })) return;
+  if (std::ranges::none_of(problem_.points, [](const CondensedPoint& point) { return point.idle_friction > 0.0; }))
+    return;
   const Eigen::VectorXd now = jumps(u);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
@@ -102,7 +107,12 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
     const CondensedPoint& condensed = problem_.points[p];
     if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
     NodeContact contact;
-    contact.pair = {.zone = point.zone, .slave = point.node, .status = point.status, .facet = point.facet, .normal = point.normal, .foot = point.foot};
+    contact.pair = {.zone = point.zone,
+                    .slave = point.node,
+                    .status = point.status,
+                    .facet = point.facet,
+                    .normal = point.normal,
+                    .foot = point.foot};
     if (condensed.first_row >= 0) {
       contact.gap = now[condensed.first_row];
       contact.normal_force = forces_[condensed.first_row];
@@ -111,11 +121,13 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
     }
     if (problem_.components > 1 || definition_.has_friction) contact.slip.setZero();
     contact.shear_force = shear_force(p, now);
-    for (int c = 1; c < condensed.rows; ++c) contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
+    for (int c = 1; c < condensed.rows; ++c)
+      contact.slip[c - 1] = state_.statuses[p] == ContactStatus::open ? 0.0 : now[condensed.first_row + c];
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
     if (is_first) {
       contacts.push_back(contact);
-    } else if (contact.pair.status == PairingStatus::paired && contacts[known->second].pair.status == PairingStatus::paired) {
+    } else if (contact.pair.status == PairingStatus::paired &&
+               contacts[known->second].pair.status == PairingStatus::paired) {
       add_contact(contact, contacts[known->second]);
     } else if (contact.pair.status == PairingStatus::paired) {
       contacts[known->second] = contact;
@@ -126,18 +138,21 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
   return contact_field(contacts, mesh_.node_count(), positions);
 }
 
-/// Where conditions prescribe how a point slides the law leaves friction out, and it is what Coulomb's law says against that slip.
+/// Where conditions prescribe how a point slides the law leaves friction out, and it is what Coulomb's law says against
+/// that slip.
 Eigen::VectorXd MixedContact::shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const {
   const CondensedPoint& point = problem_.points[p];
   if (!(point.idle_friction > 0.0)) return forces_.segment(point.first_row + 1, point.rows - 1);
   const Eigen::VectorXd slip = jumps.segment(point.first_row + 1, point.rows - 1);
   const double size = slip.norm();
   const double limit = point.idle_friction * forces_[point.first_row];
-  if (!(size > least_prescribed_slip * problem_.displacement) || !(limit > 0.0)) return Eigen::VectorXd::Zero(point.rows - 1);
+  if (!(size > least_prescribed_slip * problem_.displacement) || !(limit > 0.0))
+    return Eigen::VectorXd::Zero(point.rows - 1);
   return -limit * share_of_limit(point, size, limit) / size * slip;
 }
 
-/// Of the limit of friction: what a penalty brings by a slip of that size, a share a length in the mixed formulation (see share_friction), a force a length in the discrete one.
+/// Of the limit of friction: what a penalty brings by a slip of that size, a share a length in the mixed formulation
+/// (see share_friction), a force a length in the discrete one.
 double MixedContact::share_of_limit(const CondensedPoint& point, double slip, double limit) const {
   if (!point.law.friction_penalised) return 1.0;
   const double brought = point.law.friction_augmentation * slip;
@@ -153,20 +168,27 @@ Vector3d MixedContact::shear_force(std::size_t p, const Eigen::VectorXd& jumps) 
   return force;
 }
 
-/// Nodes bear their shares of what points between them do, so that all together bear the whole force. Those without a point of their own do
-/// so in zones where others have one: a zone without points at nodes says nothing of them.
-void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node, std::vector<NodeContact>& contacts) const {
+/// Nodes bear their shares of what points between them do, so that all together bear the whole force. Those without a
+/// point of their own do so in zones where others have one: a zone without points at nodes says nothing of them.
+void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node,
+                                            std::vector<NodeContact>& contacts) const {
   std::set<int> zones_with_nodes;
   for (const auto& [key, _] : by_node) zones_with_nodes.insert(key.first);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const ContactPoint& point = points_[p];
-    if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0 || !zones_with_nodes.contains(point.zone)) continue;
+    if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0 ||
+        !zones_with_nodes.contains(point.zone))
+      continue;
     const Vector3d normal = forces_[problem_.points[p].first_row] * point.normal, shear = shear_force(p, jumps);
     const auto nodes = mesh_.cell(point.cell);
     const bool sticks = state_.statuses[p] == ContactStatus::sticking;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const auto [known, is_first] = by_node.emplace(Key(point.zone, nodes[a]), contacts.size());
-      if (is_first) contacts.push_back({.pair = {.zone = point.zone, .slave = nodes[a], .status = PairingStatus::paired, .normal = point.normal}, .sticking = true, .has_point = false});
+      if (is_first)
+        contacts.push_back(
+            {.pair = {.zone = point.zone, .slave = nodes[a], .status = PairingStatus::paired, .normal = point.normal},
+             .sticking = true,
+             .has_point = false});
       NodeContact& contact = contacts[known->second];
       if (!contact.has_point) contact.sticking &= sticks || state_.statuses[p] == ContactStatus::open;
       add_forces(point.shape[a] * normal, point.shape[a] * shear, contact);
@@ -175,19 +197,24 @@ void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::m
 }
 
 /// Nodes of zones where contact is not enforced, and those that the user leaves out.
-void MixedContact::add_nodes_without_contact(Positions positions, double instant, std::vector<NodeContact>& contacts) const {
-  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions, instant)) contacts.push_back({.pair = pair, .gap = gap_at(pair, mesh_, positions)});
+void MixedContact::add_nodes_without_contact(Positions positions, double instant,
+                                             std::vector<NodeContact>& contacts) const {
+  for (const auto& [index, pair] : watched_pairs(definition_, mesh_, positions, instant))
+    contacts.push_back({.pair = pair, .gap = gap_at(pair, mesh_, positions)});
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
     const std::set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     if (excluded.empty()) continue;
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))
-      if (excluded.contains(node)) contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
+      if (excluded.contains(node))
+        contacts.push_back(
+            {.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
   }
 }
 
 std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) const {
-  if (std::ranges::none_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) return std::nullopt;
+  if (std::ranges::none_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.local_average; }))
+    return std::nullopt;
   const Eigen::VectorXd now = jumps(u);
   std::map<int, PatchContact> by_node;  // a node inside tells the patch
   for (std::size_t p = 0; p < points_.size(); ++p) {

@@ -31,8 +31,8 @@ constexpr double rounding_share = 1e-14;
 constexpr double lost_load = 1e-3;
 /// A rigid body is one up to this share of its size.
 constexpr double largest_violation = 1e-9;
-/// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough where it has nearly
-/// all of them, two unless it has less than a third.
+/// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough
+/// where it has nearly all of them, two unless it has less than a third.
 constexpr int max_polishing = 3;
 /// Conditions of which gradients take the compliance as a matrix: beyond (288 MB), they solve for each product instead.
 constexpr int most_dense_rows = 6000;
@@ -45,9 +45,10 @@ int count_changes(const std::vector<int>& a, const std::vector<int>& b) {
 
 }  // namespace
 
-NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-                           const NewtonOptions& options, Counters& counters, TangentSystem& tangent,
-                           const ReferenceForces& reference, std::vector<int> support, const IterationObserver& observer)
+NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler,
+                           const Elimination& elimination, const NewtonOptions& options, Counters& counters,
+                           TangentSystem& tangent, const ReferenceForces& reference, std::vector<int> support,
+                           const IterationObserver& observer)
     : mesh_(mesh),
       dofs_(dofs),
       assembler_(assembler),
@@ -81,7 +82,9 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
   std::vector<IterationReport> history;
   int most = std::max(1, most_iterations_ - earlier);
   for (int iteration = 1; iteration <= most; ++iteration) {
-    if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) && tangent_.refresh(state.u, kind_of(iteration))) forget_compliance();
+    if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) &&
+        tangent_.refresh(state.u, kind_of(iteration)))
+      forget_compliance();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced;
     Correction correction = correct(state, offset);
@@ -96,14 +99,16 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged && is_whole && (!is_joint || (correction.changes == 0 && mixed_->geometry_is_at_rest())) && is_satisfied(state.u)) {
+    if (measure.converged && is_whole && (!is_joint || (correction.changes == 0 && mixed_->geometry_is_at_rest())) &&
+        is_satisfied(state.u)) {
       if (!is_joint && !relations_.update) polish(state, external, offset);
       require_at_hand(time, state.u);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;
     look_at_residuals(watch_, history);
-    if (iteration == most && earlier + most == most_iterations_) most += further_iterations(time, history, measure.excess);
+    if (iteration == most && earlier + most == most_iterations_)
+      most += further_iterations(time, history, measure.excess);
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
   fail(time, history);
@@ -124,12 +129,15 @@ int NewtonSolver::further_iterations(double time, const std::vector<IterationRep
   const int allowed = static_cast<int>(watch_.further * most_iterations_);
   const std::optional<int> needed = allowed > 0 ? iterations_to_go(history, excess) : std::nullopt;
   if (!needed || *needed > allowed) return 0;
-  if (observer_) observer_(event_of_step(time, fmt::format("{} more iterations are allowed: the residual shrinks as if it took {}", allowed, *needed)));
+  if (observer_)
+    observer_(event_of_step(
+        time, fmt::format("{} more iterations are allowed: the residual shrinks as if it took {}", allowed, *needed)));
   return allowed;
 }
 
-/// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the conditions on
-/// displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the elements beside them.
+/// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the
+/// conditions on displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the
+/// elements beside them.
 void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
   const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
   const Eigen::VectorXd imposed = moved - state.u;
@@ -137,8 +145,10 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces(state.u);
   weights_.take(assembler_, elimination_);
-  const bool is_other = is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
-  if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1))) forget_compliance();
+  const bool is_other =
+      is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
+  if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1)))
+    forget_compliance();
   measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
@@ -148,14 +158,17 @@ void NewtonSolver::forget_compliance() {
   if (mixed_) mixed_->forget();
 }
 
-void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state) {
+void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset,
+                                   const NewtonState& state) {
   conditions_ = &conditions;
-  reduced_ = reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
+  reduced_ =
+      reduce(conditions.full, elimination_, offset, [&](int row) { return describe(conditions, row, mesh_, dofs_); });
   std::vector<int> slots;
   for (const int row : reduced_.origin) slots.push_back(conditions.row_slots[row]);
   if (!schur_) {
     schur_ = std::make_unique<SchurComplement>(
-        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); }, support_, slots);
+        reduced_.inequalities.rows, [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); },
+        support_, slots);
     schur_->soften(reduced_.inequalities.softness);
     schur_->use_whole([this](const RowMatrix& rows) { return tangent_.compliance(rows); });
   } else {
@@ -184,7 +197,8 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
   measure(loads_at(state.u, external), assembler_.internal_forces(state.u));
 }
 
-/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables included.
+/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables
+/// included.
 void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
   residual_ = elimination_.transformation().transpose() * (loads - internal);
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
@@ -194,14 +208,16 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
 }
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
-  return criterion_.measure(largest_component(weights_.weighed(residual_)), load_, is_rounding(state), reference_.share(residual_), reference_.share_by_component(residual_));
+  return criterion_.measure(largest_component(weights_.weighed(residual_)), load_, is_rounding(state),
+                            reference_.share(residual_), reference_.share_by_component(residual_));
 }
 
-/// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that the loads are lost in them: a body
-/// that nothing holds has flown away.
+/// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that
+/// the loads are lost in them: a body that nothing holds has flown away.
 bool NewtonSolver::is_rounding(const NewtonState& state) const {
   if (applied_ > 0.0 && largest_component(residual_) > lost_load * applied_) return false;
-  return tangent_.row_sizes().size() == residual_.size() && !tangent_.is_saddle() && (residual_.array().abs() <= rounding_share * tangent_.sizes_times(state.u).array()).all();
+  return tangent_.row_sizes().size() == residual_.size() && !tangent_.is_saddle() &&
+         (residual_.array().abs() <= rounding_share * tangent_.sizes_times(state.u).array()).all();
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
@@ -218,7 +234,8 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   }
   double size = 0.0, change = 0.0;
   for (Eigen::Index k = 0; k < state.reduced.size(); ++k) {
-    if (!is_motion(dofs_.component_of(elimination_.kept()[static_cast<std::size_t>(k)]))) continue;  // a pressure has another unit
+    if (!is_motion(dofs_.component_of(elimination_.kept()[static_cast<std::size_t>(k)])))
+      continue;  // a pressure has another unit
     size = std::max(size, std::abs(state.reduced[k]));
     change = std::max(change, std::abs(state.reduced[k] - before[k]));
   }
@@ -228,16 +245,21 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
 }
 
 /// Whether relations that are taken anew in each iteration hold.
-bool NewtonSolver::is_satisfied(const Eigen::VectorXd& u) const { return !relations_.violation || relations_.violation(u) <= largest_violation; }
-
-bool NewtonSolver::searches(int iteration) const {
-  return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() && !(mixed_ && mixed_->is_joint());
+bool NewtonSolver::is_satisfied(const Eigen::VectorXd& u) const {
+  return !relations_.violation || relations_.violation(u) <= largest_violation;
 }
 
-/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the residual there. While the line is
-/// searched, loads that follow stay as they were (R5.03.01; ssnv122b tells), and contact forces as the correction has found them. Returns whether the
-/// correction was taken whole, so that conditions hold as it left them.
-bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+bool NewtonSolver::searches(int iteration) const {
+  return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() &&
+         !(mixed_ && mixed_->is_joint());
+}
+
+/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the
+/// residual there. While the line is searched, loads that follow stay as they were (R5.03.01; ssnv122b tells), and
+/// contact forces as the correction has found them. Returns whether the correction was taken whole, so that conditions
+/// hold as it left them.
+bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
+                          NewtonState& state) {
   const Eigen::VectorXd step = state.reduced - before;
   const auto go = [&](double rho) {
     state.reduced = before + rho * step;
@@ -262,12 +284,15 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   return reached == 1.0;
 }
 
-/// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of earlier rows or
-/// of an earlier stiffness leaves something to the next round; where that does not shrink, the compliance is made anew.
+/// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of
+/// earlier rows or of an earlier stiffness leaves something to the next round; where that does not shrink, the
+/// compliance is made anew.
 NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& state) {
   const std::vector<int> before = active_;
-  if (!by_compliance()) settle_conditions(state);
-  else settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
+  if (!by_compliance())
+    settle_conditions(state);
+  else
+    settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);
   state.multipliers.setZero();
@@ -275,7 +300,8 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   return correction;
 }
 
-/// By how much multipliers change, as a share of the largest; nothing where a compliance that is not exact finds no solution.
+/// By how much multipliers change, as a share of the largest; nothing where a compliance that is not exact finds no
+/// solution.
 std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Inequalities& rows = reduced_.inequalities;
   ActiveSetProblem problem;
@@ -287,7 +313,8 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Eigen::VectorXd magnitudes = tangent_.magnitudes(elimination_.transformation() * state.reduced);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
   for (int row = 0; row < rows.rows.outerSize(); ++row)
-    for (SparseRows::InnerIterator it(rows.rows, row); it; ++it) problem.scale[row] += magnitudes[elimination_.kept()[static_cast<std::size_t>(it.col())]] * std::abs(it.value());
+    for (SparseRows::InnerIterator it(rows.rows, row); it; ++it)
+      problem.scale[row] += magnitudes[elimination_.kept()[static_cast<std::size_t>(it.col())]] * std::abs(it.value());
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
 
   const bool is_exact = !by_compliance() || schur_->is_exact();
@@ -317,9 +344,12 @@ void NewtonSolver::throw_unless_solved(const ActiveSetSolution& solution) const 
     throw_active_set_limit(by_gradients() ? solution.iterations : active_set_limit_, by_gradients());
 }
 
-/// Whether the compliance of all rows is worth its memory: the active set needs it, for gradients it saves two solves an iteration.
+/// Whether the compliance of all rows is worth its memory: the active set needs it, for gradients it saves two solves
+/// an iteration.
 bool NewtonSolver::by_compliance() const {
-  return !by_gradients() || (tangent_.gives_compliance() && schur_->size() >= static_cast<int>(SchurComplement::many_columns) && schur_->size() <= most_dense_rows);
+  return !by_gradients() ||
+         (tangent_.gives_compliance() && schur_->size() >= static_cast<int>(SchurComplement::many_columns) &&
+          schur_->size() <= most_dense_rows);
 }
 
 /// By how much the present multipliers push the rows back: S times them, less what soft rows give way.
@@ -328,7 +358,9 @@ Eigen::VectorXd NewtonSolver::push_of_active() {
   return compliance_times(row_multipliers_) - reduced_.inequalities.softness.cwiseProduct(row_multipliers_);
 }
 
-int NewtonSolver::zone_of(int row) const { return conditions_->row_zones[static_cast<std::size_t>(reduced_.origin[static_cast<std::size_t>(row)])]; }
+int NewtonSolver::zone_of(int row) const {
+  return conditions_->row_zones[static_cast<std::size_t>(reduced_.origin[static_cast<std::size_t>(row)])];
+}
 
 std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
   std::vector<double> result(zones, 0.0);
@@ -345,7 +377,8 @@ std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
   for (const auto& [zone, rows] : closed) {
     Eigen::VectorXd own = Eigen::VectorXd::Zero(row_multipliers_.size());
     own(rows) = row_multipliers_(rows);
-    take(compliance_times(own) - reduced_.inequalities.softness.cwiseProduct(own), [&, zone = zone](int each) { return each == zone; });
+    take(compliance_times(own) - reduced_.inequalities.softness.cwiseProduct(own),
+         [&, zone = zone](int each) { return each == zone; });
   }
   return result;
 }
@@ -368,7 +401,10 @@ void NewtonSolver::note_doubts(ContactDoubts& doubts) {
     passed.softest = softness[row];
   }
   for (const auto& [condition, passed] : conditions)
-    if (passed.most > 0.0) note_soft_penalty({.kind = DoubtKind::soft_bound, .zone = condition, .length = passed.most, .penalty = 1.0 / passed.softest}, passed.reach, doubts);
+    if (passed.most > 0.0)
+      note_soft_penalty(
+          {.kind = DoubtKind::soft_bound, .zone = condition, .length = passed.most, .penalty = 1.0 / passed.softest},
+          passed.reach, doubts);
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
@@ -396,16 +432,18 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
         options.scaling[row] += it.value() * it.value() * tangent_.row_sizes()[it.col()];
     options.scaling = options.scaling.cwiseSqrt();
   }
-  ActiveSetSolution solution = solve_projected_gradient([this](const Eigen::VectorXd& x) { return compliance_times(x); }, problem, options);
+  ActiveSetSolution solution =
+      solve_projected_gradient([this](const Eigen::VectorXd& x) { return compliance_times(x); }, problem, options);
   if (solution.verdict == ActiveSetVerdict::contradictory)
-    throw Error("contradictory-conditions", "projected conjugate gradients find contact forces without bound: some conditions cannot hold together",
+    throw Error("contradictory-conditions",
+                "projected conjugate gradients find contact forces without bound: some conditions cannot hold together",
                 "solve with ALGO_CONT='CONTRAINTE', which names them");
   return solution;
 }
 
-/// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding put
-/// it: residuals of 1e-6 of the largest force move a body on weak springs by metres. A residual that is rounding, of a stiffness that
-/// loses few digits, says that there is nothing to gain.
+/// With a constant tangent a correction costs one solve, and the criterion alone would leave a soft body where rounding
+/// put it: residuals of 1e-6 of the largest force move a body on weak springs by metres. A residual that is rounding,
+/// of a stiffness that loses few digits, says that there is nothing to gain.
 void NewtonSolver::polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {
   if (!tangent_.is_constant()) return;
   double last = std::numeric_limits<double>::infinity();
@@ -425,8 +463,8 @@ std::optional<double> NewtonSolver::penetration(const NewtonState& state) const 
   return std::max(0.0, (reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds).maxCoeff());
 }
 
-IterationReport NewtonSolver::report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
-                                     const NewtonState& state) const {
+IterationReport NewtonSolver::report(double time, int iteration, const ConvergenceCriterion::Measure& measure,
+                                     int changes, const NewtonState& state) const {
   IterationReport line;
   line.instant = time;
   line.iteration = iteration;

@@ -25,8 +25,8 @@ namespace comma::solver {
 
 /// What the iterations change. `multipliers`: one a slot of the ConditionSet.
 struct NewtonState {
-  Eigen::VectorXd reduced;      ///< q
-  Eigen::VectorXd u;            ///< T q + g
+  Eigen::VectorXd reduced;  ///< q
+  Eigen::VectorXd u;        ///< T q + g
   Eigen::VectorXd multipliers;
 };
 
@@ -34,20 +34,20 @@ struct NewtonState {
 ///
 ///     K dq = T^T (f_ext - f_int(u)) - A^T lambda,   A (q + dq) <= b with multipliers lambda >= 0
 ///
-/// by the active-set method on the Schur complement, warm-started by the last active set. Internal forces come in extended
-/// precision, so that with a constant tangent each further correction is a step of iterative refinement: two or three of
-/// them take a solution near the last bit even where weak springs hold a stiff body.
+/// by the active-set method on the Schur complement, warm-started by the last active set. Internal forces come in
+/// extended precision, so that with a constant tangent each further correction is a step of iterative refinement: two
+/// or three of them take a solution near the last bit even where weak springs hold a stiff body.
 class NewtonSolver {
  public:
   /// Keeps references to its arguments. `support`: the reduced unknowns that conditions can touch, rising.
   NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-               const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference,
-               std::vector<int> support, const IterationObserver& observer);
+               const NewtonOptions& options, Counters& counters, TangentSystem& tangent,
+               const ReferenceForces& reference, std::vector<int> support, const IterationObserver& observer);
 
-  /// Iterates to convergence at a time. `earlier`: iterations of the same step before, which count among those allowed, though one is
-  /// always. `active_set_limit`: changes of the active set allowed in one iteration.
-  /// Returns the number of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`,
-  /// `singular-matrix`, and what look_at_residuals throws.
+  /// Iterates to convergence at a time. `earlier`: iterations of the same step before, which count among those allowed,
+  /// though one is always. `active_set_limit`: changes of the active set allowed in one iteration. Returns the number
+  /// of iterations. Throws Error `no-convergence`, `contact-cycling`, `contradictory-conditions`, `singular-matrix`,
+  /// and what look_at_residuals throws.
   int solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset, const ConditionSet& conditions,
             int earlier, int active_set_limit, NewtonState& state);
 
@@ -63,15 +63,16 @@ class NewtonSolver {
   /// What residuals may do from now on.
   void watch(const ResidualWatch& residuals) { watch_ = residuals; }
 
-  /// How far contact forces, all or those of the zone alone, move the nodes of its conditions, at most, zone by zone (lengths); 0 of zones where nothing is closed.
+  /// How far contact forces, all or those of the zone alone, move the nodes of its conditions, at most, zone by zone
+  /// (lengths); 0 of zones where nothing is closed.
   std::vector<double> pushed_back(std::size_t zones);
   /// Of a step that has converged: how far bounds that give way are passed.
   void note_doubts(ContactDoubts& doubts);
 
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }
-  /// What takes relations between displacements anew at the unknowns, which it brings to satisfy them and renumbers, and returns the offset g; and how
-  /// far they are from what the relations stand for, as a share. Empty: they stay.
+  /// What takes relations between displacements anew at the unknowns, which it brings to satisfy them and renumbers,
+  /// and returns the offset g; and how far they are from what the relations stand for, as a share. Empty: they stay.
   struct Relinearisation {
     std::function<Eigen::VectorXd(double time, NewtonState& state)> update;
     std::function<double(const Eigen::VectorXd& u)> violation;
@@ -80,7 +81,8 @@ class NewtonSolver {
   /// The forces act beside the external ones from now on; they must outlive the solver.
   void follow(const FollowerForces& forces) { followers_ = &forces; }
 
-  /// The body bears these forces where the computation begins: they count in the criterion as those of an accepted step.
+  /// The body bears these forces where the computation begins: they count in the criterion as those of an accepted
+  /// step.
   void begin_with(const Eigen::VectorXd& external, const Eigen::VectorXd& internal) {
     weights_.take(assembler_, elimination_);
     criterion_.accept(weights_.load_size(external, internal, {}));
@@ -107,7 +109,8 @@ class NewtonSolver {
   bool is_satisfied(const Eigen::VectorXd& u) const;
   bool searches(int iteration) const;
   bool has_conditions() const { return mixed_ || row_multipliers_.size() > 0; }
-  bool search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
+  bool search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
+              NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
@@ -153,15 +156,16 @@ class NewtonSolver {
   Eigen::VectorXd row_multipliers_;  ///< one a reduced row
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced
-  Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push (all unknowns); empty where there are none
+  Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push (all unknowns); empty
+                                     ///< where there are none
   RowWeights weights_;
   double load_ = 0.0;
   double applied_ = 0.0;  ///< the largest component of the external forces
-  int steps_ = 0;                    ///< accepted so far
+  int steps_ = 0;         ///< accepted so far
   TangentKind prediction_;
-  TangentPolicy policy_;         ///< of this step
-  bool is_short_ = false;        ///< this step takes the elastic stiffness because of its length
-  int most_iterations_;          ///< of this step
+  TangentPolicy policy_;   ///< of this step
+  bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length
+  int most_iterations_;    ///< of this step
   ResidualWatch watch_;
 };
 

@@ -10,12 +10,14 @@
 
 namespace comma::solver {
 
-/// What an increment of displacement must do in a step: `scale` times the measure of the increment is the length of the step in time.
+/// What an increment of displacement must do in a step: `scale` times the measure of the increment is the length of the
+/// step in time.
 enum class PathMeasure : std::uint8_t {
-  displacement,  ///< the sum of the controlled displacements (DDL_IMPO)
-  arc_length,    ///< the length of a node's, as a quadratic mean over the nodes (LONG_ARC)
+  displacement,       ///< the sum of the controlled displacements (DDL_IMPO)
+  arc_length,         ///< the length of a node's, as a quadratic mean over the nodes (LONG_ARC)
   strain,             ///< the largest change of strain at a point in the direction of its strain (DEFORMATION)
-  elastic_prediction  ///< how far the elastic prediction lies beyond the yield surface where it does the most (PRED_ELAS)
+  elastic_prediction  ///< how far the elastic prediction lies beyond the yield surface where it does the most
+                      ///< (PRED_ELAS)
 };
 
 /// Which solution is taken where the measure leaves two.
@@ -29,12 +31,12 @@ enum class PathChoice : std::uint8_t {
 struct PathControl {
   PathMeasure measure = PathMeasure::displacement;
   PathChoice choice = PathChoice::smallest_increment;
-  double scale = 1.0;                  ///< COEF_MULT
-  std::vector<int> nodes;              ///< of the controlled displacements; empty: all
-  std::vector<Component> components;   ///< of the controlled displacements
-  std::vector<int> cells;              ///< where strains or the elastic prediction are looked at; empty: everywhere
-  bool grows = false;                  ///< EVOL_PARA='CROISSANT': the intensity never falls
-  bool falls = false;                  ///< EVOL_PARA='DECROISSANT'
+  double scale = 1.0;                 ///< COEF_MULT
+  std::vector<int> nodes;             ///< of the controlled displacements; empty: all
+  std::vector<Component> components;  ///< of the controlled displacements
+  std::vector<int> cells;             ///< where strains or the elastic prediction are looked at; empty: everywhere
+  bool grows = false;                 ///< EVOL_PARA='CROISSANT': the intensity never falls
+  bool falls = false;                 ///< EVOL_PARA='DECROISSANT'
   double least_sought = -std::numeric_limits<double>::infinity();  ///< ETA_PILO_R_MIN: solutions below are passed over
   double most_sought = std::numeric_limits<double>::infinity();    ///< ETA_PILO_R_MAX
   double least = -std::numeric_limits<double>::infinity();         ///< ETA_PILO_MIN: the computation ends there

@@ -17,20 +17,26 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// An intensity moves nothing where it moves the controlled displacements by less than this share of what it moves at most.
+/// An intensity moves nothing where it moves the controlled displacements by less than this share of what it moves at
+/// most.
 constexpr double no_influence = 1e-12;
 /// Intensities that differ by less than this share are one.
 constexpr double same_intensity = 1e-12;
-/// Increments whose lengths differ by less than this share are equally long: a converged step leaves residuals of some 1e-6 of the loads.
+/// Increments whose lengths differ by less than this share are equally long: a converged step leaves residuals of some
+/// 1e-6 of the loads.
 constexpr double same_length = 1e-5;
 
 /// Of one or two.
-double other_of(const std::vector<double>& choice, double taken) { return choice.front() == taken ? choice.back() : choice.front(); }
+double other_of(const std::vector<double>& choice, double taken) {
+  return choice.front() == taken ? choice.back() : choice.front();
+}
 
 }  // namespace
 
-PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-                             const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer)
+PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler,
+                             const Elimination& elimination, const NewtonOptions& options, Counters& counters,
+                             TangentSystem& tangent, const ReferenceForces& reference,
+                             const IterationObserver& observer)
     : problem_(problem),
       mesh_(*problem.model->mesh),
       dofs_(dofs),
@@ -43,7 +49,8 @@ PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, c
       observer_(observer),
       criterion_(options),
       reference_(reference) {
-  if (control_.measure != PathMeasure::elastic_prediction && control_.measure != PathMeasure::strain) number_controlled();
+  if (control_.measure != PathMeasure::elastic_prediction && control_.measure != PathMeasure::strain)
+    number_controlled();
 }
 
 void PathFollowing::number_controlled() {
@@ -55,12 +62,16 @@ void PathFollowing::number_controlled() {
     for (const Component component : control_.components) {
       controlled_nodes_ += component == control_.components.front() ? 1 : 0;
       const int dof = dofs_.dof(node, component);
-      if (dof >= 0) controlled_.push_back(dof);
+      if (dof >= 0)
+        controlled_.push_back(dof);
       else if (!all)
-        throw Error("unknown-dof", fmt::format("node {} carries no {}, which the path is to control", mesh_.node_name(node), name_of(component)),
+        throw Error("unknown-dof",
+                    fmt::format("node {} carries no {}, which the path is to control", mesh_.node_name(node),
+                                name_of(component)),
                     "control a component that the node has");
     }
-  if (controlled_.empty()) throw Error("unknown-dof", "no node carries a component that the path is to control", "name others");
+  if (controlled_.empty())
+    throw Error("unknown-dof", "no node carries a component that the path is to control", "name others");
 }
 
 int PathFollowing::solve(double time, double duration, const DrivenLoads& loads, VectorXd& q, VectorXd& u) {
@@ -70,8 +81,10 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   weights_.take(assembler_, elimination_);
   intensity_ = accepted_;
   ended_ = false;
-  if (control_.measure == PathMeasure::elastic_prediction) prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
-  if (control_.measure == PathMeasure::strain) strains_ = std::make_unique<StrainControl>(problem_, dofs_, assembler_, control_.cells, start_);
+  if (control_.measure == PathMeasure::elastic_prediction)
+    prediction_ = std::make_unique<ElasticPrediction>(problem_, dofs_, assembler_, control_.cells, start_);
+  if (control_.measure == PathMeasure::strain)
+    strains_ = std::make_unique<StrainControl>(problem_, dofs_, assembler_, control_.cells, start_);
   const VectorXd reduced = q;
   passed_over_nearest_ = false;
   try {
@@ -98,7 +111,8 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
-    const auto measure = criterion_.measure(largest_component(weights_.weighed(residual_)), load_, false, reference_.share(residual_), reference_.share_by_component(residual_));
+    const auto measure = criterion_.measure(largest_component(weights_.weighed(residual_)), load_, false,
+                                            reference_.share(residual_), reference_.share_by_component(residual_));
     history.push_back(report(iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -116,7 +130,8 @@ void PathFollowing::accept_step(const VectorXd& u) {
   accepted_ = intensity_;
   criterion_.accept(load_);
   ++steps_;
-  tell(fmt::format("driven loads have the intensity {:.8g}{}", intensity_, ended_ ? ", the bound: the computation ends" : ""));
+  tell(fmt::format("driven loads have the intensity {:.8g}{}", intensity_,
+                   ended_ ? ", the bound: the computation ends" : ""));
 }
 
 void PathFollowing::tell(const std::string& text) const {
@@ -128,13 +143,15 @@ void PathFollowing::tell(const std::string& text) const {
 }
 
 /// With what the conditions on displacements move as a correction from where the nodes are.
-PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenLoads& loads, const VectorXd& q, const VectorXd& u) {
+PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenLoads& loads, const VectorXd& q,
+                                                    const VectorXd& u) {
   const TangentKind kind = iteration == 1 ? at_start(options_.tangent.prediction) : options_.tangent.correction;
   if (is_tangent_due(options_.tangent, tangent_, iteration, steps_)) tangent_.refresh(u, kind);
   const VectorXd moved = elimination_.transformation() * q + loads.fixed_offset - u;
   const auto& t = elimination_.transformation();
   Eigen::MatrixXd columns(elimination_.reduced_size(), 2);
-  columns.col(0) = t.transpose() * (loads.fixed - (iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u)));
+  columns.col(0) =
+      t.transpose() * (loads.fixed - (iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u)));
   columns.col(1) = t.transpose() * loads.driven;
   if (!moved.isZero(0.0)) columns.col(0) -= tangent_.reduced_forces(u, moved, kind);
   if (!loads.driven_offset.isZero(0.0)) columns.col(1) -= tangent_.reduced_forces(u, loads.driven_offset, kind);
@@ -142,10 +159,13 @@ PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenL
   return {t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset};
 }
 
-/// Takes the share of the correction at which the residual does no more work on it; each share has an intensity of its own.
+/// Takes the share of the correction at which the residual does no more work on it; each share has an intensity of its
+/// own.
 void PathFollowing::shorten(double wanted, const DrivenLoads& loads, const VectorXd& u, Correction& change) {
   if (!loads.driven_offset.isZero(0.0))
-    throw Error("unsupported", "a line search along the path needs driven loads that are forces, not imposed displacements", "leave out RECH_LINEAIRE");
+    throw Error("unsupported",
+                "a line search along the path needs driven loads that are forces, not imposed displacements",
+                "leave out RECH_LINEAIRE");
   const Correction whole = change;
   const auto direction = [&]() -> VectorXd {
     const VectorXd full = whole.constant + intensity_ * whole.linear;
@@ -172,10 +192,14 @@ VectorXd PathFollowing::controlled(const VectorXd& u) const {
 std::vector<double> PathFollowing::candidates(double wanted, const Correction& change, const VectorXd& u) const {
   const VectorXd constant = u - start_ + change.constant;
   switch (control_.measure) {
-    case PathMeasure::displacement: return by_displacement(wanted, constant, change.linear);
-    case PathMeasure::arc_length: return by_arc_length(wanted, constant, change.linear);
-    case PathMeasure::strain: return strains_->intensities(wanted, constant, change.linear);
-    case PathMeasure::elastic_prediction: return prediction_->intensities(wanted, constant, change.linear);
+    case PathMeasure::displacement:
+      return by_displacement(wanted, constant, change.linear);
+    case PathMeasure::arc_length:
+      return by_arc_length(wanted, constant, change.linear);
+    case PathMeasure::strain:
+      return strains_->intensities(wanted, constant, change.linear);
+    case PathMeasure::elastic_prediction:
+      return prediction_->intensities(wanted, constant, change.linear);
   }
   return {};
 }
@@ -188,14 +212,16 @@ VectorXd PathFollowing::motions(VectorXd u) const {
   return u;
 }
 
-std::vector<double> PathFollowing::by_displacement(double wanted, const VectorXd& constant, const VectorXd& linear) const {
+std::vector<double> PathFollowing::by_displacement(double wanted, const VectorXd& constant,
+                                                   const VectorXd& linear) const {
   const double slope = controlled(linear).sum();
   if (!(std::abs(slope) > no_influence * largest_component(motions(linear)))) return {};
   return {(wanted - controlled(constant).sum()) / slope};
 }
 
 /// |a + x b|^2 / n = wanted^2, n the number of nodes.
-std::vector<double> PathFollowing::by_arc_length(double wanted, const VectorXd& constant, const VectorXd& linear) const {
+std::vector<double> PathFollowing::by_arc_length(double wanted, const VectorXd& constant,
+                                                 const VectorXd& linear) const {
   const VectorXd a = controlled(constant);
   const VectorXd b = controlled(linear);
   const auto count = static_cast<double>(controlled_nodes_);
@@ -219,18 +245,24 @@ std::vector<double> PathFollowing::admitted(const std::vector<double>& found) co
     if (!turns && each >= control_.least_sought && each <= control_.most_sought) admitted.push_back(bounded(each));
   }
   if (admitted.empty())
-    throw Error("no-convergence",
-                fmt::format("at t = {:.6g} {} gives the increment that the path is to have{}", time_,
-                            found.empty() ? "no intensity of the driven loads" : "no admitted intensity of the driven loads",
-                            found.empty() ? "" : fmt::format(" ({:.6g}{} would)", found.front(), found.size() > 1 ? fmt::format(" or {:.6g}", found.back()) : "")),
-                "take shorter steps, or a larger COEF_MULT, or control another displacement");
+    throw Error(
+        "no-convergence",
+        fmt::format("at t = {:.6g} {} gives the increment that the path is to have{}", time_,
+                    found.empty() ? "no intensity of the driven loads" : "no admitted intensity of the driven loads",
+                    found.empty() ? ""
+                                  : fmt::format(" ({:.6g}{} would)", found.front(),
+                                                found.size() > 1 ? fmt::format(" or {:.6g}", found.back()) : "")),
+        "take shorter steps, or a larger COEF_MULT, or control another displacement");
   return admitted;
 }
 
-/// The one of the intensities found that the user admits and asks for, or that iterations which are to stay near reach first.
-double PathFollowing::chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+/// The one of the intensities found that the user admits and asks for, or that iterations which are to stay near reach
+/// first.
+double PathFollowing::chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads,
+                             const VectorXd& u) {
   const std::vector<double> choice = admitted(found);
-  const double nearest = *std::ranges::min_element(choice, {}, [&](double each) { return std::abs(each - intensity_); });
+  const double nearest =
+      *std::ranges::min_element(choice, {}, [&](double each) { return std::abs(each - intensity_); });
   if (taking_ == Taking::nearest) return nearest;
   double taken = best_of(choice, change, loads, u);
   if (turns_back_by_rounding(choice, change, loads, u, taken)) taken = other_of(choice, taken);
@@ -241,8 +273,10 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
 
 /// The smaller, the better.
 double PathFollowing::cost(double intensity, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
-  if (control_.choice == PathChoice::smallest_residual) return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
-  if (control_.choice == PathChoice::smallest_increment || !knows_direction()) return increment(intensity, change, u).norm();
+  if (control_.choice == PathChoice::smallest_residual)
+    return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
+  if (control_.choice == PathChoice::smallest_increment || !knows_direction())
+    return increment(intensity, change, u).norm();
   return -advance(intensity, change, u);
 }
 
@@ -258,7 +292,8 @@ double PathFollowing::advance(double intensity, const Correction& change, const 
   return own.dot(last_step_) / std::max(own.norm(), std::numeric_limits<double>::min());
 }
 
-double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
+double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+                              const VectorXd& u) {
   double best = choice.back();
   double least = cost(best, change, loads, u);
   for (std::size_t i = 0; i + 1 < choice.size(); ++i) {
@@ -271,11 +306,16 @@ double PathFollowing::best_of(const std::vector<double>& choice, const Correctio
   return best;
 }
 
-/// From where the body is in balance an increment and its opposite are equally long but for what the last step has left: it goes on.
-bool PathFollowing::turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const VectorXd& u, double best) {
-  if (control_.choice != PathChoice::smallest_increment || taking_ != Taking::first || choice.size() != 2 || !knows_direction()) return false;
+/// From where the body is in balance an increment and its opposite are equally long but for what the last step has
+/// left: it goes on.
+bool PathFollowing::turns_back_by_rounding(const std::vector<double>& choice, const Correction& change,
+                                           const DrivenLoads& loads, const VectorXd& u, double best) {
+  if (control_.choice != PathChoice::smallest_increment || taking_ != Taking::first || choice.size() != 2 ||
+      !knows_direction())
+    return false;
   const double other = other_of(choice, best);
-  return cost(other, change, loads, u) < (1.0 + same_length) * cost(best, change, loads, u) && advance(other, change, u) > 0.0 && advance(best, change, u) < 0.0;
+  return cost(other, change, loads, u) < (1.0 + same_length) * cost(best, change, loads, u) &&
+         advance(other, change, u) > 0.0 && advance(best, change, u) < 0.0;
 }
 
 /// Where the body cannot be, no residual is larger.

@@ -22,31 +22,35 @@ namespace comma::solver {
 
 /// What stays the same and what the intensity multiplies, at the end of a step.
 struct DrivenLoads {
-  Eigen::VectorXd fixed;          ///< forces over all degrees of freedom
+  Eigen::VectorXd fixed;  ///< forces over all degrees of freedom
   Eigen::VectorXd driven;
-  Eigen::VectorXd fixed_offset;   ///< g of u = T q + g
+  Eigen::VectorXd fixed_offset;  ///< g of u = T q + g
   Eigen::VectorXd driven_offset;
 };
 
-/// An iteration solves K d = R + intensity F for the correction d, which is d0 + intensity d1 with two right-hand sides and one factor; the
-/// measure of the whole increment then gives the intensity (Batoz and Dhatt, International Journal for Numerical Methods in Engineering
-/// 14, 1979; Crisfield, Computers and Structures 13, 1981). Where it leaves two, and iterations that choose between them in the user's way go to and fro without
-/// converging, the step begins again: the first iteration chooses, and the others stay with the one that is nearest. Without contact and unilateral conditions.
+/// An iteration solves K d = R + intensity F for the correction d, which is d0 + intensity d1 with two right-hand sides
+/// and one factor; the measure of the whole increment then gives the intensity (Batoz and Dhatt, International Journal
+/// for Numerical Methods in Engineering 14, 1979; Crisfield, Computers and Structures 13, 1981). Where it leaves two,
+/// and iterations that choose between them in the user's way go to and fro without converging, the step begins again:
+/// the first iteration chooses, and the others stay with the one that is nearest. Without contact and unilateral
+/// conditions.
 class PathFollowing {
  public:
   /// Keeps references to its arguments. Throws Error `unknown-dof` where a controlled node lacks a component.
-  PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
-                const NewtonOptions& options, Counters& counters, TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer);
+  PathFollowing(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler,
+                const Elimination& elimination, const NewtonOptions& options, Counters& counters,
+                TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer);
 
-  /// Takes q and u from the beginning of a step to its end, `duration` later in time. Returns the number of iterations. Throws Error
-  /// `no-convergence`, also where no intensity gives the measure asked for, and what the tangent throws.
+  /// Takes q and u from the beginning of a step to its end, `duration` later in time. Returns the number of iterations.
+  /// Throws Error `no-convergence`, also where no intensity gives the measure asked for, and what the tangent throws.
   int solve(double time, double duration, const DrivenLoads& loads, Eigen::VectorXd& q, Eigen::VectorXd& u);
 
   /// The step is accepted at u.
   void accept_step(const Eigen::VectorXd& u);
   double intensity() const { return intensity_; }
   void set_intensity(double value) { intensity_ = accepted_ = value; }
-  /// The path came here by such an increment of displacement, and goes on in its direction where the choice is by the angle.
+  /// The path came here by such an increment of displacement, and goes on in its direction where the choice is by the
+  /// angle.
   void set_direction(const Eigen::VectorXd& increment) { last_step_ = motions(increment); }
   /// Of two solutions the next steps take the one that the choice passes over, or again the one that it makes.
   void take_other_solution(bool other) { takes_other_ = other; }
@@ -68,8 +72,10 @@ class PathFollowing {
   Correction correction(int iteration, const DrivenLoads& loads, const Eigen::VectorXd& q, const Eigen::VectorXd& u);
   void shorten(double wanted, const DrivenLoads& loads, const Eigen::VectorXd& u, Correction& change);
   std::vector<double> candidates(double wanted, const Correction& change, const Eigen::VectorXd& u) const;
-  std::vector<double> by_displacement(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
-  std::vector<double> by_arc_length(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
+  std::vector<double> by_displacement(double wanted, const Eigen::VectorXd& constant,
+                                      const Eigen::VectorXd& linear) const;
+  std::vector<double> by_arc_length(double wanted, const Eigen::VectorXd& constant,
+                                    const Eigen::VectorXd& linear) const;
   Eigen::VectorXd controlled(const Eigen::VectorXd& u) const;
   Eigen::VectorXd motions(Eigen::VectorXd u) const;
   std::vector<double> admitted(const std::vector<double>& found) const;
@@ -77,9 +83,12 @@ class PathFollowing {
   Eigen::VectorXd increment(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
   bool knows_direction() const;
   double advance(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
-  bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u, double best);
-  double best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
-  double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+                              const Eigen::VectorXd& u, double best);
+  double best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+                 const Eigen::VectorXd& u);
+  double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads,
+                const Eigen::VectorXd& u);
   double bounded(double intensity) const;
   double residual_or_infinity(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
   void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
@@ -104,11 +113,11 @@ class PathFollowing {
   int controlled_nodes_ = 0;
   double time_ = 0.0;
   double intensity_ = 0.0;
-  double accepted_ = 0.0;      ///< intensity of the last accepted step
-  Eigen::VectorXd start_;      ///< u where the step begins
+  double accepted_ = 0.0;            ///< intensity of the last accepted step
+  Eigen::VectorXd start_;            ///< u where the step begins
   Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push in this step
-  Eigen::VectorXd last_step_;  ///< increment of the last accepted step; empty before it
-  Eigen::VectorXd residual_;   ///< reduced
+  Eigen::VectorXd last_step_;        ///< increment of the last accepted step; empty before it
+  Eigen::VectorXd residual_;         ///< reduced
   RowWeights weights_;
   double load_ = 0.0;
   int steps_ = 0;

@@ -28,13 +28,22 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 class Summation {
  public:
   Summation(const Model& model, const DofMap& dofs, const ReferenceEfforts& efforts)
-      : model_(model), mesh_(*model.mesh), dofs_(dofs), efforts_(efforts), points_(model), sums_(VectorXd::Zero(dofs.size())), counts_(VectorXd::Zero(dofs.size())), least_(VectorXd::Constant(dofs.size(), unknown)) {}
+      : model_(model),
+        mesh_(*model.mesh),
+        dofs_(dofs),
+        efforts_(efforts),
+        points_(model),
+        sums_(VectorXd::Zero(dofs.size())),
+        counts_(VectorXd::Zero(dofs.size())),
+        least_(VectorXd::Constant(dofs.size(), unknown)) {}
 
   VectorXd of_all() {
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
       if (model_.formulations[static_cast<std::size_t>(cell)] == Formulation::none) continue;
-      if (points_.covers(cell)) add_continuum(cell);
-      else if (!model_.is_skin(cell)) add_structure(cell);
+      if (points_.covers(cell))
+        add_continuum(cell);
+      else if (!model_.is_skin(cell))
+        add_structure(cell);
     }
     return (least_.array() < unknown).select(least_.array(), sums_.array() / counts_.array().max(1.0));
   }
@@ -42,7 +51,9 @@ class Summation {
  private:
   void require(double effort, int cell, const char* keyword) const {
     if (effort > 0.0) return;
-    throw Error("missing-reference", fmt::format("RESI_REFE_RELA: the element on cell {} needs {}", mesh_.cell_name(cell), keyword), fmt::format("give {}", keyword));
+    throw Error("missing-reference",
+                fmt::format("RESI_REFE_RELA: the element on cell {} needs {}", mesh_.cell_name(cell), keyword),
+                fmt::format("give {}", keyword));
   }
 
   void add(int node, Component component, double force) {
@@ -67,19 +78,22 @@ class Summation {
     }
     if (model_.corner_components_of(cell) != 0) return add_mixed(cell, forces);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (const Component component : translation_components) add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
+      for (const Component component : translation_components)
+        add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
   }
 
-  /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements have the sum, and of the cells at a node the least
-  /// (docs/conformance.md). The balance of the pressure is one of strains, that of the swelling one of stresses: integrals of both times the
-  /// shape functions of the corners.
+  /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements have the sum,
+  /// and of the cells at a node the least (docs/conformance.md). The balance of the pressure is one of strains, that of
+  /// the swelling one of stresses: integrals of both times the shape functions of the corners.
   void add_mixed(int cell, const VectorXd& forces) {
     const double components = continuum_dimension(model_.formulations[static_cast<std::size_t>(cell)]) == 3 ? 7.0 : 5.0;
     for (Eigen::Index i = 0; i < forces.size(); ++i)
-      for (const Component component : translation_components) add_least(mesh_.cell(cell)[static_cast<std::size_t>(i)], component, forces[i] / components);
+      for (const Component component : translation_components)
+        add_least(mesh_.cell(cell)[static_cast<std::size_t>(i)], component, forces[i] / components);
     require(efforts_.strain, cell, "EPSI_REFE");
     const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
-    const Quadrature rule = quadrature(type, stiffness_family(type, model_.formulations[static_cast<std::size_t>(cell)]));
+    const Quadrature rule =
+        quadrature(type, stiffness_family(type, model_.formulations[static_cast<std::size_t>(cell)]));
     const CellType linear = linear_cell(model_, cell);
     VectorXd volumes = VectorXd::Zero(corner_count(type));
     for (std::size_t g = 0; g < rule.size(); ++g)
@@ -120,7 +134,9 @@ VectorXd reference_forces(const Model& model, const DofMap& dofs, const Referenc
   return Summation(model, dofs, efforts).of_all();
 }
 
-ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options) : dofs_(dofs) {
+ReferenceForces::ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination,
+                                 const NewtonOptions& options)
+    : dofs_(dofs) {
   if (options.referred_residual) all_ = reference_forces(model, dofs, options.reference);
   renumber(elimination);
 }

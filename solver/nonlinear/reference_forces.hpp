@@ -12,13 +12,15 @@
 
 namespace comma::solver {
 
-/// At each degree of freedom the mean over the elements there of what reference efforts would make of internal force: in a continuum the
-/// integral of the stress times the gradient of the node's shape function, its components taken by their size and added; of mixed elements the least of their means, and integrals of the strain for the pressure and of the stress for the swelling; in bars, beams, springs
-/// the resultants themselves; in plates times a length of the cell.
+/// At each degree of freedom the mean over the elements there of what reference efforts would make of internal force:
+/// in a continuum the integral of the stress times the gradient of the node's shape function, its components taken by
+/// their size and added; of mixed elements the least of their means, and integrals of the strain for the pressure and
+/// of the stress for the swelling; in bars, beams, springs the resultants themselves; in plates times a length of the
+/// cell.
 class ReferenceForces {
  public:
-  /// Computes nothing unless the options ask for RESI_REFE_RELA. Throws Error `missing-reference` where an element has none of the efforts
-  /// that are given.
+  /// Computes nothing unless the options ask for RESI_REFE_RELA. Throws Error `missing-reference` where an element has
+  /// none of the efforts that are given.
   ReferenceForces(const Model& model, const DofMap& dofs, const Elimination& elimination, const NewtonOptions& options);
 
   /// The largest share that a component of a reduced residual has of its reference; 0 where none is asked for.
@@ -30,15 +32,16 @@ class ReferenceForces {
   /// A step begins with these internal forces, one a degree of freedom.
   void begin_step(const Eigen::VectorXd& internal_forces);
 
-  /// The largest of the shares that the largest residual of each kind of component has of the largest internal force of that kind where the step
-  /// began; a kind without such a force takes the largest of all. Nothing where there is none at all.
+  /// The largest of the shares that the largest residual of each kind of component has of the largest internal force of
+  /// that kind where the step began; a kind without such a force takes the largest of all. Nothing where there is none
+  /// at all.
   std::optional<double> share_by_component(const Eigen::VectorXd& residual) const;
 
  private:
   const DofMap& dofs_;
   Eigen::VectorXd all_;  ///< empty unless RESI_REFE_RELA is asked for
   Eigen::VectorXd reduced_;
-  std::vector<int> kinds_;  ///< the component of each reduced unknown
+  std::vector<int> kinds_;                         ///< the component of each reduced unknown
   std::array<double, component_count> largest_{};  ///< internal force by component
 };
 

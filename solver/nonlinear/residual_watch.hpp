@@ -16,11 +16,12 @@ struct ResidualWatch {
 
 ResidualWatch residual_watch(const StepPlan& plan);
 
-/// Throws Error `residual-diverges` where neither of the last two residuals is below the one before them, `residual-too-large` beyond the limit.
+/// Throws Error `residual-diverges` where neither of the last two residuals is below the one before them,
+/// `residual-too-large` beyond the limit.
 void look_at_residuals(const ResidualWatch& watch, std::span<const IterationReport> history);
 
-/// How many iterations it takes at the mean rate of the last three residuals until the last one has shrunk `excess` times; nothing where they
-/// do not shrink.
+/// How many iterations it takes at the mean rate of the last three residuals until the last one has shrunk `excess`
+/// times; nothing where they do not shrink.
 std::optional<int> iterations_to_go(std::span<const IterationReport> history, double excess);
 
 }  // namespace comma::solver

@@ -52,9 +52,11 @@ void StaticRun::start(double instant) {
   assembler_.impose_strains(loads_so_far(), instant);
   resume();
   if (options_.note_unused_stresses && problem_.initial && problem_.initial->stresses) {
-    if (const auto cell = cell_of_other_stresses(assembler_.stresses(now_.state.u), *problem_.initial->stresses)) options_.note_unused_stresses(*cell);
+    if (const auto cell = cell_of_other_stresses(assembler_.stresses(now_.state.u), *problem_.initial->stresses))
+      options_.note_unused_stresses(*cell);
   }
-  if (problem_.initial || !result_.steps.empty()) newton_.begin_with(assembler_.external_forces(loads_so_far(), instant), assembler_.internal_forces(now_.state.u));
+  if (problem_.initial || !result_.steps.empty())
+    newton_.begin_with(assembler_.external_forces(loads_so_far(), instant), assembler_.internal_forces(now_.state.u));
   if (mixed_) mixed_->begin_at(now_.state.u, contact_so_far());
   go_on_with_path();
   if (!result_.steps.empty()) {
@@ -78,7 +80,8 @@ void StaticRun::start(double instant) {
 /// What is given is the state itself, not what the laws would make of it now.
 void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
   if (given.stresses) take_common_values(step.fields.at("SIEF_ELGA"), *given.stresses);
-  if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr) take_common_values(step.fields.at("VARI_ELGA"), *variables);
+  if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr)
+    take_common_values(step.fields.at("VARI_ELGA"), *variables);
   if (given.contact_fields.empty()) return;
   for (const auto& [name, field] : given.contact_fields) step.fields.insert_or_assign(name, field);
   step.contact = given.contact;
@@ -87,7 +90,8 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
 
 Eigen::VectorXd StaticRun::differential_reference() const {
   Eigen::VectorXd u = now_.state.u;
-  if (problem_.initial && problem_.initial->differential_reference) take_displacements(*problem_.initial->differential_reference, dofs_, u);
+  if (problem_.initial && problem_.initial->differential_reference)
+    take_displacements(*problem_.initial->differential_reference, dofs_, u);
   return u;
 }
 
@@ -115,7 +119,8 @@ std::shared_ptr<const ContactMemory> StaticRun::contact_so_far() const {
 void StaticRun::resume() {
   const auto address = [](const auto& field) { return field ? &*field : nullptr; };
   if (problem_.initial)
-    assembler_.resume(now_.state.u, address(problem_.initial->stresses), of_memory(address(problem_.initial->variables)));
+    assembler_.resume(now_.state.u, address(problem_.initial->stresses),
+                      of_memory(address(problem_.initial->variables)));
   else if (!result_.steps.empty())
     assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
   else
@@ -124,7 +129,8 @@ void StaticRun::resume() {
 
 const ElementField* StaticRun::of_memory(const ElementField* variables) {
   if (variables == nullptr || variables->components.size() > 1) return variables;
-  return std::ranges::any_of(variables->values, [](double value) { return std::abs(value) > 0.0; }) ? variables : nullptr;
+  return std::ranges::any_of(variables->values, [](double value) { return std::abs(value) > 0.0; }) ? variables
+                                                                                                    : nullptr;
 }
 
 ElementField StaticRun::initial_stresses() const {

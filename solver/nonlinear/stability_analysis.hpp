@@ -33,20 +33,20 @@ enum class ModeSelection : std::uint8_t {
 /// Signs of load factors that count as an instability.
 enum class InstabilitySign : std::uint8_t { negative, positive, either };
 
-/// After each of the steps that it is asked for: (K + value G) x = 0, with the tangent K and the stiffness G that the stresses of the step add, so that
-/// `value` times the loads are critical; K x = value x where G is part of K.
+/// After each of the steps that it is asked for: (K + value G) x = 0, with the tangent K and the stiffness G that the
+/// stresses of the step add, so that `value` times the loads are critical; K x = value x where G is part of K.
 struct StabilityAnalysis {
   ModeSelection selection = ModeSelection::smallest;
-  int count = 3;        ///< NMAX_CHAR_CRIT
-  double first = 0.0;   ///< the interval, CHAR_CRIT
+  int count = 3;       ///< NMAX_CHAR_CRIT
+  double first = 0.0;  ///< the interval, CHAR_CRIT
   double last = 0.0;
-  bool geometric = true;               ///< RIGI_GEOM='OUI': G apart, for small displacements
-  std::vector<Component> excluded;     ///< DDL_EXCLUS: components that the modes do not have
-  double precision = 1e-6;             ///< PREC_INSTAB
+  bool geometric = true;            ///< RIGI_GEOM='OUI': G apart, for small displacements
+  std::vector<Component> excluded;  ///< DDL_EXCLUS: components that the modes do not have
+  double precision = 1e-6;          ///< PREC_INSTAB
   InstabilitySign sign = InstabilitySign::either;
-  std::vector<double> instants;        ///< when; empty: every `period` steps
+  std::vector<double> instants;  ///< when; empty: every `period` steps
   int period = 1;
-  double instant_tolerance = 1e-6;     ///< instants this near are the same: a share of them, or s
+  double instant_tolerance = 1e-6;  ///< instants this near are the same: a share of them, or s
   bool absolute_tolerance = false;
   std::function<void(const StabilityReport&)> report;
 };

@@ -11,7 +11,8 @@ void require_solvable(const StaticProblem& problem, const StepPlan& plan, const 
 }
 
 ContactDoubts solve_static(const StaticProblem& problem, const StepPlan& plan, const NewtonOptions& options,
-                           Result& result, Counters& counters, const IterationObserver& observer, const StepObserver& after_step) {
+                           Result& result, Counters& counters, const IterationObserver& observer,
+                           const StepObserver& after_step) {
   NewtonOptions chosen = options;
   const bool solves_once = !problem.contact && problem.unilateral.empty() && !options.path && !options.stability;
   chosen.few_solutions = solves_once && plan.instants.size() <= TangentSystem::few_solutions + 1;

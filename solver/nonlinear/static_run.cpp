@@ -49,10 +49,13 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
   require_known_combination(problem, options, assembler_, !links_.empty());
   require_carried_surfaces(problem);
   if (!links_.empty()) let_links_turn();
-  if (options.path) path_ = std::make_unique<PathFollowing>(problem, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, observer);
+  if (options.path)
+    path_ = std::make_unique<PathFollowing>(problem, dofs_, assembler_, elimination_, options, counters, tangent_,
+                                            reference_, observer);
   if (!is_mixed()) return;
   tangent_.allow_springs();
-  mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters, support());
+  mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters,
+                                          support());
   newton_.attach(mixed_.get());
 }
 
@@ -72,7 +75,8 @@ void StaticRun::run(const StepPlan& plan) {
     if (path_) path_->accept_step(now_.state.u);
     mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(doubts_);
     note_doubts_about_surfaces(instant);
-    if (problem_.contact && !problem_.contact->stop_on_interpenetration) note_interpenetration(*problem_.contact, mesh_, positions(), instant, doubts_);
+    if (problem_.contact && !problem_.contact->stop_on_interpenetration)
+      note_interpenetration(*problem_.contact, mesh_, positions(), instant, doubts_);
     archive(instant, *iterations);
     assembler_.accept(now_.state.u);
     begin_measuring();
@@ -83,7 +87,10 @@ void StaticRun::run(const StepPlan& plan) {
     sequence.accept(*iterations, watch_->changes());
     if (path_ && path_->has_ended()) return;
     if (unstable && plan.stops_when_unstable)
-      throw Error("instability", fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there (EVENEMENT='INSTABILITE', ACTION='ARRET')", instant),
+      throw Error("instability",
+                  fmt::format("at INST={:g} the body is unstable, and the computation was asked to stop there "
+                              "(EVENEMENT='INSTABILITE', ACTION='ARRET')",
+                              instant),
                   "with reuse= the steps up to there are kept; ACTION='CONTINUE' goes on");
   }
   if (mixed_) mixed_->note_loose_bodies(doubts_);
@@ -102,7 +109,9 @@ void StaticRun::begin(const StepPlan& plan) {
 void StaticRun::limit_depth(const StepEvent* event) {
   if (event == nullptr) return;
   if (!mixed_ || !mixed_->has_penalties())
-    throw Error("contradictory-keywords", "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')", "take ALGO_CONT='PENALISATION', or leave out the event");
+    throw Error("contradictory-keywords",
+                "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')",
+                "take ALGO_CONT='PENALISATION', or leave out the event");
   if (event->most_stiffening) mixed_->limit_depth(event->limit, *event->most_stiffening);
 }
 
@@ -112,13 +121,16 @@ void StaticRun::begin_measuring() {
 
 bool StaticRun::find_modes(double instant, int accepted) {
   if (!options_.stability || !is_stability_due(*options_.stability, instant, accepted)) return false;
-  const StabilityReport report = critical_modes(*options_.stability, instant, now_.state.u, assembler_, elimination_, dofs_);
+  const StabilityReport report =
+      critical_modes(*options_.stability, instant, now_.state.u, assembler_, elimination_, dofs_);
   if (!report.modes.empty()) {
-    const auto smallest = std::ranges::min_element(report.modes, {}, [](const CriticalMode& mode) { return std::abs(mode.value); });
+    const auto smallest =
+        std::ranges::min_element(report.modes, {}, [](const CriticalMode& mode) { return std::abs(mode.value); });
     result_.steps.back().parameters["CHAR_CRIT"] = smallest->value;
     result_.steps.back().fields.insert_or_assign("MODE_FLAMB", smallest->shape);
   }
-  if (report.unstable && observer_) observer_(event_of_step(instant, fmt::format("at {:.6g} the body is unstable", instant)));
+  if (report.unstable && observer_)
+    observer_(event_of_step(instant, fmt::format("at {:.6g} the body is unstable", instant)));
   if (options_.stability->report) options_.stability->report(report);
   return report.unstable;
 }
@@ -127,8 +139,10 @@ void StaticRun::note_doubts_about_surfaces(double instant) {
   if (!problem_.contact || path_ || !now_.paired) return;
   if (!surface_doubts_) surface_doubts_.emplace(*problem_.contact, mesh_);
   const std::vector<Vector3d> now = positions();
-  SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(problem_.contact->zones.size()), {}, {}, {}};
-  if (problem_.contact->geometry_update != GeometryUpdate::automatic) state.pairs = [&] { return pairs_solved_with(instant); };
+  SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(problem_.contact->zones.size()),
+                     {},      {},  {}};
+  if (problem_.contact->geometry_update != GeometryUpdate::automatic)
+    state.pairs = [&] { return pairs_solved_with(instant); };
   if (std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) {
     state.averages = mixed_->points();
     state.averages_as_is = [&] { return contact_points(*problem_.contact, *problem_.model, now, instant); };
@@ -164,7 +178,8 @@ std::vector<AppliedLoad> StaticRun::all_conditions(const Eigen::VectorXd& u) con
 }
 
 void StaticRun::let_links_turn() {
-  newton_.relinearise({[this](double time, NewtonState& state) { return turn_links(time, state); }, [this](const Eigen::VectorXd& u) { return links_.violation(u); }});
+  newton_.relinearise({[this](double time, NewtonState& state) { return turn_links(time, state); },
+                       [this](const Eigen::VectorXd& u) { return links_.violation(u); }});
 }
 
 Eigen::VectorXd StaticRun::turn_links(double time, NewtonState& state) {
@@ -189,7 +204,8 @@ std::vector<int> StaticRun::nodes_of_contact() const {
 
 std::vector<int> StaticRun::support() const {
   std::set<int> nodes(contact_nodes_.begin(), contact_nodes_.end());
-  for (const UnilateralCondition& condition : problem_.unilateral) nodes.insert(condition.nodes.begin(), condition.nodes.end());
+  for (const UnilateralCondition& condition : problem_.unilateral)
+    nodes.insert(condition.nodes.begin(), condition.nodes.end());
   return unknowns_behind(nodes, dofs_, elimination_);
 }
 

@@ -52,14 +52,16 @@ class StaticRun {
   /// With the relations of rigid bodies at the displacements u.
   std::vector<AppliedLoad> all_conditions(const Eigen::VectorXd& u) const;
   void let_links_turn();
-  /// The relations of rigid bodies at the state, which then satisfies them as they are linear there; returns the offset.
+  /// The relations of rigid bodies at the state, which then satisfies them as they are linear there; returns the
+  /// offset.
   Eigen::VectorXd turn_links(double time, NewtonState& state);
   std::vector<int> nodes_of_contact() const;
   /// The reduced unknowns behind the nodes that conditions speak of.
   std::vector<int> support() const;
 
   // A step in the ways that there are (step_attempts.cpp).
-  /// The number of iterations; nothing when the step has failed, or does what it must not, and is cut. Throws what a step that cannot be cut throws.
+  /// The number of iterations; nothing when the step has failed, or does what it must not, and is cut. Throws what a
+  /// step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence);
   std::nullopt_t take_again(double instant, const Progress& before, const StepSequence& sequence, std::string_view why);
   void take_back(const Progress& before);
@@ -67,14 +69,19 @@ class StaticRun {
   std::vector<char> closed_points() const;
   /// A step in which points close or open is taken again, shorter, as long as it may be: then it stands.
   bool refines_collision(const std::vector<char>& before, StepSequence& sequence) const;
-  /// Whether Newton's method takes statuses and geometry along, as Code_Aster does: figures are then those of the same iterations (ssnv104d, to 2e-12).
-  bool iterates_jointly() const { return problem_.contact->joint_iterations && !options_.line_search && mixed_->can_iterate_jointly(); }
-  /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else in parts of a step that has been cut (ssnv506e), or where it cannot be.
+  /// Whether Newton's method takes statuses and geometry along, as Code_Aster does: figures are then those of the same
+  /// iterations (ssnv104d, to 2e-12).
+  bool iterates_jointly() const {
+    return problem_.contact->joint_iterations && !options_.line_search && mixed_->can_iterate_jointly();
+  }
+  /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else in parts
+  /// of a step that has been cut (ssnv506e), or where it cannot be.
   int solve_jointly_or_settled(double instant, const Progress& before, bool is_part);
   int solve_settled(double instant, const Progress& before);
   /// Of a step that cannot be cut.
   int solve_as_last_resort(double instant, const Progress& before, const Error& error);
-  /// A prediction by the tangent leads astray where what flowed is unloaded: such a step is tried again from the elastic side.
+  /// A prediction by the tangent leads astray where what flowed is unloaded: such a step is tried again from the
+  /// elastic side.
   int solve_from_either_side(double instant, const Progress& before);
   /// Supports so weak that they cost the digits of what contact does stand aside while it is sought.
   int solve_on_stiffer_supports(double instant, const Progress& before, const Error& failure);
@@ -91,7 +98,8 @@ class StaticRun {
   DrivenLoads driven_loads(double time);
   /// Puts the unknowns where the step is guessed to end, if anything but where it begins.
   void guess(double time, const Eigen::VectorXd& offset);
-  /// The surfaces as the displacements `u` have them: at first those with which the step begins, whatever is guessed of its end.
+  /// The surfaces as the displacements `u` have them: at first those with which the step begins, whatever is guessed of
+  /// its end.
   void pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates);
   void resize_multipliers(const ConditionSet& next);
   /// ITER_CONT_MULT changes a condition; unilateral conditions alone need no user's word on it.
@@ -111,7 +119,8 @@ class StaticRun {
   std::shared_ptr<const ContactMemory> contact_so_far() const;
   /// The one variable of elasticity is zero, and says nothing to a law with a memory.
   static const ElementField* of_memory(const ElementField* variables);
-  /// Without an initial state the body starts without stress, even where its first temperature is not that of reference.
+  /// Without an initial state the body starts without stress, even where its first temperature is not that of
+  /// reference.
   ElementField initial_stresses() const;
   void keep_given(const InitialState& given, ResultStep& step) const;
   /// Null where the step has it not.
@@ -156,7 +165,7 @@ class StaticRun {
   ContactDoubts doubts_;
   Eigen::VectorXd start_;  ///< u at the beginning of the step
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
-  int accepted_ = 0;  ///< steps
+  int accepted_ = 0;       ///< steps
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
   const StepPlan* plan_ = nullptr;

@@ -34,9 +34,12 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   }
 }
 
-std::nullopt_t StaticRun::take_again(double instant, const Progress& before, const StepSequence& sequence, std::string_view why) {
+std::nullopt_t StaticRun::take_again(double instant, const Progress& before, const StepSequence& sequence,
+                                     std::string_view why) {
   take_back(before);
-  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
+  if (observer_)
+    observer_(event_of_step(
+        instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
   return std::nullopt;
 }
 
@@ -54,8 +57,11 @@ bool StaticRun::refines_collision(const std::vector<char>& before, StepSequence&
   if (before.size() != now.size() || before == now) return false;
   if (event->around) return sequence.refine(*event->around);
   if (event->cutting) return sequence.cut(*event->cutting);
-  throw Error("contact-changes", fmt::format("points of contact close or open in the step to t = {:.6g}, and the computation is to stop there", sequence.target()),
-              "write ACTION='DECOUPE' to go on in shorter steps");
+  throw Error(
+      "contact-changes",
+      fmt::format("points of contact close or open in the step to t = {:.6g}, and the computation is to stop there",
+                  sequence.target()),
+      "write ACTION='DECOUPE' to go on in shorter steps");
 }
 
 int StaticRun::solve_jointly_or_settled(double instant, const Progress& before, bool is_part) {
@@ -70,7 +76,9 @@ int StaticRun::solve_jointly_or_settled(double instant, const Progress& before, 
 
 int StaticRun::solve_settled(double instant, const Progress& before) {
   take_back(before);
-  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} starts again, with contact settled within each iteration", instant)));
+  if (observer_)
+    observer_(event_of_step(
+        instant, fmt::format("the step to {:.6g} starts again, with contact settled within each iteration", instant)));
   mixed_->iterate_jointly(false);
   const OnExit as_before([&] { mixed_->iterate_jointly(true); });
   return solve_from_either_side(instant, before);
@@ -89,13 +97,16 @@ int StaticRun::solve_from_either_side(double instant, const Progress& before) {
   try {
     return solve_and_check(instant);
   } catch (const Error& error) {
-    if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports()) return solve_on_stiffer_supports(instant, before, error);
+    if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports())
+      return solve_on_stiffer_supports(instant, before, error);
     if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
     const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
     if (!may_unload || !is_failure_of_step(error.code())) throw;
   }
   take_back(before);
-  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
+  if (observer_)
+    observer_(event_of_step(
+        instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
   newton_.predict_with(TangentKind::elastic);
   const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
   return solve_and_check(instant);
@@ -114,7 +125,9 @@ int StaticRun::solve_on_stiffer_supports(double instant, const Progress& before,
 std::optional<int> StaticRun::solve_the_other_way(double instant, const Progress& before, const Error& failure) {
   if (!path_ || !plan_->tries_other_solution || !is_failure_of_step(failure.code())) return std::nullopt;
   take_back(before);
-  if (observer_) observer_(event_of_step(instant, fmt::format("the step to {:.6g} has failed and is tried with the other intensity", instant)));
+  if (observer_)
+    observer_(event_of_step(
+        instant, fmt::format("the step to {:.6g} has failed and is tried with the other intensity", instant)));
   path_->take_other_solution(true);
   const OnExit as_before([&] { path_->take_other_solution(false); });
   try {
@@ -127,7 +140,8 @@ std::optional<int> StaticRun::solve_the_other_way(double instant, const Progress
 
 int StaticRun::solve_and_check(double instant) {
   const int iterations = solve_telling_when(instant);
-  if (problem_.contact && problem_.contact->stop_on_interpenetration) require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
+  if (problem_.contact && problem_.contact->stop_on_interpenetration)
+    require_no_interpenetration(*problem_.contact, mesh_, positions(), instant);
   return iterations;
 }
 

@@ -33,7 +33,8 @@ const StepEvent* StepPlan::event(StepEventKind kind) const {
   return found == events.end() ? nullptr : &*found;
 }
 
-StepSequence::StepSequence(StepPlan plan) : plan_(std::move(plan)), now_(plan_.instants.front()), length_(0.0), fine_until_(now_) {
+StepSequence::StepSequence(StepPlan plan)
+    : plan_(std::move(plan)), now_(plan_.instants.front()), length_(0.0), fine_until_(now_) {
   for (std::size_t k = plan_.instants.size(); k-- > 1;) pending_.push_back({plan_.instants[k], 0});
   if (!pending_.empty()) length_ = pending_.back().instant - now_;
   if (!plan_.adaptation) return;
@@ -73,9 +74,11 @@ void StepSequence::accept(int iterations, std::span<const double> changes) {
   if (reached >= pending_.back().instant) pending_.pop_back();
   if (!plan_.adaptation) return;
   if (++steps_ >= plan_.adaptation->most_steps && !finished())
-    throw Error("too-many-steps", fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
+    throw Error("too-many-steps",
+                fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
                 "raise NB_PAS_MAXI or PAS_MINI");
-  // A step that an instant of the list made shorter leaves the length as it was planned; the change of a field counts as it was (ssnp140g).
+  // A step that an instant of the list made shorter leaves the length as it was planned; the change of a field counts
+  // as it was (ssnp140g).
   adapt(whole ? length_ : length, iterations, changes);
 }
 
@@ -93,11 +96,17 @@ void StepSequence::adapt(double length, int iterations, std::span<const double> 
   }
   length_ = length;
   if (factor && !finished() && length_ * *factor < adaptation.shortest)
-    throw Error("step-too-short", fmt::format("after t = {:.6g} the steps are to adapt to {:.6g}, shorter than the shortest allowed (PAS_MINI = {:.6g})", now_, length_ * *factor, adaptation.shortest),
-                "lower PAS_MINI, or let steps shrink less (PCENT_AUGM, INCR_GRAN or NB_ITER_NEWTON_REF of ADAPTATION)");
+    throw Error(
+        "step-too-short",
+        fmt::format(
+            "after t = {:.6g} the steps are to adapt to {:.6g}, shorter than the shortest allowed (PAS_MINI = {:.6g})",
+            now_, length_ * *factor, adaptation.shortest),
+        "lower PAS_MINI, or let steps shrink less (PCENT_AUGM, INCR_GRAN or NB_ITER_NEWTON_REF of ADAPTATION)");
   if (factor) length_ = std::min(length_ * *factor, std::max(adaptation.shortest, adaptation.longest));
   if (!finished() && now_ + length_ <= now_)
-    throw Error("too-many-steps", fmt::format("steps become shorter and shorter, and at t = {:.6g} the next one has no length", now_), "give PAS_MINI, or let steps grow (PCENT_AUGM)");
+    throw Error("too-many-steps",
+                fmt::format("steps become shorter and shorter, and at t = {:.6g} the next one has no length", now_),
+                "give PAS_MINI, or let steps grow (PCENT_AUGM)");
 }
 
 bool StepSequence::cut() { return plan_.cutting && cut(*plan_.cutting); }
@@ -107,7 +116,8 @@ bool StepSequence::cut(const StepCutting& rule, double share) {
   const int depth = pending_.back().depth;
   const double first = (end - now_) * (rule.automatic ? share : 1.0 / rule.parts);
   const double shortest = std::max(rule.shortest, plan_.adaptation ? plan_.adaptation->shortest : 0.0);
-  if (depth >= (rule.automatic ? automatic_depth : rule.depth) || first < shortest || now_ + first <= now_) return false;
+  if (depth >= (rule.automatic ? automatic_depth : rule.depth) || first < shortest || now_ + first <= now_)
+    return false;
   if (end >= pending_.back().instant) pending_.pop_back();
   push_parts(rule, end, depth + 1, share);
   std::ranges::fill(easy_steps_, 0);

@@ -13,10 +13,11 @@ namespace comma::solver {
 
 /// A step that fails is cut into equal parts, and a part that fails again, down to a depth (U4.34.03, ECHEC).
 struct StepCutting {
-  int parts = 4;          ///< SUBD_PAS
-  int depth = 3;          ///< SUBD_NIVEAU: how often a step and its parts may be cut
-  double shortest = 0.0;  ///< s, SUBD_PAS_MINI: no part may be shorter
-  bool automatic = false;  ///< SUBD_METHODE='AUTO': into two, the first as long as what went wrong suggests, half where it does not, `automatic_depth` times
+  int parts = 4;           ///< SUBD_PAS
+  int depth = 3;           ///< SUBD_NIVEAU: how often a step and its parts may be cut
+  double shortest = 0.0;   ///< s, SUBD_PAS_MINI: no part may be shorter
+  bool automatic = false;  ///< SUBD_METHODE='AUTO': into two, the first as long as what went wrong suggests, half where
+                           ///< it does not, `automatic_depth` times
 };
 
 /// How often a step may be cut where the program chooses the parts.
@@ -24,7 +25,7 @@ inline constexpr int automatic_depth = 20;
 
 /// A field whose change in a step is watched.
 struct WatchedIncrement {
-  std::string field;      ///< DEPL, SIEF_ELGA, VARI_ELGA
+  std::string field;  ///< DEPL, SIEF_ELGA, VARI_ELGA
   std::string component;
   std::vector<int> nodes;  ///< empty: all
   std::vector<int> cells;  ///< empty: all
@@ -50,29 +51,30 @@ struct StepEvent {
   StepEventKind kind = StepEventKind::divergence;
   double limit = 0.0;                         ///< N of a residual, m of a depth
   std::optional<WatchedIncrement> increment;  ///< of `increment`: its `wanted` is the limit
-  std::optional<StepCutting> cutting;         ///< absent: the computation ends, unless one of the two below says what is done
-  std::optional<CollisionSteps> around;       ///< of `collision`
-  std::optional<double> most_stiffening;      ///< of `depth`: the penalty is raised, at most by this factor (COEF_MAXI)
+  std::optional<StepCutting> cutting;  ///< absent: the computation ends, unless one of the two below says what is done
+  std::optional<CollisionSteps> around;   ///< of `collision`
+  std::optional<double> most_stiffening;  ///< of `depth`: the penalty is raised, at most by this factor (COEF_MAXI)
 };
 
 /// By what factor the next step is longer, and when (U4.34.03, an occurrence of ADAPTATION).
 struct AdaptationRule {
-  bool always = false;                ///< TOUT_INST: after each step; else after some with few iterations
-  std::optional<int> few_iterations;  ///< VALE_I: with at most so many; absent: `usual_iterations`
-  bool strict = false;                ///< CRIT_COMP LT, GE: with fewer
-  bool beyond = false;                ///< CRIT_COMP GT, GE: with more instead
-  int in_a_row = 2;                   ///< NB_INCR_SEUIL: in so many steps one after the other
-  double growth = 1.0;                ///< PCENT_AUGM: longer by this share
+  bool always = false;                        ///< TOUT_INST: after each step; else after some with few iterations
+  std::optional<int> few_iterations;          ///< VALE_I: with at most so many; absent: `usual_iterations`
+  bool strict = false;                        ///< CRIT_COMP LT, GE: with fewer
+  bool beyond = false;                        ///< CRIT_COMP GT, GE: with more instead
+  int in_a_row = 2;                           ///< NB_INCR_SEUIL: in so many steps one after the other
+  double growth = 1.0;                        ///< PCENT_AUGM: longer by this share
   std::optional<int> wanted_iterations;       ///< NB_ITER_NEWTON_REF: instead, by sqrt(wanted / (taken + 1))
   std::optional<WatchedIncrement> increment;  ///< DELTA_GRANDEUR: instead, by wanted / largest change in the last
 };
 
-/// Steps between the instants of the list adapt: of the rules whose time has come the one with the smallest factor counts.
+/// Steps between the instants of the list adapt: of the rules whose time has come the one with the smallest factor
+/// counts.
 struct StepAdaptation {
-  double shortest = 0.0;                                   ///< s, PAS_MINI
+  double shortest = 0.0;                                     ///< s, PAS_MINI
   double longest = std::numeric_limits<double>::infinity();  ///< s, PAS_MAXI
-  long most_steps = 1000000;                               ///< NB_PAS_MAXI
-  int usual_iterations = 5;  ///< half of the most that Newton's method may take
+  long most_steps = 1000000;                                 ///< NB_PAS_MAXI
+  int usual_iterations = 5;                                  ///< half of the most that Newton's method may take
   std::vector<AdaptationRule> rules = {AdaptationRule()};
 };
 
@@ -81,9 +83,11 @@ struct StepPlan {
   std::optional<StepCutting> cutting;
   std::optional<StepAdaptation> adaptation;
   std::vector<StepEvent> events;
-  double further_iterations = 0.0;  ///< PCENT_ITER_PLUS: share of the most iterations that is allowed beyond them where the residuals promise to get there
-  bool tries_other_solution = false; ///< ACTION='AUTRE_PILOTAGE': a step of path following that fails is tried with the other of two solutions before it is cut
-  bool stops_when_unstable = false;  ///< EVENEMENT='INSTABILITE', ACTION='ARRET'
+  double further_iterations = 0.0;  ///< PCENT_ITER_PLUS: share of the most iterations that is allowed beyond them where
+                                    ///< the residuals promise to get there
+  bool tries_other_solution = false;  ///< ACTION='AUTRE_PILOTAGE': a step of path following that fails is tried with
+                                      ///< the other of two solutions before it is cut
+  bool stops_when_unstable = false;   ///< EVENEMENT='INSTABILITE', ACTION='ARRET'
 
   StepPlan() = default;
   /// The instants as they are; a step that fails ends the computation.
@@ -103,11 +107,11 @@ class StepSequence {
   double target() const;
   /// Whether the next step is a part of one that was cut.
   bool is_part() const { return pending_.back().depth > 0; }
-  /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that watches one. Throws Error `too-many-steps` beyond
-  /// StepAdaptation::most_steps.
+  /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that
+  /// watches one. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
   void accept(int iterations, std::span<const double> changes = {});
-  /// It has failed: false when it may not be cut, else the next target is nearer. By the plan's rule, or by another; `share`: how long the first part
-  /// of an automatic cut should be.
+  /// It has failed: false when it may not be cut, else the next target is nearer. By the plan's rule, or by another;
+  /// `share`: how long the first part of an automatic cut should be.
   bool cut();
   bool cut(const StepCutting& rule, double share = 0.5);
   /// Steps from here on are no longer than these; false where this one is not.
@@ -129,7 +133,7 @@ class StepSequence {
   std::vector<Stop> pending_;  ///< the nearest last
   double length_;              ///< s, of the next adapted step
   CollisionSteps around_;
-  double fine_until_;  ///< s: no step before it is longer than that of `around_`
+  double fine_until_;            ///< s: no step before it is longer than that of `around_`
   std::vector<int> easy_steps_;  ///< one after the other, by rule
   long steps_ = 0;
 };

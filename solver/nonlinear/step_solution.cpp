@@ -39,17 +39,22 @@ int StaticRun::solve_step(double time) {
   std::optional<GeometryUpdates> geometry;
   if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
   for (int update = 0;; ++update) {
-    if (updates || !now_.paired || (update == 0 && thickness_changes())) pair(time, update == 0 ? start_ : now_.state.u, geometry ? &*geometry : nullptr);
+    if (updates || !now_.paired || (update == 0 && thickness_changes()))
+      pair(time, update == 0 ? start_ : now_.state.u, geometry ? &*geometry : nullptr);
     ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
     if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
       resize_multipliers(next);
       now_.conditions = std::move(next);
-      // Between updates of the geometry the discrete formulation goes on counting, the mixed one begins again (ssnv504f, ssnv504j).
+      // Between updates of the geometry the discrete formulation goes on counting, the mixed one begins again
+      // (ssnv504f, ssnv504j).
       const int earlier = is_weak ? 0 : iterations;
-      const auto balance = [&] { return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state); };
+      const auto balance = [&] {
+        return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state);
+      };
       iterations = earlier + balance();
       while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
-        if (observer_) observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
+        if (observer_)
+          observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
         iterations += balance();
       }
     }
@@ -101,8 +106,10 @@ void StaticRun::pair(double time, const Eigen::VectorXd& u, GeometryUpdates* upd
   now_.paired = true;
   if (!problem_.contact) return;
   // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11).
-  if (problem_.contact->geometry_update == GeometryUpdate::none) now_.reference = Eigen::VectorXd::Zero(u.size());
-  else now_.reference = updates ? updates->relaxed(now_.reference, u) : u;
+  if (problem_.contact->geometry_update == GeometryUpdate::none)
+    now_.reference = Eigen::VectorXd::Zero(u.size());
+  else
+    now_.reference = updates ? updates->relaxed(now_.reference, u) : u;
   const double margin = updates ? updates->margin() : 0.0;
   const std::vector<Vector3d> places = positions_at(now_.reference, mesh_, dofs_);
   if (mixed_) {
@@ -128,7 +135,8 @@ int StaticRun::active_set_limit() const {
 }
 
 bool StaticRun::thickness_changes() const {
-  return problem_.contact && std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.thickness_changes; });
+  return problem_.contact &&
+         std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.thickness_changes; });
 }
 
 }  // namespace comma::solver

@@ -40,8 +40,9 @@ void StepWatch::compare(double instant, const ResultStep& now) {
   if (change <= watched.wanted * (1.0 + rounding)) return;
   constexpr double least_share = 0.05;
   share_ = std::clamp(watched.wanted / change, least_share, 1.0 - least_share);
-  throw Error("increment-too-large", fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant, watched.component, watched.field,
-                                                 change, watched.wanted),
+  throw Error("increment-too-large",
+              fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant,
+                          watched.component, watched.field, change, watched.wanted),
               "take smaller steps, or allow more (VALE_REF)");
 }
 
@@ -53,7 +54,9 @@ std::vector<double> StepWatch::changes() const {
 
 void check_depth(const StepEvent* event, double instant, double depth) {
   if (event == nullptr || depth <= event->limit) return;
-  throw Error("contact-too-deep", fmt::format("t = {:.6g}: a point of contact is {:.4g} deep, more than the {:.4g} allowed", instant, depth, event->limit),
+  throw Error("contact-too-deep",
+              fmt::format("t = {:.6g}: a point of contact is {:.4g} deep, more than the {:.4g} allowed", instant, depth,
+                          event->limit),
               "take a larger penalty, or let it be raised (ACTION='ADAPT_COEF_PENA')");
 }
 

@@ -23,11 +23,12 @@ class StepWatch {
   /// Nothing is known of the next step yet.
   void start_step() { share_ = half_a_step; }
 
-  /// `step` is what the next one is compared with: it has been accepted, or the computation begins from it. Throws what watched_values throws.
+  /// `step` is what the next one is compared with: it has been accepted, or the computation begins from it. Throws what
+  /// watched_values throws.
   void take(const ResultStep& step);
 
-  /// Throws Error `increment-too-large` where the watched field changes by more than is allowed from the step that was taken last to the next one, which
-  /// has the fields of `now`.
+  /// Throws Error `increment-too-large` where the watched field changes by more than is allowed from the step that was
+  /// taken last to the next one, which has the fields of `now`.
   template <class FieldsNow>
   void check_increment(double instant, FieldsNow&& now) {
     if (limited_) compare(instant, now());

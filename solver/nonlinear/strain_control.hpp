@@ -1,4 +1,5 @@
-// How much the strains of a step go on in their own direction, as a function of a load intensity (R5.03.80, PILOTAGE TYPE='DEFORMATION').
+// How much the strains of a step go on in their own direction, as a function of a load intensity (R5.03.80, PILOTAGE
+// TYPE='DEFORMATION').
 #pragma once
 
 #include <vector>
@@ -10,15 +11,18 @@
 
 namespace comma::solver {
 
-/// At each point that is strained where the step begins, the change of its strain projected on the direction of that strain (tensors, by their products): the
-/// largest of all points is controlled. Small strains of continua.
+/// At each point that is strained where the step begins, the change of its strain projected on the direction of that
+/// strain (tensors, by their products): the largest of all points is controlled. Small strains of continua.
 class StrainControl {
  public:
-  /// From the displacements u, where the step begins. `cells`: those that are looked at; empty: all. Keeps references to problem and dofs. Throws Error
-  /// `missing-strain` where no point is strained yet, `missing-cells` where there is no continuum, `unsupported` in large strains.
-  StrainControl(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler, const std::vector<int>& cells, const Eigen::VectorXd& u);
+  /// From the displacements u, where the step begins. `cells`: those that are looked at; empty: all. Keeps references
+  /// to problem and dofs. Throws Error `missing-strain` where no point is strained yet, `missing-cells` where there is
+  /// no continuum, `unsupported` in large strains.
+  StrainControl(const StaticProblem& problem, const DofMap& dofs, const Assembler& assembler,
+                const std::vector<int>& cells, const Eigen::VectorXd& u);
 
-  /// The intensities x, rising, at which the largest projection is `wanted`, for the increment constant + x linear of the displacements.
+  /// The intensities x, rising, at which the largest projection is `wanted`, for the increment constant + x linear of
+  /// the displacements.
   std::vector<double> intensities(double wanted, const Eigen::VectorXd& constant, const Eigen::VectorXd& linear) const;
 
  private:

@@ -16,7 +16,7 @@ struct SurfaceState {
   std::vector<double> pushed_back;  ///< how far contact forces move the surfaces of each zone apart (lengths)
   /// The pairs that were solved with, where the geometry may have moved on since; empty: it has not.
   std::function<std::vector<ContactPair>()> pairs;
-  std::span<const ContactPoint> averages;                     ///< the points that were solved with, where there are patches of averages
+  std::span<const ContactPoint> averages;  ///< the points that were solved with, where there are patches of averages
   std::function<std::vector<ContactPoint>()> averages_as_is;  ///< the same as the surfaces are now
 };
 
@@ -24,7 +24,8 @@ struct SurfaceState {
 class SurfaceDoubts {
  public:
   /// Keeps references.
-  SurfaceDoubts(const ContactDefinition& contact, const Mesh& mesh) : contact_(contact), mesh_(mesh), passed_master_(contact, mesh) {}
+  SurfaceDoubts(const ContactDefinition& contact, const Mesh& mesh)
+      : contact_(contact), mesh_(mesh), passed_master_(contact, mesh) {}
 
   /// After each step. Surfaces that cannot be paired, or not any more, tell nothing.
   void look(const SurfaceState& state, ContactDoubts& doubts);

@@ -21,7 +21,9 @@ constexpr int most_gram_digits = 15;
 /// A support whose pivot has lost more digits counts as none, where contact is to hold the body.
 constexpr int weak_support_digits = 4;
 
-bool has_pivots(LinearMethod method) { return method != LinearMethod::conjugate_gradient && method != LinearMethod::multigrid; }
+bool has_pivots(LinearMethod method) {
+  return method != LinearMethod::conjugate_gradient && method != LinearMethod::multigrid;
+}
 
 /// From the lower triangle of a matrix whose pattern has room for it.
 void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, SymmetricMatrix& matrix) {
@@ -54,7 +56,8 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
 
 bool TangentSystem::is_known(TangentKind kind) const {
   if (!factorised_ || version_ != assembler_.stiffness_version()) return false;
-  return is_constant() || (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
+  return is_constant() ||
+         (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
 }
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
@@ -69,8 +72,11 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
       factorise(reduced, elimination_.reduce_skew(skew(u)));
   } catch (const Error& error) {
     if (error.code() == "singular-matrix" && kind != TangentKind::elastic && is_held_elastically(u))
-      throw Error(error.code(), std::string("the bodies are held, but flow so that nothing resists the loads any more; ") + error.what(),
-                  "the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or drive by displacements (DDL_IMPO, PILOTAGE)");
+      throw Error(
+          error.code(),
+          std::string("the bodies are held, but flow so that nothing resists the loads any more; ") + error.what(),
+          "the loads may be more than the bodies can bear (look at the instant before); else take smaller steps, or "
+          "drive by displacements (DDL_IMPO, PILOTAGE)");
     throw;
   }
   return true;
@@ -90,7 +96,9 @@ void TangentSystem::forget() {
 }
 
 bool TangentSystem::spring_weak_supports() {
-  if (!may_add_springs_ || linear_.singular_digits == weak_support_digits || !solver_ || !has_pivots(solver_->method()) || lost_digits_ <= weak_support_digits) return false;
+  if (!may_add_springs_ || linear_.singular_digits == weak_support_digits || !solver_ ||
+      !has_pivots(solver_->method()) || lost_digits_ <= weak_support_digits)
+    return false;
   linear_.singular_digits = weak_support_digits;
   forget();
   return true;
@@ -105,7 +113,8 @@ SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind k
   return whole;
 }
 
-Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const {
+Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d,
+                                              TangentKind kind) const {
   const Stopwatch stopwatch(counters_.assembling);
   const SymmetricMatrix matrix = stiffness(u, kind);
   Eigen::VectorXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
@@ -129,8 +138,10 @@ std::string TangentSystem::unheld_beside(const RowMatrix* held) const {
   if (springs_.empty() || !is_constant()) return {};
   std::vector<int> rows;
   for (const auto& spring : springs_) rows.push_back(spring.first);
-  const SymmetricMatrix reduced = elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), TangentKind::tangent));
-  return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits, held), *model_.mesh);
+  const SymmetricMatrix reduced =
+      elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), TangentKind::tangent));
+  return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits, held),
+                  *model_.mesh);
 }
 
 /// The skew half of the tangent, by its strictly lower triangle.
@@ -161,7 +172,9 @@ bool TangentSystem::add_springs(const FactorReport& report, SymmetricMatrix& red
 LinearMethod TangentSystem::chosen_method(const SymmetricMatrix& reduced) {
   if (options_.method) return *options_.method;
   const LinearMethod direct = choose_method(reduced);
-  if (direct == LinearMethod::mumps || multigrid_failed_ || !options_.few_solutions || !is_constant() || reduced.rows() < large_solid) return direct;
+  if (direct == LinearMethod::mumps || multigrid_failed_ || !options_.few_solutions || !is_constant() ||
+      reduced.rows() < large_solid)
+    return direct;
   linear_.solid = solid_unknowns(model_, dofs_, elimination_);
   return linear_.solid ? LinearMethod::multigrid : direct;
 }
@@ -185,11 +198,13 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
     // The choice was ours and it does not pivot: the solver that does takes over.
     report = factorise_with(LinearMethod::mumps, reduced);
   }
-  if (report.verdict == FactorVerdict::singular && choose_method(reduced) == LinearMethod::mumps && solver_->method() != LinearMethod::mumps) {
+  if (report.verdict == FactorVerdict::singular && choose_method(reduced) == LinearMethod::mumps &&
+      solver_->method() != LinearMethod::mumps) {
     // Of a matrix with zeros on its diagonal a method without interchanges may lose a pivot that is there.
     report = factorise_with(LinearMethod::mumps, reduced);
   }
-  for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced); ++round) {
+  for (int round = 0; round < most_rounds && report.verdict == FactorVerdict::singular && add_springs(report, reduced);
+       ++round) {
     report = factorise_with(solver_->method(), reduced);
   }
   // Iterations have no pivots: what moves freely is looked for before they start.
@@ -210,7 +225,8 @@ void TangentSystem::factorise(SymmetricMatrix reduced) {
 
 void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew) {
   if (options_.method == LinearMethod::conjugate_gradient) {
-    throw Error("unsupported", "conjugate gradients need a symmetric stiffness, and here an element has an unsymmetric one",
+    throw Error("unsupported",
+                "conjugate gradients need a symmetric stiffness, and here an element has an unsymmetric one",
                 "choose a direct solver");
   }
   if (!unsymmetric_) unsymmetric_ = std::make_unique<UnsymmetricSolver>(options_.linear);
@@ -222,7 +238,8 @@ void TangentSystem::factorise(const SymmetricMatrix& reduced, const SkewMatrix& 
   if (report.verdict == FactorVerdict::singular) {
     // Energies are those of K^T K, where a support's digits count twice.
     const int digits = std::min(2 * std::max(0, options_.linear.singular_digits), most_gram_digits);
-    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, gram_matrix(full_matrix(reduced, skew)), report, digits);
+    throw singular_matrix_error(*model_.mesh, dofs_, elimination_, gram_matrix(full_matrix(reduced, skew)), report,
+                                digits);
   }
   measure_rows(reduced);
   factorised_ = true;
@@ -253,14 +270,17 @@ std::vector<int> TangentSystem::bodies() const {
   const Eigen::SparseMatrix<double>& transformation = elimination_.transformation();
   for (int column = 0; column < transformation.outerSize(); ++column) {
     const int kept = dofs_.node_of(elimination_.kept()[static_cast<std::size_t>(column)]);
-    for (Eigen::SparseMatrix<double>::InnerIterator it(transformation, column); it; ++it) sets.join(kept, dofs_.node_of(static_cast<int>(it.row())));
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transformation, column); it; ++it)
+      sets.join(kept, dofs_.node_of(static_cast<int>(it.row())));
   }
   std::vector<int> body(static_cast<std::size_t>(mesh.node_count()));
   for (int node = 0; node < mesh.node_count(); ++node) body[static_cast<std::size_t>(node)] = sets.root(node);
   return body;
 }
 
-double& TangentSystem::Largest::of(Component component) { return component <= Component::dz ? translation : is_rotation(component) ? rotation : other; }
+double& TangentSystem::Largest::of(Component component) {
+  return component <= Component::dz ? translation : is_rotation(component) ? rotation : other;
+}
 
 std::vector<TangentSystem::Largest> TangentSystem::largest_of_bodies(const Eigen::VectorXd& u) const {
   if (body_of_node_.empty()) body_of_node_ = bodies();
@@ -284,7 +304,8 @@ Eigen::VectorXd TangentSystem::sizes_times(const Eigen::VectorXd& u) const {
   Eigen::VectorXd result(row_sizes_.size());
   for (Eigen::Index row = 0; row < result.size(); ++row) {
     const Largest& own = largest[body_of(elimination_.kept()[static_cast<std::size_t>(row)])];
-    result[row] = std::max(own.translation, own.other) * (row_sizes_[row] - rotation_sizes_[row]) + own.rotation * rotation_sizes_[row];
+    result[row] = std::max(own.translation, own.other) * (row_sizes_[row] - rotation_sizes_[row]) +
+                  own.rotation * rotation_sizes_[row];
   }
   return result;
 }

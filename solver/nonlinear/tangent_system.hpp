@@ -24,24 +24,24 @@ class TangentSystem;
 /// Whether the stiffness is to be made again for an iteration (from 1) of the step after so many accepted ones.
 bool is_tangent_due(const TangentPolicy& policy, const TangentSystem& tangent, int iteration, int steps);
 
-/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant. Where an element is
-/// unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
+/// T^T K T behind one linear solver: pattern analysed once, factorised once when the tangent is constant. Where an
+/// element is unsymmetric, K has a skew part besides and another solver takes over, whichever method was asked for.
 class TangentSystem {
  public:
   /// From this many unknowns on multigrid is faster than a factor, for a solid and few right-hand sides
   /// (docs/linear_solvers.md).
   static constexpr int large_solid = 10000;
-  /// So many are few: a factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at 400,000.
+  /// So many are few: a factor costs as much as a dozen solutions by multigrid at 50,000 unknowns, as thirty at
+  /// 400,000.
   static constexpr std::size_t few_solutions = 5;
 
   /// Keeps references to its arguments.
   TangentSystem(const Model& model, const DofMap& dofs, const Assembler& assembler, const Elimination& elimination,
                 const NewtonOptions& options, Counters& counters);
 
-  /// Factorises the tangent at u unless it is known already, for the assembler's instant too. `kind`: which one, of bodies that are not
-  /// linear. Returns whether it was factorised. Throws Error
-  /// `singular-matrix` naming the nodes, components and rigid motion that nothing holds; `unsupported` for conjugate gradients
-  /// with an unsymmetric tangent.
+  /// Factorises the tangent at u unless it is known already, for the assembler's instant too. `kind`: which one, of
+  /// bodies that are not linear. Returns whether it was factorised. Throws Error `singular-matrix` naming the nodes,
+  /// components and rigid motion that nothing holds; `unsupported` for conjugate gradients with an unsymmetric tangent.
   bool refresh(const Eigen::VectorXd& u, TangentKind kind = TangentKind::tangent);
   /// Which one is factorised.
   TangentKind kind() const { return kind_; }
@@ -50,13 +50,16 @@ class TangentSystem {
   /// Whether there is a factorisation, of whatever displacement.
   bool is_ready() const { return factorised_; }
 
-  /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom would cause.
+  /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom
+  /// would cause.
   Eigen::VectorXd reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const;
 
-  /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them off again.
+  /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them
+  /// off again.
   void allow_springs() { may_add_springs_ = true; }
-  /// From now on where hardly anything holds them, too: what a body on weak supports does without contact is so far off that little is left of the digits of what it
-  /// does with it. False, and nothing changes, where the last factor has lost few digits, or springs are there already.
+  /// From now on where hardly anything holds them, too: what a body on weak supports does without contact is so far off
+  /// that little is left of the digits of what it does with it. False, and nothing changes, where the last factor has
+  /// lost few digits, or springs are there already.
   bool spring_weak_supports();
   /// The forces take part in the tangent from now on; they must outlive the system.
   void follow(const FollowerForces& forces) { followers_ = &forces; }
@@ -68,7 +71,8 @@ class TangentSystem {
   /// The reduced unknowns that hold a spring to the ground, and its stiffness.
   const std::vector<std::pair<int, double>>& springs() const { return springs_; }
 
-  /// In words, what nothing but whoever allowed springs holds; empty where there are none, or where the tangent changes with the displacement.
+  /// In words, what nothing but whoever allowed springs holds; empty where there are none, or where the tangent changes
+  /// with the displacement.
   std::string unheld() const;
   /// The same of what moves rigidly beside what holds these rows of the reduced unknowns, if any.
   std::string unheld_beside(const RowMatrix* held) const;
@@ -89,7 +93,8 @@ class TangentSystem {
   /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
   bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
 
-  /// Whether the last factorised tangent of one kind of unknowns has a negative eigenvalue: compliances may be negative then.
+  /// Whether the last factorised tangent of one kind of unknowns has a negative eigenvalue: compliances may be negative
+  /// then.
   bool is_indefinite() const { return is_indefinite_; }
 
   /// Whether unknowns are of several kinds, so that one size does not suit all.
@@ -97,11 +102,12 @@ class TangentSystem {
 
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
-  /// Of each unknown the largest of its kind (translations, rotations, others) in its body: what its rounding is a share of. Bodies are what elements and
-  /// relations join. All unknowns in and out.
+  /// Of each unknown the largest of its kind (translations, rotations, others) in its body: what its rounding is a
+  /// share of. Bodies are what elements and relations join. All unknowns in and out.
   Eigen::VectorXd magnitudes(const Eigen::VectorXd& u) const;
-  /// |K| |u| with the largest of the translations (and what else is no rotation) of the body in place of each, and its largest rotation in place of each of these:
-  /// bounds what a share of u, its rounding, does to the residual, whatever the unit of length. Bodies are what elements and relations join. All unknowns in, reduced_size out.
+  /// |K| |u| with the largest of the translations (and what else is no rotation) of the body in place of each, and its
+  /// largest rotation in place of each of these: bounds what a share of u, its rounding, does to the residual, whatever
+  /// the unit of length. Bodies are what elements and relations join. All unknowns in, reduced_size out.
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
@@ -123,7 +129,9 @@ class TangentSystem {
   FactorReport factorise_with(LinearMethod method, const SymmetricMatrix& reduced);
   void measure_rows(const SymmetricMatrix& reduced);
   std::vector<int> bodies() const;
-  std::size_t body_of(int dof) const { return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]); }
+  std::size_t body_of(int dof) const {
+    return static_cast<std::size_t>(body_of_node_[static_cast<std::size_t>(dofs_.node_of(dof))]);
+  }
   std::vector<Largest> largest_of_bodies(const Eigen::VectorXd& u) const;
 
   const Model& model_;

@@ -22,18 +22,23 @@ double present(double value) { return std::isnan(value) ? 0.0 : value; }
 
 int column_of(int column, const WatchedIncrement& watched) {
   if (column >= 0) return column;
-  throw Error("unknown-component", fmt::format("{}, whose change is watched, has no {}", watched.field, watched.component), "watch a component that it has");
+  throw Error("unknown-component",
+              fmt::format("{}, whose change is watched, has no {}", watched.field, watched.component),
+              "watch a component that it has");
 }
 
 }  // namespace
 
 std::vector<double> watched_values(const WatchedIncrement& watched, const ResultStep& step, const Mesh& mesh) {
   const auto found = step.fields.find(watched.field);
-  if (found == step.fields.end()) throw Error("missing-field", fmt::format("{}, whose change is watched, is not computed", watched.field), "watch DEPL or SIEF_ELGA");
+  if (found == step.fields.end())
+    throw Error("missing-field", fmt::format("{}, whose change is watched, is not computed", watched.field),
+                "watch DEPL or SIEF_ELGA");
   std::vector<double> values;
   if (const auto* nodal = std::get_if<NodalField>(&found->second)) {
     const int column = column_of(nodal->component(watched.component), watched);
-    for (const int node : all_unless_given(watched.nodes, mesh.node_count())) values.push_back(present(nodal->at(node, column)));
+    for (const int node : all_unless_given(watched.nodes, mesh.node_count()))
+      values.push_back(present(nodal->at(node, column)));
     return values;
   }
   const auto& field = std::get<ElementField>(found->second);
@@ -45,7 +50,8 @@ std::vector<double> watched_values(const WatchedIncrement& watched, const Result
 
 double largest_change(const std::vector<double>& before, const std::vector<double>& after) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) largest = std::max(largest, std::abs(after[i] - before[i]));
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+    largest = std::max(largest, std::abs(after[i] - before[i]));
   return largest;
 }
 

@@ -9,7 +9,8 @@
 
 namespace comma::solver {
 
-/// The watched values of a step, in a fixed order; what is absent there counts as zero. Throws Error `missing-field`, `unknown-component`.
+/// The watched values of a step, in a fixed order; what is absent there counts as zero. Throws Error `missing-field`,
+/// `unknown-component`.
 std::vector<double> watched_values(const WatchedIncrement& watched, const ResultStep& step, const Mesh& mesh);
 
 /// The largest change between two of them.

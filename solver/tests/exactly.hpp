@@ -5,7 +5,8 @@
 
 namespace comma::solver {
 
-/// Equal but for rounding: some hundred thousand roundings that all go one way. Catch's own default, 1.2e-5, is that of single precision.
+/// Equal but for rounding: some hundred thousand roundings that all go one way. Catch's own default, 1.2e-5, is that of
+/// single precision.
 inline Approx exactly(double value) { return Approx(value).epsilon(1e-10); }
 
 }  // namespace comma::solver

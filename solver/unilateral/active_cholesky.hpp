@@ -14,12 +14,13 @@ class ActiveCholesky {
   int size() const { return size_; }
   void clear() { size_ = 0; }
 
-  /// Appends a row: `coupling` (m) is S between the new row and those present, `diagonal` its own entry. Returns false, and
-  /// leaves the factor as it was, when the row depends on those present within `dependence_tolerance`.
+  /// Appends a row: `coupling` (m) is S between the new row and those present, `diagonal` its own entry. Returns false,
+  /// and leaves the factor as it was, when the row depends on those present within `dependence_tolerance`.
   bool append(const Eigen::VectorXd& coupling, double diagonal);
 
-  /// Appends many rows at once: `coupling` (k x m) and `block` (k x k, its lower triangle) are S between them and those present, and
-  /// among themselves. False, and the factor as it was, when one of them depends on the others or on those present.
+  /// Appends many rows at once: `coupling` (k x m) and `block` (k x k, its lower triangle) are S between them and those
+  /// present, and among themselves. False, and the factor as it was, when one of them depends on the others or on those
+  /// present.
   bool append_all(const Eigen::MatrixXd& coupling, const Eigen::MatrixXd& block);
 
   /// What is left of a row's own entry once those present are eliminated: diagonal - coupling^T S^-1 coupling.

@@ -146,8 +146,10 @@ class ActiveSetSolver {
   bool drop_pulling_rows() {
     std::vector<int> pulling, pushing;
     for (int i = 0; i < static_cast<int>(active_.size()); ++i) {
-      if (multipliers_[i] < 0.0) pulling.push_back(i);
-      else pushing.push_back(active_[i]);
+      if (multipliers_[i] < 0.0)
+        pulling.push_back(i);
+      else
+        pushing.push_back(active_[i]);
     }
     if (pulling.empty()) return false;
     if (pulling.size() >= block_rows) {
@@ -264,7 +266,8 @@ class ActiveSetSolver {
     contradiction_.push_back(row);
     const Eigen::VectorXd direction = factor_.solve(coupling(row));
     for (std::size_t i = 0; i < active_.size(); ++i)
-      if (std::abs(direction[static_cast<Eigen::Index>(i)]) > contradiction_tolerance) contradiction_.push_back(active_[i]);
+      if (std::abs(direction[static_cast<Eigen::Index>(i)]) > contradiction_tolerance)
+        contradiction_.push_back(active_[i]);
     return false;
   }
 

@@ -11,41 +11,44 @@
 
 namespace comma::solver {
 
-/// What is asked of the multipliers: find lambda >= 0 with w = excess - S lambda <= 0 and lambda^T w = 0, that is the dual
-/// of  min 1/2 u^T K u - f^T u  subject to  A u <= b.
+/// What is asked of the multipliers: find lambda >= 0 with w = excess - S lambda <= 0 and lambda^T w = 0, that is the
+/// dual of  min 1/2 u^T K u - f^T u  subject to  A u <= b.
 struct ActiveSetProblem {
-  Eigen::VectorXd excess;      ///< A u0 - b for the solution u0 without conditions (m)
-  Eigen::VectorXd scale;       ///< size of the terms that make up A u - b, row by row (m, > 0): tolerances are relative to it
-  std::vector<int> guess;      ///< rows that were active before
-  int max_iterations = 1000;   ///< changes of the active set, at most
+  Eigen::VectorXd excess;  ///< A u0 - b for the solution u0 without conditions (m)
+  Eigen::VectorXd
+      scale;  ///< size of the terms that make up A u - b, row by row (m, > 0): tolerances are relative to it
+  std::vector<int> guess;     ///< rows that were active before
+  int max_iterations = 1000;  ///< changes of the active set, at most
 };
 
-/// What the method keeps from one solution to the next: the factor of the rows that were active, good as long as S is the same.
+/// What the method keeps from one solution to the next: the factor of the rows that were active, good as long as S is
+/// the same.
 struct ActiveSetMemory {
-  std::vector<int> active;   ///< in the order of the factor
+  std::vector<int> active;  ///< in the order of the factor
   ActiveCholesky factor;
-  long version = -1;         ///< of S
+  long version = -1;  ///< of S
 };
 
 enum class ActiveSetVerdict : std::uint8_t { solved, contradictory, too_many_iterations };
 
 struct ActiveSetSolution {
   ActiveSetVerdict verdict = ActiveSetVerdict::solved;
-  Eigen::VectorXd multipliers;    ///< m, >= 0
-  std::vector<int> active;        ///< rows with equality, rising
+  Eigen::VectorXd multipliers;  ///< m, >= 0
+  std::vector<int> active;      ///< rows with equality, rising
   int iterations = 0;
-  std::vector<int> contradiction; ///< rows that cannot hold together (verdict contradictory); the first is the violated one
+  std::vector<int>
+      contradiction;  ///< rows that cannot hold together (verdict contradictory); the first is the violated one
 };
 
-/// First in packets: all violated rows enter and all pulling ones leave at once, which finds most contact states in two or
-/// three rounds; then, if that does not settle, the dual method of Goldfarb and Idnani (Mathematical Programming 27, 1983)
-/// one row at a time, which is finite because the dual function rises at each full step. Rows that depend on active ones
-/// never enter together with them; a violated one that nothing active can make room for is a contradiction.
+/// First in packets: all violated rows enter and all pulling ones leave at once, which finds most contact states in two
+/// or three rounds; then, if that does not settle, the dual method of Goldfarb and Idnani (Mathematical Programming 27,
+/// 1983) one row at a time, which is finite because the dual function rises at each full step. Rows that depend on
+/// active ones never enter together with them; a violated one that nothing active can make room for is a contradiction.
 ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem);
 ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem, ActiveSetMemory& memory);
 
-/// A row is violated when it exceeds its bound by more than this share of its scale: above the rounding of K^-1, below any
-/// gap that matters.
+/// A row is violated when it exceeds its bound by more than this share of its scale: above the rounding of K^-1, below
+/// any gap that matters.
 inline constexpr double violation_tolerance = 1e-12;
 /// A violated row that depends on active ones is a contradiction beyond this share of its scale, and the same condition
 /// written twice below it.

@@ -17,9 +17,10 @@ constexpr double feasibility_tolerance = 1e-9;
 int require_dof(const DofMap& dofs, const Mesh& mesh, int node, Component component) {
   const int dof = dofs.dof(node, component);
   if (dof >= 0) return dof;
-  throw Error("unknown-dof",
-              fmt::format("node {} carries no {}, which a unilateral condition uses", mesh.node_name(node), name_of(component)),
-              "check the condition's components, or that the model gives an element to the node's cells");
+  throw Error(
+      "unknown-dof",
+      fmt::format("node {} carries no {}, which a unilateral condition uses", mesh.node_name(node), name_of(component)),
+      "check the condition's components, or that the model gives an element to the node's cells");
 }
 
 /// The size of what is summed in A g - b: what roundings are measured against.

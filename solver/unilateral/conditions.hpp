@@ -24,8 +24,8 @@ struct ReducedInequalities {
   std::vector<int> origin;    ///< row of the full set behind each reduced row
 };
 
-/// Leaves out the rows that the imposed values decide: one that only uses imposed displacements holds, gives way or throws Error
-/// `contradictory-conditions`; `describe` names a row of `full` for that message.
+/// Leaves out the rows that the imposed values decide: one that only uses imposed displacements holds, gives way or
+/// throws Error `contradictory-conditions`; `describe` names a row of `full` for that message.
 ReducedInequalities reduce(const Inequalities& full, const Elimination& elimination, const Eigen::VectorXd& offset,
                            const std::function<std::string(int row)>& describe);
 

@@ -145,8 +145,8 @@ class ProjectedGradient {
 
 }  // namespace
 
-ActiveSetSolution solve_projected_gradient(const std::function<VectorXd(const VectorXd&)>& apply, const ActiveSetProblem& problem,
-                                           const ProjectedGradientOptions& options) {
+ActiveSetSolution solve_projected_gradient(const std::function<VectorXd(const VectorXd&)>& apply,
+                                           const ActiveSetProblem& problem, const ProjectedGradientOptions& options) {
   return ProjectedGradient(apply, problem, options).run();
 }
 

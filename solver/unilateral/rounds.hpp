@@ -8,14 +8,16 @@
 
 namespace comma::solver {
 
-/// Conditions hold when a round changes forces by less than this share of the largest: another round would gain three digits or more.
+/// Conditions hold when a round changes forces by less than this share of the largest: another round would gain three
+/// digits or more.
 inline constexpr double negligible_change = 1e-10;
 /// Rounds with one compliance: each costs a solution.
 inline constexpr int most_rounds = 20;
 
-/// `settle`() solves the conditions with S as it is, moves the bodies, and returns by how much forces changed as a share of the largest;
-/// nothing where an S that is not exact has led to no solution. One round is all with an exact S; else there are more until the change is
-/// negligible, and where it does not shrink to half from round to round, S is made anew.
+/// `settle`() solves the conditions with S as it is, moves the bodies, and returns by how much forces changed as a
+/// share of the largest; nothing where an S that is not exact has led to no solution. One round is all with an exact S;
+/// else there are more until the change is negligible, and where it does not shrink to half from round to round, S is
+/// made anew.
 template <class Settle>
 void settle_in_rounds(SchurComplement& schur, Settle&& settle) {
   double last = std::numeric_limits<double>::infinity();

@@ -24,7 +24,9 @@ SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vect
 void SchurComplement::choose_form() {
   is_factored_ = false;
   on_support_.resize(0, 0);
-  if (rows_.rows() < factored_rows || support_.size() > largest_factor || static_cast<double>(rows_.rows()) < factored_share * static_cast<double>(support_.size())) return;
+  if (rows_.rows() < factored_rows || support_.size() > largest_factor ||
+      static_cast<double>(rows_.rows()) < factored_share * static_cast<double>(support_.size()))
+    return;
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < rows_.outerSize(); ++row)
     for (RowMatrix::InnerIterator it(rows_, row); it; ++it) {
@@ -71,12 +73,14 @@ Eigen::VectorXd SchurComplement::column_of_factors(int row) const {
   return column;
 }
 
-Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const {
+Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows,
+                                           const Eigen::SparseMatrix<double>& forces) const {
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (has_factors()) {
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index k = 0; k < count; ++k)
-      for (RowMatrix::InnerIterator it(on_support_, rows[static_cast<std::size_t>(k)]); it; ++it) entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
+      for (RowMatrix::InnerIterator it(on_support_, rows[static_cast<std::size_t>(k)]); it; ++it)
+        entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
     RowMatrix taken(count, on_support_.cols());
     taken.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SparseMatrix<double> on_support = Eigen::SparseMatrix<double>(taken.transpose()) * forces;
@@ -92,14 +96,18 @@ Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows, const E
   for (Eigen::Index unknown = 0; unknown < forces.cols(); ++unknown)
     for (Eigen::SparseMatrix<double>::InnerIterator force(forces, unknown); force; ++force) {
       const Column column = this->column(rows[static_cast<std::size_t>(force.row())]);
-      if (is_whole) result.col(unknown) += force.value() * column;
-      else for (Eigen::Index k = 0; k < count; ++k) result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
+      if (is_whole)
+        result.col(unknown) += force.value() * column;
+      else
+        for (Eigen::Index k = 0; k < count; ++k)
+          result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
     }
   return result;
 }
 
 bool SchurComplement::has_columns() const {
-  return has_factors() || whole_matrix_.size() != 0 || std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
+  return has_factors() || whole_matrix_.size() != 0 ||
+         std::ranges::any_of(columns_, [](const Eigen::VectorXd& column) { return column.size() != 0; });
 }
 
 void SchurComplement::require(std::span<const int> indices) {
@@ -110,14 +118,17 @@ void SchurComplement::require(std::span<const int> indices) {
   std::vector<int> missing;
   for (const int index : indices)
     if (!known(index)) missing.push_back(index);
-  if (missing.empty() || (rows_change_ && keeps_compliance() && build_from_compliance(missing)) || solve_whole(missing)) return;
+  if (missing.empty() || (rows_change_ && keeps_compliance() && build_from_compliance(missing)) || solve_whole(missing))
+    return;
   solve_rows(missing);
 }
 
 void SchurComplement::store(int row, Eigen::VectorXd column) {
   if (softness_.size()) column[row] += softness_[row];
-  if (whole_matrix_.size()) whole_matrix_.col(row) = column;
-  else columns_[row] = std::move(column);
+  if (whole_matrix_.size())
+    whole_matrix_.col(row) = column;
+  else
+    columns_[row] = std::move(column);
 }
 
 void SchurComplement::solve_rows(const std::vector<int>& missing) {
@@ -134,7 +145,8 @@ void SchurComplement::solve_rows(const std::vector<int>& missing) {
 }
 
 bool SchurComplement::solve_whole(const std::vector<int>& missing) {
-  if (!whole_ || missing.size() < many_columns || static_cast<double>(missing.size()) < many_share * size()) return false;
+  if (!whole_ || missing.size() < many_columns || static_cast<double>(missing.size()) < many_share * size())
+    return false;
   single_ = {};
   whole_matrix_ = whole_(rows_);
   if (whole_matrix_.size() == 0) return false;
@@ -170,14 +182,16 @@ bool SchurComplement::build_from_compliance(const std::vector<int>& missing) {
     Eigen::MatrixXd batch = Eigen::MatrixXd::Zero(rows_.cols(), static_cast<Eigen::Index>(count));
     for (std::size_t k = 0; k < count; ++k) batch(support_[unsolved[first + k]], static_cast<Eigen::Index>(k)) = 1.0;
     inverse_(batch);
-    for (std::size_t k = 0; k < count; ++k) compliance_[unsolved[first + k]] = batch(support_, static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < count; ++k)
+      compliance_[unsolved[first + k]] = batch(support_, static_cast<Eigen::Index>(k));
   }
   for (const int row : missing) {
     Eigen::VectorXd response = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(support_.size()));
     for (RowMatrix::InnerIterator it(rows_, row); it; ++it) response += it.value() * compliance_[places[it.col()]];
     Eigen::VectorXd column = Eigen::VectorXd::Zero(rows_.rows());
     for (int other = 0; other < rows_.outerSize(); ++other)
-      for (RowMatrix::InnerIterator it(rows_, other); it; ++it) column[other] += it.value() * response[places[it.col()]];
+      for (RowMatrix::InnerIterator it(rows_, other); it; ++it)
+        column[other] += it.value() * response[places[it.col()]];
     store(row, std::move(column));
   }
   return true;
@@ -191,7 +205,8 @@ SchurComplement::Column SchurComplement::column(int index) const {
 }
 
 Eigen::Map<Eigen::VectorXd> SchurComplement::entries(int row) {
-  return {whole_matrix_.size() ? whole_matrix_.col(row).data() : columns_[row].data(), static_cast<Eigen::Index>(columns_.size())};
+  return {whole_matrix_.size() ? whole_matrix_.col(row).data() : columns_[row].data(),
+          static_cast<Eigen::Index>(columns_.size())};
 }
 
 Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
@@ -200,7 +215,8 @@ Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
     if (x[row] != 0.0) taken.push_back(row);
   require(taken);
   if (is_factored_) return taken.empty() ? Eigen::VectorXd::Zero(size()) : times_factors(x);
-  if (whole_matrix_.size() && static_cast<double>(taken.size()) >= many_share * size()) return symmetric_product(whole_matrix_, x);
+  if (whole_matrix_.size() && static_cast<double>(taken.size()) >= many_share * size())
+    return symmetric_product(whole_matrix_, x);
   Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
   for (const int row : taken) product += x[row] * column(row);
   return product;
@@ -265,8 +281,10 @@ bool SchurComplement::take_over(const RowMatrix& rows, const std::vector<int>& k
   std::vector<int> added;
   for (int row = 0; row < count; ++row) {
     const auto found = earlier.find(keys.empty() ? row : keys[row]);
-    if (found == earlier.end()) added.push_back(row);
-    else origin[row] = found->second;
+    if (found == earlier.end())
+      added.push_back(row);
+    else
+      origin[row] = found->second;
   }
   if (2 * added.size() > static_cast<std::size_t>(count)) return false;
 
@@ -296,8 +314,10 @@ void SchurComplement::take_columns(const std::vector<int>& origin) {
     Eigen::VectorXd taken = Eigen::VectorXd::Zero(count);
     for (std::size_t other = 0; other < origin.size(); ++other)
       if (origin[other] >= 0) taken[static_cast<Eigen::Index>(other)] = before[origin[other]];
-    if (whole.size()) whole.col(static_cast<Eigen::Index>(row)) = taken;
-    else columns[row] = std::move(taken);
+    if (whole.size())
+      whole.col(static_cast<Eigen::Index>(row)) = taken;
+    else
+      columns[row] = std::move(taken);
   }
   columns_ = std::move(columns);
   whole_matrix_ = std::move(whole);
@@ -315,8 +335,10 @@ void SchurComplement::complete_columns(const std::vector<int>& added) {
 void SchurComplement::forget() {
   compliance_.assign(support_.size(), Eigen::VectorXd());
   if (keeps_compliance()) factor_.resize(0, 0);
-  if (keeps_compliance() || !has_columns()) clear();
-  else exact_ = false;
+  if (keeps_compliance() || !has_columns())
+    clear();
+  else
+    exact_ = false;
 }
 
 void SchurComplement::start_anew() {

@@ -13,12 +13,15 @@
 
 namespace comma::solver {
 
-/// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that is
-/// active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
-///  - where few unknowns are touched by rows (the support), what is kept is the compliance C = K^-1 between them: S = A C A^T then
+/// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that
+/// is active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
+///  - where few unknowns are touched by rows (the support), what is kept is the compliance C = K^-1 between them: S = A
+///  C A^T then
 ///    follows for any rows without another solve;
-///  - where rows are many more than the unknowns they touch, as with many points a face, S is never made: its products are those of A, C and A^T;
-///  - where unknowns are many, S stays that of the earlier rows and stiffness: it is not exact any more, but so near that whoever
+///  - where rows are many more than the unknowns they touch, as with many points a face, S is never made: its products
+///  are those of A, C and A^T;
+///  - where unknowns are many, S stays that of the earlier rows and stiffness: it is not exact any more, but so near
+///  that whoever
 ///    corrects with it again, after a look at what is left, needs a few solves instead of one a row.
 /// S is in unknown / multiplier (a length a force, for contact).
 class SchurComplement {
@@ -28,12 +31,13 @@ class SchurComplement {
   /// The whole of S for these rows at once, or an empty matrix where that is no gain.
   using WholeCompliance = std::function<Eigen::MatrixXd(const RowMatrix& rows)>;
 
-  /// `rows`: A, m x n. `support`: unknowns, rising; rows on others are taken, but cost a solve whenever they change. `keys`: what
-  /// each row is about, all different, by which rows are known again when others take their place; empty: their numbers.
+  /// `rows`: A, m x n. `support`: unknowns, rising; rows on others are taken, but cost a solve whenever they change.
+  /// `keys`: what each row is about, all different, by which rows are known again when others take their place; empty:
+  /// their numbers.
   SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support = {}, std::vector<int> keys = {});
 
-  /// What rows give way by a unit of their multiplier, which is added to their own entries of S from now on: one a row, always the same
-  /// for a key; empty: nothing. To be called before columns are asked for, and before other rows come.
+  /// What rows give way by a unit of their multiplier, which is added to their own entries of S from now on: one a row,
+  /// always the same for a key; empty: nothing. To be called before columns are asked for, and before other rows come.
   void soften(Eigen::VectorXd softness) { softness_ = std::move(softness); }
 
   /// Another way to many columns.
@@ -55,7 +59,9 @@ class SchurComplement {
   Eigen::MatrixXd responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
   /// The entries on some rows of S x for an x on these rows alone (one a row).
   Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
-  bool known(int index) const { return has_factors() || whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0; }
+  bool known(int index) const {
+    return has_factors() || whole_matrix_.size() != 0 || columns_[index].size() != 0 || size() == 0;
+  }
 
   /// Takes other rows. Columns are kept when the rows are the same to the last bit, which they are as long as pairing
   /// finds the same places on flat facets.
@@ -72,14 +78,16 @@ class SchurComplement {
 
   /// Memory held while columns are computed: this many right-hand sides at once.
   static constexpr int batch_size = 32;
-  /// The compliance is kept up to this many unknowns (8 MB): beyond, its solves cost more than corrections with an earlier S.
+  /// The compliance is kept up to this many unknowns (8 MB): beyond, its solves cost more than corrections with an
+  /// earlier S.
   static constexpr std::size_t largest_support = 1000;
   /// Of as many columns products are made in single precision where that does.
   static constexpr int many_products = 2000;
   /// From this many columns on, if they are this share of all, the whole is asked for at once.
   static constexpr std::size_t many_columns = 100;
   static constexpr double many_share = 0.25;
-  /// So many rows, and so many times as many as unknowns, are never multiplied out; nor are there more unknowns than so many (50 MB).
+  /// So many rows, and so many times as many as unknowns, are never multiplied out; nor are there more unknowns than so
+  /// many (50 MB).
   static constexpr int factored_rows = 600;
   static constexpr double factored_share = 2.0;
   static constexpr std::size_t largest_factor = 2500;
@@ -111,13 +119,14 @@ class SchurComplement {
   WholeCompliance whole_;
   mutable std::vector<Eigen::VectorXd> columns_;
   bool is_factored_ = false;
-  RowMatrix on_support_;    ///< the rows over the support, where S is kept as its factors
-  Eigen::MatrixXd factor_;  ///< C over the support, or nothing as yet
+  RowMatrix on_support_;          ///< the rows over the support, where S is kept as its factors
+  Eigen::MatrixXd factor_;        ///< C over the support, or nothing as yet
   Eigen::MatrixXd whole_matrix_;  ///< all columns, or none
   SingleTriangle single_;         ///< of whole_matrix_, or nothing
   Eigen::VectorXd softness_;
   std::vector<int> support_;
-  std::vector<Eigen::VectorXd> compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
+  std::vector<Eigen::VectorXd>
+      compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
   bool rows_change_ = false;
   bool exact_ = true;
   long version_ = 0;

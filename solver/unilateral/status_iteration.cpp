@@ -12,7 +12,10 @@ using Eigen::Index;
 class StatusIteration {
  public:
   StatusIteration(SchurComplement& schur, const ActiveSetProblem& problem)
-      : schur_(schur), problem_(problem), is_active_(static_cast<std::size_t>(schur.size()), 0), multipliers_(Eigen::VectorXd::Zero(schur.size())) {
+      : schur_(schur),
+        problem_(problem),
+        is_active_(static_cast<std::size_t>(schur.size()), 0),
+        multipliers_(Eigen::VectorXd::Zero(schur.size())) {
     for (const int row : problem.guess) is_active_[static_cast<std::size_t>(row)] = 1;
   }
 
@@ -47,12 +50,14 @@ class StatusIteration {
 
   Eigen::MatrixXd among_active() const {
     Eigen::MatrixXd block(active_.size(), active_.size());
-    for (std::size_t k = 0; k < active_.size(); ++k) block.col(static_cast<Index>(k)) = schur_.column(active_[k])(active_);
+    for (std::size_t k = 0; k < active_.size(); ++k)
+      block.col(static_cast<Index>(k)) = schur_.column(active_[k])(active_);
     return block;
   }
 
   bool asks_for_change(int row) const {
-    return is_active_[static_cast<std::size_t>(row)] ? multipliers_[row] < 0.0 : violation_[row] > violation_tolerance * problem_.scale[row];
+    return is_active_[static_cast<std::size_t>(row)] ? multipliers_[row] < 0.0
+                                                     : violation_[row] > violation_tolerance * problem_.scale[row];
   }
 
   /// Whether any row changed.
@@ -79,6 +84,8 @@ class StatusIteration {
 
 }  // namespace
 
-ActiveSetSolution solve_by_statuses(SchurComplement& schur, const ActiveSetProblem& problem) { return StatusIteration(schur, problem).run(); }
+ActiveSetSolution solve_by_statuses(SchurComplement& schur, const ActiveSetProblem& problem) {
+  return StatusIteration(schur, problem).run();
+}
 
 }  // namespace comma::solver

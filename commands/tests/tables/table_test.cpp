@@ -28,7 +28,8 @@ TEST_CASE("A table in Code_Aster's own format says what its columns hold") {
   table.title = "forces";
   table.columns = {"NOEUD", "STEP", "DX"};
   table.rows = {{std::string("N1"), std::int64_t{3}, 1.5}};
-  CHECK(aster_table(table) == "#DEBUT_TABLE\n#TITRE forces\n NOEUD STEP DX\n K80   I    R\n N1    3     1.50000E+00\n#FIN_TABLE\n");
+  CHECK(aster_table(table) ==
+        "#DEBUT_TABLE\n#TITRE forces\n NOEUD STEP DX\n K80   I    R\n N1    3     1.50000E+00\n#FIN_TABLE\n");
 }
 
 TEST_CASE("A crossed table has a row and a column for each value of two columns") {
@@ -57,7 +58,8 @@ TEST_CASE("Fortran's edit descriptors") {
   CHECK(format_real(3.14159, "F8.3") == "   3.142");
   CHECK_THROWS_AS(format_real(1.0, "Q5"), DiagnosticError);
   CHECK(format_real(2.5, " es9.2E3 ") == " 2.50E+00");
-  for (const char* wrong : {"E12", "E12.", "E.5", "2PE12.5", "E-12.5", "E12.5 x", "", "P", "E12.5E"}) CHECK_THROWS_AS(RealFormat(wrong), DiagnosticError);
+  for (const char* wrong : {"E12", "E12.", "E.5", "2PE12.5", "E-12.5", "E12.5 x", "", "P", "E12.5E"})
+    CHECK_THROWS_AS(RealFormat(wrong), DiagnosticError);
 }
 
 TEST_CASE("A format is as wide as a line at most") {
@@ -70,8 +72,10 @@ TEST_CASE("A format is as wide as a line at most") {
 TEST_CASE("A reduction passes over no number that is none") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   using Reduction = double (*)(std::span<const double>);
-  for (const Reduction reduction : {Reduction{least}, Reduction{greatest}, Reduction{sum_of}, Reduction{sum_of_sizes}, Reduction{mean_of}, Reduction{least_size}, Reduction{greatest_size}}) {
-    for (const auto& numbers : {std::vector{none, 1.0, 2.0}, std::vector{1.0, none, 2.0}, std::vector{1.0, 2.0, none}}) CHECK(std::isnan(reduction(numbers)));
+  for (const Reduction reduction : {Reduction{least}, Reduction{greatest}, Reduction{sum_of}, Reduction{sum_of_sizes},
+                                    Reduction{mean_of}, Reduction{least_size}, Reduction{greatest_size}}) {
+    for (const auto& numbers : {std::vector{none, 1.0, 2.0}, std::vector{1.0, none, 2.0}, std::vector{1.0, 2.0, none}})
+      CHECK(std::isnan(reduction(numbers)));
   }
   const std::vector<double> numbers = {-3.0, 1.0, 2.0};
   CHECK(least(numbers) == -3.0);
@@ -95,10 +99,16 @@ TEST_CASE("A command file reads a table cell by column and row") {
 TEST_CASE("Rows are found by what they name, numbers by what they are but for rounding") {
   using Cells = std::vector<Cell>;
   const std::vector<int> columns = {0, 2};
-  const std::vector<Cells> rows = {{std::string("A"), 1.0, 0.1}, {std::string("B"), 2.0, 0.1}, {std::string("A"), 3.0, 0.1}, {std::string("A"), 4.0, Cell()}, {std::int64_t{2}, 5.0, 1.0}};
+  const std::vector<Cells> rows = {{std::string("A"), 1.0, 0.1},
+                                   {std::string("B"), 2.0, 0.1},
+                                   {std::string("A"), 3.0, 0.1},
+                                   {std::string("A"), 4.0, Cell()},
+                                   {std::int64_t{2}, 5.0, 1.0}};
   RowKeys known(columns, SameKey());
   for (std::size_t i = 0; i < rows.size(); ++i) known.add(rows[i], i);
-  const auto found = [&](const Cell& first, const Cell& second) { return known.find(Cells{first, second}, std::vector<int>{0, 1}); };
+  const auto found = [&](const Cell& first, const Cell& second) {
+    return known.find(Cells{first, second}, std::vector<int>{0, 1});
+  };
   CHECK(found(std::string("A"), 0.1 * (1.0 + 5e-10)) == std::size_t{0});
   CHECK(!found(std::string("A"), 0.1 * (1.0 + 5e-9)));
   CHECK(found(std::string("A"), Cell()) == std::size_t{3});

@@ -12,12 +12,14 @@ namespace comma::solver {
 
 namespace {
 
-/// The first point of a traction curve must lie on the elastic line, within this share of its strain: measured curves have few digits.
+/// The first point of a traction curve must lie on the elastic line, within this share of its strain: measured curves
+/// have few digits.
 constexpr double elastic_line_share = 0.02;
 
 double plastic_modulus(double young, double slope) {
   if (!(slope < young)) {
-    throw Error("invalid-material", fmt::format("the slope of the hardening is {}, but must be less than Young's modulus {}", slope, young),
+    throw Error("invalid-material",
+                fmt::format("the slope of the hardening is {}, but must be less than Young's modulus {}", slope, young),
                 "D_SIGM_EPSI is the slope of the traction curve, over the total strain");
   }
   return slope / (1.0 - slope / young);  // young * slope would overflow before the modulus, which is above -young, does
@@ -26,10 +28,13 @@ double plastic_modulus(double young, double slope) {
 /// Below the first point the first piece goes on.
 std::pair<double, double> on_piece(const PiecewiseCurve& curve, double p) {
   const auto& points = curve.points;
-  const auto next = std::upper_bound(points.begin(), points.end(), p, [](double at, const auto& point) { return at < point.first; });
+  const auto next =
+      std::upper_bound(points.begin(), points.end(), p, [](double at, const auto& point) { return at < point.first; });
   if (next == points.end() || points.size() == 1) {
     if (curve.ends && p > points.back().first) {
-      throw Error("out-of-function", fmt::format("the plastic strain reaches {:.6g}, beyond the last point ({:.6g}) of the traction curve", p, points.back().first),
+      throw Error("out-of-function",
+                  fmt::format("the plastic strain reaches {:.6g}, beyond the last point ({:.6g}) of the traction curve",
+                              p, points.back().first),
                   "give more points, or say how the curve goes on (PROL_DROITE)");
     }
     return {points.back().second + curve.last_slope * (p - points.back().first), curve.last_slope};
@@ -73,7 +78,8 @@ PiecewiseCurve over_plastic_strain(const TabulatedFunction& curve) {
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     const double p = k == 0 ? 0.0 : curve.x[k] - curve.y[k] / young;
     if (k > 0 && !(p > result.points.back().first)) {
-      throw Error("invalid-material", fmt::format("the traction curve is steeper than the elastic line at the strain {:.6g}", curve.x[k]));
+      throw Error("invalid-material",
+                  fmt::format("the traction curve is steeper than the elastic line at the strain {:.6g}", curve.x[k]));
     }
     result.points.emplace_back(p, curve.y[k]);
   }
@@ -97,7 +103,8 @@ PiecewiseCurve between(const PiecewiseCurve& a, const PiecewiseCurve& b, double 
   unended[0].ends = unended[1].ends = false;
   PiecewiseCurve result;
   for (const double p : places)
-    result.points.emplace_back(p, (1.0 - share) * on_piece(unended[0], p).first + share * on_piece(unended[1], p).first);
+    result.points.emplace_back(p,
+                               (1.0 - share) * on_piece(unended[0], p).first + share * on_piece(unended[1], p).first);
   result.last_slope = (1.0 - share) * a.last_slope + share * b.last_slope;
   result.ends = a.ends || b.ends;
   return result;
@@ -105,13 +112,20 @@ PiecewiseCurve between(const PiecewiseCurve& a, const PiecewiseCurve& b, double 
 
 /// R(p) and Young's modulus at a temperature.
 std::pair<PiecewiseCurve, double> traction_curve(const TractionHardening& law, const MaterialPoint& at) {
-  const auto own = [&](std::size_t index) { return std::pair(over_plastic_strain(law.curves[index]), elastic_slope(law.curves[index])); };
+  const auto own = [&](std::size_t index) {
+    return std::pair(over_plastic_strain(law.curves[index]), elastic_slope(law.curves[index]));
+  };
   if (law.curves.size() == 1) return own(0);
   const double temperature = at[Parameter::temperature];
-  if (std::isnan(temperature)) throw Error("missing-variable", "traction curves depend on the temperature, which is not given here", "give it by AFFE_MATERIAU/AFFE_VARC");
+  if (std::isnan(temperature))
+    throw Error("missing-variable", "traction curves depend on the temperature, which is not given here",
+                "give it by AFFE_MATERIAU/AFFE_VARC");
   const auto& nodes = law.temperatures;
-  if ((temperature < nodes.front() && law.left == Extension::excluded) || (temperature > nodes.back() && law.right == Extension::excluded)) {
-    throw Error("out-of-function", fmt::format("the temperature {:.6g} lies outside those of the traction curves, {:.6g} to {:.6g}", temperature, nodes.front(), nodes.back()));
+  if ((temperature < nodes.front() && law.left == Extension::excluded) ||
+      (temperature > nodes.back() && law.right == Extension::excluded)) {
+    throw Error("out-of-function",
+                fmt::format("the temperature {:.6g} lies outside those of the traction curves, {:.6g} to {:.6g}",
+                            temperature, nodes.front(), nodes.back()));
   }
   if (temperature <= nodes.front() && law.left == Extension::constant) return own(0);
   if (temperature >= nodes.back() && law.right == Extension::constant) return own(nodes.size() - 1);
@@ -126,7 +140,10 @@ std::pair<PiecewiseCurve, double> traction_curve(const TractionHardening& law, c
 
 void check_elastic_line(double slope, double young) {
   if (std::abs(slope - young) <= elastic_line_share * young) return;
-  throw Error("invalid-material", fmt::format("the first point of the traction curve does not lie on the elastic line: its slope is {:.6g}, Young's modulus {:.6g}", slope, young),
+  throw Error("invalid-material",
+              fmt::format("the first point of the traction curve does not lie on the elastic line: its slope is "
+                          "{:.6g}, Young's modulus {:.6g}",
+                          slope, young),
               "the curve begins at the yield point, where the strain is the stress over Young's modulus");
 }
 
@@ -138,39 +155,54 @@ void set_elasticity(double young, double poisson, PlasticPoint& point) {
 const char* keyword_of(Relation relation) {
   switch (relation) {
     case Relation::isotropic_traction:
-    case Relation::mixed_traction: return "TRACTION";
-    case Relation::isotropic_power: return "ECRO_PUIS";
-    case Relation::isotropic_nonlinear: return "ECRO_NL";
-    case Relation::asymmetric_linear: return "ECRO_ASYM_LINE";
-    default: return "ECRO_LINE or ECRO_LINE_FO";
+    case Relation::mixed_traction:
+      return "TRACTION";
+    case Relation::isotropic_power:
+      return "ECRO_PUIS";
+    case Relation::isotropic_nonlinear:
+      return "ECRO_NL";
+    case Relation::asymmetric_linear:
+      return "ECRO_ASYM_LINE";
+    default:
+      return "ECRO_LINE or ECRO_LINE_FO";
   }
 }
 
 [[noreturn]] void throw_missing(std::string_view keyword) {
-  throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword), "give it in DEFI_MATERIAU");
+  throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword),
+              "give it in DEFI_MATERIAU");
 }
 
-/// A radius of the yield surface, and a trial stress that flow lowers: without them a point would count as elastic in silence.
+/// A radius of the yield surface, and a trial stress that flow lowers: without them a point would count as elastic in
+/// silence.
 void check_surface(const PlasticPoint& point) {
   for (const HardeningCurve* curve : {&point.curve, &point.compression}) {
     const double yield = hardening(*curve, 0.0).first;
     if (std::holds_alternative<NoYield>(*curve) || (yield >= 0.0 && std::isfinite(yield))) continue;
     const std::string found = std::isnan(yield) ? "not a number" : fmt::format("{:.6g}", yield);
-    throw Error("invalid-material", fmt::format("the yield stress is {}, but must be a positive number or zero", found), "look at the constants of the hardening");
+    throw Error("invalid-material", fmt::format("the yield stress is {}, but must be a positive number or zero", found),
+                "look at the constants of the hardening");
   }
   const double falls = hardening(point.curve, 0.0).second;
   if (!(3.0 * point.shear + 1.5 * std::max(0.0, point.kinematic) + falls > 0.0)) {
-    throw Error("invalid-material", fmt::format("the yield stress falls by {:.6g} times the plastic strain where flow begins, steeper than the stress can follow", -falls),
+    throw Error("invalid-material",
+                fmt::format("the yield stress falls by {:.6g} times the plastic strain where flow begins, steeper than "
+                            "the stress can follow",
+                            -falls),
                 "look at the constants of the hardening");
   }
   if (point.kinematic >= 0.0 || 3.0 * point.shear + 1.5 * point.kinematic > 0.0) return;
-  throw Error("invalid-material", fmt::format("the centre of the yield surface moves backwards by {:.6g} times the plastic strain, more than the material is stiff", -point.kinematic),
+  throw Error("invalid-material",
+              fmt::format("the centre of the yield surface moves backwards by {:.6g} times the plastic strain, more "
+                          "than the material is stiff",
+                          -point.kinematic),
               "look at the constant of PRAGER, or at D_SIGM_EPSI");
 }
 
 bool is_mixed(Relation relation) { return relation == Relation::mixed_linear || relation == Relation::mixed_traction; }
 
-PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
+PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation,
+                               const MaterialPoint& at) {
   const IsotropicModuli elastic = moduli(elasticity, at);
   PlasticPoint point;
   set_elasticity(elastic.young, elastic.poisson, point);
@@ -182,7 +214,8 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
     case Relation::elastic:
     case Relation::contact_spring:
     case Relation::bilinear_spring:
-    case Relation::hardening_spring: return point;
+    case Relation::hardening_spring:
+      return point;
     case Relation::hyperelastic:
       if (!plasticity.hyperelasticity) throw_missing("ELAS_HYPER");
       point.hyperelasticity = &*plasticity.hyperelasticity;
@@ -243,14 +276,18 @@ bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasti
   switch (relation) {
     case Relation::isotropic_linear:
     case Relation::kinematic_linear:
-    case Relation::mixed_linear: return plasticity.linear && plasticity.linear->slope.is_constant() && plasticity.linear->yield.is_constant();
+    case Relation::mixed_linear:
+      return plasticity.linear && plasticity.linear->slope.is_constant() && plasticity.linear->yield.is_constant();
     case Relation::isotropic_traction:
-    case Relation::mixed_traction: return plasticity.traction && plasticity.traction->curves.size() == 1;
-    default: return true;
+    case Relation::mixed_traction:
+      return plasticity.traction && plasticity.traction->curves.size() == 1;
+    default:
+      return true;
   }
 }
 
-PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at) {
+PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation,
+                           const MaterialPoint& at) {
   PlasticPoint point = point_of_relation(elasticity, plasticity, relation, at);
   check_surface(point);
   return point;

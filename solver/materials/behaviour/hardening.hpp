@@ -50,11 +50,13 @@ struct PlasticPoint : PlasticModuli {
 /// Whether a relation finds the same at all points and times.
 bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation);
 
-/// The constants of a relation at a point. A bilinear curve of slope T has R = yield + E T / (E - T) p, less 3/2 C where the surface moves
-/// as well; with kinematic hardening alone C = 2/3 E T / (E - T) (R5.03.02, R5.03.16). Throws Error `missing-material` naming the
-/// keyword that the relation lacks, `invalid-material` for a slope that is not below Young's modulus, a curve whose first point lies
-/// off the elastic line, a yield stress below zero or not finite, a yield stress that falls more steeply than the elastic stress, or a surface
-/// that moves backwards by more than the material is stiff.
-PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation, const MaterialPoint& at);
+/// The constants of a relation at a point. A bilinear curve of slope T has R = yield + E T / (E - T) p, less 3/2 C
+/// where the surface moves as well; with kinematic hardening alone C = 2/3 E T / (E - T) (R5.03.02, R5.03.16). Throws
+/// Error `missing-material` naming the keyword that the relation lacks, `invalid-material` for a slope that is not
+/// below Young's modulus, a curve whose first point lies off the elastic line, a yield stress below zero or not finite,
+/// a yield stress that falls more steeply than the elastic stress, or a surface that moves backwards by more than the
+/// material is stiff.
+PlasticPoint plastic_point(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation,
+                           const MaterialPoint& at);
 
 }  // namespace comma::solver

@@ -21,14 +21,19 @@ double under_pieces(const PiecewiseCurve& curve, double p) {
   return energy;
 }
 
-double under_power(const PowerCurve& curve, double p) { return curve.yield * p + curve.factor * std::pow(p, curve.power + 1.0) / (curve.power + 1.0); }
+double under_power(const PowerCurve& curve, double p) {
+  return curve.yield * p + curve.factor * std::pow(p, curve.power + 1.0) / (curve.power + 1.0);
+}
 
 /// The integral of a (1 - exp(-rate q)).
-double under_exponential(double amplitude, double rate, double p) { return rate == 0.0 ? 0.0 : amplitude * (p + std::expm1(-rate * p) / rate); }
+double under_exponential(double amplitude, double rate, double p) {
+  return rate == 0.0 ? 0.0 : amplitude * (p + std::expm1(-rate * p) / rate);
+}
 
 double under_nonlinear(const NonlinearHardening& law, double p) {
   const double grown = law.power + 1.0;
-  return law.initial * p + 0.5 * law.slope * p * p + under_exponential(law.first, law.first_rate, p) + under_exponential(law.second, law.second_rate, p) +
+  return law.initial * p + 0.5 * law.slope * p * p + under_exponential(law.first, law.first_rate, p) +
+         under_exponential(law.second, law.second_rate, p) +
          law.power_factor * (std::pow(p + law.power_offset, grown) - std::pow(law.power_offset, grown)) / grown;
 }
 

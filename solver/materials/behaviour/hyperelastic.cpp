@@ -8,7 +8,8 @@
 
 namespace comma::solver {
 
-HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient) {
+HyperelasticResponse hyperelastic_response(const Hyperelasticity& material,
+                                           const Eigen::Matrix3d& displacement_gradient) {
   const Eigen::Matrix3d f = deformation_gradient(displacement_gradient);
   const Eigen::Matrix3d c = f.transpose() * f;
   const Eigen::Matrix3d c_inverse = c.inverse();
@@ -26,22 +27,25 @@ HyperelasticResponse hyperelastic_response(const Hyperelasticity& material, cons
   // First and second derivatives of the invariants by C; those of C^-1 are by the strain, which is half of it.
   const Vector6d d1 = shape * (one - i1 / 3.0 * inverse);
   const Vector6d d2 = shape * shape * (other - 2.0 / 3.0 * i2 * inverse);
-  const Matrix6d dd1 = shape * (-(one * inverse.transpose() + inverse * one.transpose()) / 3.0 + i1 / 9.0 * inverse * inverse.transpose() -
-                                i1 / 6.0 * change_of_inverse);
-  const Matrix6d dd2 = shape * shape *
-                       (one * one.transpose() - identity - 2.0 / 3.0 * (inverse * other.transpose() + other * inverse.transpose()) +
-                        4.0 / 9.0 * i2 * inverse * inverse.transpose() - i2 / 3.0 * change_of_inverse);
+  const Matrix6d dd1 = shape * (-(one * inverse.transpose() + inverse * one.transpose()) / 3.0 +
+                                i1 / 9.0 * inverse * inverse.transpose() - i1 / 6.0 * change_of_inverse);
+  const Matrix6d dd2 =
+      shape * shape *
+      (one * one.transpose() - identity - 2.0 / 3.0 * (inverse * other.transpose() + other * inverse.transpose()) +
+       4.0 / 9.0 * i2 * inverse * inverse.transpose() - i2 / 3.0 * change_of_inverse);
   const double slope1 = material.c10 + 2.0 * material.c20 * (shape * i1 - 3.0);
   const double pressure = material.bulk * (jacobian - 1.0) * jacobian;
 
   HyperelasticResponse response;
   response.stress = 2.0 * slope1 * d1 + 2.0 * material.c01 * d2 + pressure * inverse;
   response.tangent = 4.0 * (slope1 * dd1 + 2.0 * material.c20 * d1 * d1.transpose() + material.c01 * dd2) +
-                     material.bulk * (2.0 * jacobian - 1.0) * jacobian * inverse * inverse.transpose() + pressure * change_of_inverse;
+                     material.bulk * (2.0 * jacobian - 1.0) * jacobian * inverse * inverse.transpose() +
+                     pressure * change_of_inverse;
   return response;
 }
 
-Eigen::Matrix3d gradient_in_plane_stress(const Hyperelasticity& material, const Eigen::Matrix3d& displacement_gradient) {
+Eigen::Matrix3d gradient_in_plane_stress(const Hyperelasticity& material,
+                                         const Eigen::Matrix3d& displacement_gradient) {
   constexpr int most_iterations = 100;
   constexpr double settled = 1e-15;  // of the square of the thickness: rounding leaves as much
   Eigen::Matrix3d gradient = displacement_gradient;
@@ -67,12 +71,14 @@ double hyperelastic_energy(const Hyperelasticity& material, const Eigen::Matrix3
   const double shape = std::pow(jacobian, -2.0 / 3.0);
   const double first = shape * c.trace() - 3.0;
   const double second = shape * shape * 0.5 * (c.trace() * c.trace() - c.squaredNorm()) - 3.0;
-  return material.c10 * first + material.c01 * second + material.c20 * first * first + 0.5 * material.bulk * (jacobian - 1.0) * (jacobian - 1.0);
+  return material.c10 * first + material.c01 * second + material.c20 * first * first +
+         0.5 * material.bulk * (jacobian - 1.0) * (jacobian - 1.0);
 }
 
 IsotropicModuli small_strain_moduli(const Hyperelasticity& material) {
   const double shear = 2.0 * (material.c10 + material.c01);
-  return {9.0 * material.bulk * shear / (3.0 * material.bulk + shear), (3.0 * material.bulk - 2.0 * shear) / (2.0 * (3.0 * material.bulk + shear))};
+  return {9.0 * material.bulk * shear / (3.0 * material.bulk + shear),
+          (3.0 * material.bulk - 2.0 * shear) / (2.0 * (3.0 * material.bulk + shear))};
 }
 
 }  // namespace comma::solver

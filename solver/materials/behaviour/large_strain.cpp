@@ -9,7 +9,9 @@ using Eigen::Matrix3d;
 Matrix3d deformation_gradient(const Matrix3d& displacement_gradient) {
   const Matrix3d f = Matrix3d::Identity() + displacement_gradient;
   if (!(f.determinant() > 0.0)) {
-    throw Error("integration-failure", "a point is turned inside out: the determinant of its deformation gradient is not positive", "take smaller steps");
+    throw Error("integration-failure",
+                "a point is turned inside out: the determinant of its deformation gradient is not positive",
+                "take smaller steps");
   }
   return f;
 }
@@ -22,7 +24,8 @@ Matrix6d derivative_of_inverse(const Matrix3d& inverse) {
   Matrix6d d;
   for (int m = 0; m < 6; ++m)
     for (int n = 0; n < 6; ++n)
-      d(m, n) = -(inverse(first[m], first[n]) * inverse(second[m], second[n]) + inverse(first[m], second[n]) * inverse(second[m], first[n]));
+      d(m, n) = -(inverse(first[m], first[n]) * inverse(second[m], second[n]) +
+                  inverse(first[m], second[n]) * inverse(second[m], first[n]));
   return d;
 }
 

@@ -12,8 +12,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The two directions behind each component.
-/// Values nearer to each other than this are one in second divided differences: a series about their mean errs by the fourth power,
-/// the difference itself by rounding over the distance.
+/// Values nearer to each other than this are one in second divided differences: a series about their mean errs by the
+/// fourth power, the difference itself by rounding over the distance.
 constexpr double near = 1e-3;
 
 /// (e(a) - e(b)) / (a - b) with e(g) = ln(1 + 2 g) / 2.
@@ -50,7 +50,8 @@ LogarithmicStrain::LogarithmicStrain(const Matrix3d& h) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(green_lagrange_strain(h));
   values_ = solver.eigenvalues();
   vectors_ = solver.eigenvectors();
-  const Vector3d logarithms(0.5 * std::log1p(2.0 * values_[0]), 0.5 * std::log1p(2.0 * values_[1]), 0.5 * std::log1p(2.0 * values_[2]));
+  const Vector3d logarithms(0.5 * std::log1p(2.0 * values_[0]), 0.5 * std::log1p(2.0 * values_[1]),
+                            0.5 * std::log1p(2.0 * values_[2]));
   strain_ = components_of_stress(vectors_ * logarithms.asDiagonal() * vectors_.transpose());
   strain_.tail<3>() *= 2.0;
   Matrix3d differences;
@@ -71,7 +72,8 @@ Matrix6d LogarithmicStrain::second_tangent(const Matrix6d& d, const Vector6d& t)
   double weights[3][3][3];
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < 3; ++j) weights[i][k][j] = second_difference(values_[i], values_[k], values_[j]) * stress(i, j);
+      for (int j = 0; j < 3; ++j)
+        weights[i][k][j] = second_difference(values_[i], values_[k], values_[j]) * stress(i, j);
   for (int m = 0; m < 6; ++m) {
     for (int n = 0; n <= m; ++n) {
       double sum = 0.0;

@@ -1,5 +1,5 @@
-// Logarithmic strains: E = ln(F^T F) / 2 and what laws between E and its dual stress T say on the initial geometry (Miehe, Apel and Lambrecht,
-// Computer Methods in Applied Mechanics and Engineering 191, 2002; R5.03.24).
+// Logarithmic strains: E = ln(F^T F) / 2 and what laws between E and its dual stress T say on the initial geometry
+// (Miehe, Apel and Lambrecht, Computer Methods in Applied Mechanics and Engineering 191, 2002; R5.03.24).
 #pragma once
 
 #include <Eigen/Dense>
@@ -8,8 +8,8 @@
 
 namespace comma::solver {
 
-/// F = I + H. Green and Lagrange's strain is an isotropic function away from the logarithmic one, e = ln(1 + 2 g) / 2 eigenvalue by eigenvalue,
-/// so derivatives follow from divided differences of that function (Daleckii and Krein).
+/// F = I + H. Green and Lagrange's strain is an isotropic function away from the logarithmic one, e = ln(1 + 2 g) / 2
+/// eigenvalue by eigenvalue, so derivatives follow from divided differences of that function (Daleckii and Krein).
 class LogarithmicStrain {
  public:
   /// Throws Error `integration-failure` where det F <= 0: the point is turned inside out.
@@ -25,10 +25,10 @@ class LogarithmicStrain {
   Matrix6d second_tangent(const Matrix6d& d, const Vector6d& t) const;
 
  private:
-  Eigen::Vector3d values_;   ///< of Green and Lagrange's strain
+  Eigen::Vector3d values_;  ///< of Green and Lagrange's strain
   Eigen::Matrix3d vectors_;
   Vector6d strain_;
-  Matrix6d projection_;      ///< dE / dE_green, both with shear angles
+  Matrix6d projection_;  ///< dE / dE_green, both with shear angles
 };
 
 }  // namespace comma::solver

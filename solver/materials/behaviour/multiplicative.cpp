@@ -12,19 +12,19 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// What trial and flow are made from, on the initial geometry: C = F^T F, and G = C_p^-1, which the step begins with. All derivatives are by
-/// the strain E, where dC = 2 dE: those of scalars are stresses in form.
+/// What trial and flow are made from, on the initial geometry: C = F^T F, and G = C_p^-1, which the step begins with.
+/// All derivatives are by the strain E, where dC = 2 dE: those of scalars are stresses in form.
 struct Trial {
   double jacobian;
-  double shape;         ///< J^(-2/3)
-  Vector6d inverse;     ///< C^-1
-  Vector6d plastic;     ///< G
-  double trace;         ///< t = J^(-2/3) C : G
+  double shape;      ///< J^(-2/3)
+  Vector6d inverse;  ///< C^-1
+  Vector6d plastic;  ///< G
+  double trace;      ///< t = J^(-2/3) C : G
   Vector6d trace_slope;
-  double size;          ///< sqrt(3/2) |tau| of the trial
+  double size;  ///< sqrt(3/2) |tau| of the trial
   Vector6d size_slope;
-  Vector6d stress;      ///< of the deviator, on the initial geometry
-  Matrix6d tangent;     ///< of that
+  Vector6d stress;   ///< of the deviator, on the initial geometry
+  Matrix6d tangent;  ///< of that
 
   Trial(const PlasticPoint& point, const Matrix3d& f, const Matrix3d& g) {
     const Matrix3d c = f.transpose() * f;
@@ -41,12 +41,14 @@ struct Trial {
     size = std::sqrt(std::max(0.0, factor * (c.cwiseProduct(gcg).sum() - contraction * contraction / 3.0)));
     size_slope = Vector6d::Zero();
     if (size > 0.0) {
-      const Vector6d by_c = factor * (2.0 * components_of_stress(gcg) - 2.0 / 3.0 * contraction * plastic) - 2.0 / 3.0 * size * size * inverse;
+      const Vector6d by_c = factor * (2.0 * components_of_stress(gcg) - 2.0 / 3.0 * contraction * plastic) -
+                            2.0 / 3.0 * size * size * inverse;
       size_slope = by_c / size;
     }
     stress = point.shear * (shape * plastic - trace / 3.0 * inverse);
     tangent = -point.shear / 3.0 *
-              (2.0 * shape * plastic * inverse.transpose() + inverse * trace_slope.transpose() + trace * derivative_of_inverse(c_inverse));
+              (2.0 * shape * plastic * inverse.transpose() + inverse * trace_slope.transpose() +
+               trace * derivative_of_inverse(c_inverse));
   }
 };
 
@@ -54,7 +56,8 @@ struct Trial {
 double mean_of_unit_volume(const Matrix3d& deviator) {
   const double half_square = 0.5 * deviator.squaredNorm();
   const double rest = deviator.determinant() - 1.0;
-  double mean = 1.0 + std::sqrt(half_square / 3.0);  // right of the largest turning point, where Newton's method falls onto the root
+  double mean = 1.0 + std::sqrt(half_square /
+                                3.0);  // right of the largest turning point, where Newton's method falls onto the root
   constexpr int most_iterations = 60;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const double step = (mean * (mean * mean - half_square) + rest) / (3.0 * mean * mean - half_square);
@@ -64,18 +67,20 @@ double mean_of_unit_volume(const Matrix3d& deviator) {
   return mean;
 }
 
-void add_volume(const PlasticPoint& point, double expansion, const Trial& trial, const Matrix3d& f, MultiplicativeResponse& response) {
+void add_volume(const PlasticPoint& point, double expansion, const Trial& trial, const Matrix3d& f,
+                MultiplicativeResponse& response) {
   const double j = trial.jacobian;
   const double pressure = 0.5 * point.bulk * (j * j - 1.0) - 1.5 * point.bulk * expansion * (j + 1.0 / j);
   const double slope = point.bulk * j - 1.5 * point.bulk * expansion * (1.0 - 1.0 / (j * j));
   response.stress += pressure * trial.inverse;
-  response.tangent += slope * j * trial.inverse * trial.inverse.transpose() + pressure * derivative_of_inverse((f.transpose() * f).inverse());
+  response.tangent += slope * j * trial.inverse * trial.inverse.transpose() +
+                      pressure * derivative_of_inverse((f.transpose() * f).inverse());
 }
 
 }  // namespace
 
-MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state, const Matrix3d& before,
-                                                const Matrix3d& now, double expansion) {
+MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state,
+                                                const Matrix3d& before, const Matrix3d& now, double expansion) {
   const Matrix3d last = deformation_gradient(before);
   const Matrix3d f = deformation_gradient(now);
   const Matrix3d back = std::cbrt(last.determinant()) * last.inverse();

@@ -1,5 +1,5 @@
-// Plasticity with isotropic hardening in large strains by the multiplicative split F = F^e F^p (Simo and Miehe, Computer Methods in Applied
-// Mechanics and Engineering 98, 1992; R5.03.21).
+// Plasticity with isotropic hardening in large strains by the multiplicative split F = F^e F^p (Simo and Miehe,
+// Computer Methods in Applied Mechanics and Engineering 98, 1992; R5.03.21).
 #pragma once
 
 #include "solver/materials/behaviour/hardening.hpp"
@@ -28,7 +28,8 @@ struct MultiplicativeResponse {
 ///
 /// the trace of the new b is that of a tensor of determinant 1.
 /// Throws Error `integration-failure` where det F <= 0.
-MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state, const Eigen::Matrix3d& before,
-                                                const Eigen::Matrix3d& now, double expansion);
+MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const MultiplicativeState& state,
+                                                const Eigen::Matrix3d& before, const Eigen::Matrix3d& now,
+                                                double expansion);
 
 }  // namespace comma::solver

@@ -27,7 +27,8 @@ bool is_spherical(const Vector6d& strain) {
 
 /// Whether the centre of the yield surface moves.
 bool moves(Relation relation) {
-  return relation == Relation::kinematic_linear || relation == Relation::mixed_linear || relation == Relation::mixed_traction;
+  return relation == Relation::kinematic_linear || relation == Relation::mixed_linear ||
+         relation == Relation::mixed_traction;
 }
 
 /// As tensor components.
@@ -40,7 +41,9 @@ Vector6d elastic_strain(const Vector6d& stress, const PlasticModuli& moduli) {
   return strain;
 }
 
-bool keeps_tensor(Kinematics kinematics) { return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative; }
+bool keeps_tensor(Kinematics kinematics) {
+  return kinematics == Kinematics::logarithmic || kinematics == Kinematics::multiplicative;
+}
 
 /// The energy behind the pressure of the multiplicative split, e being the thermal expansion.
 double volume_energy(double bulk, double expansion, double j) {
@@ -57,7 +60,8 @@ double free_volume(double expansion) {
 }
 
 /// The strain across the plane in plane stress: all volume is elastic or thermal.
-double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic, const PlasticModuli& now) {
+double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic,
+                     const PlasticModuli& now) {
   return stress.head<3>().sum() / (3.0 * now.bulk) + inelastic.head<3>().sum() - strain[0] - strain[1];
 }
 
@@ -71,25 +75,37 @@ Vector6d green_strain(const Eigen::Matrix3d& h) {
 }  // namespace
 
 PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(behaviour), in_plane_(in_plane) {
-  if (behaviour.relation == Relation::asymmetric_linear) throw Error("unsupported", "hardening apart in tension and in compression is a law of bars", "give RELATION='VMIS_ASYM_LINE' to groups of bars alone");
+  if (behaviour.relation == Relation::asymmetric_linear)
+    throw Error("unsupported", "hardening apart in tension and in compression is a law of bars",
+                "give RELATION='VMIS_ASYM_LINE' to groups of bars alone");
   if (behaviour.relation == Relation::hyperelastic) {
     if (behaviour.kinematics != Kinematics::green_lagrange)
-      throw Error("unsupported", "rubber has large strains on the initial geometry", "take DEFORMATION='GREEN_LAGRANGE'");
+      throw Error("unsupported", "rubber has large strains on the initial geometry",
+                  "take DEFORMATION='GREEN_LAGRANGE'");
   }
   if (behaviour.kinematics != Kinematics::multiplicative) return;
-  if (in_plane) throw Error("unsupported", "the multiplicative split of strains is not known in plane stress", "take DEFORMATION='GDEF_LOG'");
-  if (moves(behaviour.relation)) throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only", "take DEFORMATION='GDEF_LOG'");
+  if (in_plane)
+    throw Error("unsupported", "the multiplicative split of strains is not known in plane stress",
+                "take DEFORMATION='GDEF_LOG'");
+  if (moves(behaviour.relation))
+    throw Error("unsupported", "the multiplicative split of strains goes with isotropic hardening only",
+                "take DEFORMATION='GDEF_LOG'");
 }
 
 int PointLaw::own_count() const {
   switch (behaviour_.relation) {
     case Relation::elastic:
-    case Relation::hyperelastic: return 1;
-    case Relation::kinematic_linear: return tensor_size + 1;
+    case Relation::hyperelastic:
+      return 1;
+    case Relation::kinematic_linear:
+      return tensor_size + 1;
     case Relation::mixed_linear:
-    case Relation::mixed_traction: return 2 + tensor_size;
-    case Relation::isotropic_nonlinear: return keeps_plastic_strain() ? 2 + tensor_size : 2;
-    default: return 2;
+    case Relation::mixed_traction:
+      return 2 + tensor_size;
+    case Relation::isotropic_nonlinear:
+      return keeps_plastic_strain() ? 2 + tensor_size : 2;
+    default:
+      return 2;
   }
 }
 
@@ -98,9 +114,7 @@ bool PointLaw::keeps_plastic_strain() const {
   return behaviour_.relation == Relation::isotropic_nonlinear && behaviour_.kinematics != Kinematics::multiplicative;
 }
 
-int PointLaw::variable_count() const {
-  return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0);
-}
+int PointLaw::variable_count() const { return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0); }
 
 PlasticState PointLaw::state_of(const PointPast& past) const {
   PlasticState state;
@@ -108,7 +122,8 @@ PlasticState PointLaw::state_of(const PointPast& past) const {
   const auto& v = past.variables;
   switch (behaviour_.relation) {
     case Relation::elastic:
-    case Relation::hyperelastic: break;
+    case Relation::hyperelastic:
+      break;
     case Relation::kinematic_linear:
       state.back_stress = Eigen::Map<const Vector6d>(v.data());
       state.flowing = v[tensor_size] > 0.5;
@@ -128,7 +143,8 @@ void PointLaw::write(const PlasticState& state, PointResponse& response) const {
   auto& v = response.variables;
   switch (behaviour_.relation) {
     case Relation::elastic:
-    case Relation::hyperelastic: break;
+    case Relation::hyperelastic:
+      break;
     case Relation::kinematic_linear:
       Eigen::Map<Vector6d>(v.data()) = state.back_stress;
       v[tensor_size] = state.flowing ? 1.0 : 0.0;
@@ -143,7 +159,8 @@ void PointLaw::write(const PlasticState& state, PointResponse& response) const {
   }
 }
 
-void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state, PointResponse& response) const {
+void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state,
+                                    PointResponse& response) const {
   if (!keeps_plastic_strain()) return;
   const Eigen::Map<const Vector6d> before(input.past.variables.data() + 2);
   Eigen::Map<Vector6d> plastic(response.variables.data() + 2);
@@ -160,12 +177,16 @@ void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& inc
 PlasticResponse PointLaw::integrate(const PointInput& input, const PlasticPoint& now, const Vector6d& increment) const {
   const PointPast& past = input.past;
   const PlasticState state = state_of(past);
-  if (input.begins) return (in_plane_ ? begin_von_mises_in_plane : begin_von_mises)(past.moduli, now, state, past.inelastic, input.inelastic);
-  return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment) : integrate_von_mises(past.moduli, now, state, increment);
+  if (input.begins)
+    return (in_plane_ ? begin_von_mises_in_plane : begin_von_mises)(past.moduli, now, state, past.inelastic,
+                                                                    input.inelastic);
+  return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment)
+                   : integrate_von_mises(past.moduli, now, state, increment);
 }
 
 PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) const {
-  const Vector6d increment = small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  const Vector6d increment =
+      small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
   const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, stress, stress, {}};
@@ -174,7 +195,8 @@ PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) 
   return response;
 }
 
-/// The tangent leaves out how the geometry changes the strain itself, which is of the order of the stresses over the moduli.
+/// The tangent leaves out how the geometry changes the strain itself, which is of the order of the stresses over the
+/// moduli.
 PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now) const {
   const Eigen::Matrix3d back = deformation_gradient(input.gradient).inverse();
   const Eigen::Matrix3d moved = (input.gradient - input.past.gradient) * back;
@@ -197,7 +219,8 @@ PointResponse PointLaw::updated(const PointInput& input, const PlasticPoint& now
 
 PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint& now) const {
   const LogarithmicStrain strain(input.gradient);
-  const Vector6d increment = strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
+  const Vector6d increment =
+      strain.strain() - LogarithmicStrain(input.past.gradient).strain() - (input.inelastic - input.past.inelastic);
   const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& t = result.state.stress;
   PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), t, {}};
@@ -211,14 +234,19 @@ PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint&
 
 PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoint& now) const {
   if (!is_spherical(input.inelastic)) {
-    throw Error("unsupported", "the multiplicative split of strains takes up an expansion alike in all directions alone, not this strain that is known beforehand",
+    throw Error("unsupported",
+                "the multiplicative split of strains takes up an expansion alike in all directions alone, not this "
+                "strain that is known beforehand",
                 "take DEFORMATION='GDEF_LOG'");
   }
   const PlasticState past = state_of(input.past);
   const Eigen::Map<const Vector6d> compression(input.past.variables.data() + own_count());
-  const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p, past.flowing};
-  const MultiplicativeResponse result = integrate_multiplicative(now, state, input.past.gradient, input.gradient, input.inelastic[0]);
-  PointResponse response{result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
+  const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p,
+                                  past.flowing};
+  const MultiplicativeResponse result =
+      integrate_multiplicative(now, state, input.past.gradient, input.gradient, input.inelastic[0]);
+  PointResponse response{
+      result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
   PlasticState reached;
   reached.p = result.state.p;
   reached.flowing = result.state.flowing;
@@ -231,22 +259,29 @@ PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoi
 PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint& now) const {
   if (behaviour_.relation == Relation::hyperelastic) return rubber(input, now);
   switch (behaviour_.kinematics) {
-    case Kinematics::green_lagrange: return green(input, now);
-    case Kinematics::logarithmic: return logarithmic(input, now);
-    case Kinematics::multiplicative: return multiplicative(input, now);
-    case Kinematics::updated: return updated(input, now);
-    default: return small(input, now);
+    case Kinematics::green_lagrange:
+      return green(input, now);
+    case Kinematics::logarithmic:
+      return logarithmic(input, now);
+    case Kinematics::multiplicative:
+      return multiplicative(input, now);
+    case Kinematics::updated:
+      return updated(input, now);
+    default:
+      return small(input, now);
   }
 }
 
 /// In plane stress the thickness takes part, which the second stress decides itself: a few rounds settle it.
-Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const {
+Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported,
+                                 const PointPast& past) const {
   const Vector6d on_initial_thickness = second_stress_of(gradient, reported);
   if (!in_plane_ || behaviour_.relation == Relation::hyperelastic) return on_initial_thickness;
   constexpr int rounds = 30;
   Vector6d stress = on_initial_thickness;
   for (int round = 0; round < rounds; ++round)
-    stress = std::sqrt(1.0 + 2.0 * strain_across(green_strain(gradient), stress, past.inelastic, past.moduli)) * on_initial_thickness;
+    stress = std::sqrt(1.0 + 2.0 * strain_across(green_strain(gradient), stress, past.inelastic, past.moduli)) *
+             on_initial_thickness;
   return stress;
 }
 
@@ -254,24 +289,32 @@ Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, b
   switch (behaviour_.kinematics) {
     case Kinematics::small:
     case Kinematics::large_rotations:  // of beams
-    case Kinematics::updated: return reported;
-    case Kinematics::green_lagrange: return second_stress(past.gradient, reported, past);
+    case Kinematics::updated:
+      return reported;
+    case Kinematics::green_lagrange:
+      return second_stress(past.gradient, reported, past);
     case Kinematics::logarithmic:
       if (has_variables) return Eigen::Map<const Vector6d>(past.variables.data() + own_count());
       return LogarithmicStrain(past.gradient).stress_of(second_stress_of(past.gradient, reported));
-    case Kinematics::multiplicative: return Vector6d::Zero();
+    case Kinematics::multiplicative:
+      return Vector6d::Zero();
   }
   return reported;
 }
 
 double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constants) const {
-  if (behaviour_.relation == Relation::hyperelastic) return hyperelastic_energy(*constants.hyperelasticity, in_plane_ ? gradient_in_plane_stress(*constants.hyperelasticity, at.gradient) : at.gradient);
+  if (behaviour_.relation == Relation::hyperelastic)
+    return hyperelastic_energy(
+        *constants.hyperelasticity,
+        in_plane_ ? gradient_in_plane_stress(*constants.hyperelasticity, at.gradient) : at.gradient);
   if (behaviour_.kinematics == Kinematics::multiplicative) {
     const double j = deformation_gradient(at.gradient).determinant();
     const double rest = free_volume(at.inelastic[0]);
-    const double compression = at.variables[static_cast<std::size_t>(own_count())] + at.variables[static_cast<std::size_t>(own_count() + 1)] +
+    const double compression = at.variables[static_cast<std::size_t>(own_count())] +
+                               at.variables[static_cast<std::size_t>(own_count() + 1)] +
                                at.variables[static_cast<std::size_t>(own_count() + 2)];
-    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) - constants.shear * compression;
+    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) -
+           constants.shear * compression;
   }
   const double pressure = at.stress.head<3>().sum() / 3.0;
   Vector6d deviator = at.stress;
@@ -295,7 +338,8 @@ PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) 
 
 PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now) const {
   if (!input.inelastic.isZero(0.0)) throw Error("unsupported", "rubber takes up no strain of the command variables");
-  const Eigen::Matrix3d gradient = in_plane_ ? gradient_in_plane_stress(*now.hyperelasticity, input.gradient) : input.gradient;
+  const Eigen::Matrix3d gradient =
+      in_plane_ ? gradient_in_plane_stress(*now.hyperelasticity, input.gradient) : input.gradient;
   HyperelasticResponse result = hyperelastic_response(*now.hyperelasticity, gradient);
   if (in_plane_) {
     constexpr int across = 2;
@@ -315,8 +359,10 @@ PointResponse PointLaw::respond_elastically(const PointInput& input) const {
 
 PointResponse PointLaw::begin(const PointInput& input) const {
   const PointPast& past = input.past;
-  const bool is_known = behaviour_.relation != Relation::hyperelastic && behaviour_.kinematics != Kinematics::multiplicative;
-  const bool has_changed = input.inelastic != past.inelastic || input.constants.shear != past.moduli.shear || input.constants.bulk != past.moduli.bulk;
+  const bool is_known =
+      behaviour_.relation != Relation::hyperelastic && behaviour_.kinematics != Kinematics::multiplicative;
+  const bool has_changed = input.inelastic != past.inelastic || input.constants.shear != past.moduli.shear ||
+                           input.constants.bulk != past.moduli.bulk;
   if (!is_known || !has_changed || past.moduli.shear == 0.0 || input.gradient != past.gradient) return respond(input);
   PointInput beginning = input;
   beginning.begins = true;
@@ -328,16 +374,20 @@ Vector6d PointLaw::stress_of_variables(const PointInput& input) const {
   return (in_plane_ ? elastic_stress_in_plane : elastic_stress)(input.constants, input.inelastic);
 }
 
-double PointLaw::flow_between(const std::array<double, most_variables>& before, const std::array<double, most_variables>& after) const {
+double PointLaw::flow_between(const std::array<double, most_variables>& before,
+                              const std::array<double, most_variables>& after) const {
   return own_count() == 2 ? after[0] - before[0] : 0.0;
 }
 
-/// A point that has flowed in the last step goes on along the normal that it has, by the tangent of the flow itself: C - 9 mu^2 / (3 mu + R') s s^T
-/// / s_eq^2 with the deviator s where the step begins.
+/// A point that has flowed in the last step goes on along the normal that it has, by the tangent of the flow itself: C
+/// - 9 mu^2 / (3 mu + R') s s^T / s_eq^2 with the deviator s where the step begins.
 PointResponse PointLaw::respond_extrapolated(const PointInput& input, double ratio) const {
   const bool is_known = behaviour_.relation == Relation::elastic || (own_count() == 2 && !in_plane_);
   if (!is_known || is_large())
-    throw Error("unsupported", "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS in small strains alone, and not in plane stress", "take METHODE='NEWTON'");
+    throw Error("unsupported",
+                "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS in small "
+                "strains alone, and not in plane stress",
+                "take METHODE='NEWTON'");
   PointResponse response = respond_elastically(input);
   if (behaviour_.relation == Relation::elastic || !(input.past.flow > 0.0)) return response;
   Vector6d deviator = input.past.stress;
@@ -347,7 +397,8 @@ PointResponse PointLaw::respond_extrapolated(const PointInput& input, double rat
   const double shear = input.constants.shear;
   const double slope = hardening(input.constants.curve, input.past.variables[0] + ratio * input.past.flow).second;
   const double equivalent = std::sqrt(1.5 * deviator.dot(normal));
-  const Matrix6d kept = Matrix6d::Identity() - 4.5 * shear / ((3.0 * shear + slope) * equivalent * equivalent) * deviator * normal.transpose();
+  const Matrix6d kept = Matrix6d::Identity() -
+                        4.5 * shear / ((3.0 * shear + slope) * equivalent * equivalent) * deviator * normal.transpose();
   response.stress = input.past.stress + kept * (response.stress - input.past.stress);
   response.tangent = kept * response.tangent;
   response.reported = response.own = response.stress;

@@ -17,8 +17,9 @@ inline constexpr int most_variables = 16;
 /// A point where the step began.
 struct PointPast {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< H = du / dX
-  Vector6d stress = Vector6d::Zero();                  ///< of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff
-  Vector6d inelastic = Vector6d::Zero();               ///< strain of the command variables
+  Vector6d stress =
+      Vector6d::Zero();  ///< of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff
+  Vector6d inelastic = Vector6d::Zero();  ///< strain of the command variables
   PlasticModuli moduli;
   std::array<double, most_variables> variables{};
   double flow = 0.0;  ///< by how much the cumulated plastic strain grew in the last step
@@ -34,17 +35,20 @@ struct PointInput {
 };
 
 struct PointResponse {
-  Vector6d stress;    ///< whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress
+  Vector6d
+      stress;  ///< whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress
   Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
-  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in plane stress
+  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in
+                      ///< plane stress
   Vector6d own = Vector6d::Zero();  ///< the stress of the law's own strain, which the next step begins with
   std::array<double, most_variables> variables{};
 };
 
 class PointLaw {
  public:
-  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the multiplicative split with
-  /// plane stress or with kinematic hardening, rubber with other strains than Green and Lagrange's.
+  /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the
+  /// multiplicative split with plane stress or with kinematic hardening, rubber with other strains than Green and
+  /// Lagrange's.
   PointLaw(const CellBehaviour& behaviour, bool in_plane);
 
   /// Large strains have their forces on the deformed, small ones on the initial geometry.
@@ -53,10 +57,11 @@ class PointLaw {
   bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
   Relation relation() const { return behaviour_.relation; }
 
-  /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic hardening, by saturating
-  /// exponentials the six plastic strains as well (not with the multiplicative split); the six of the back
-  /// stress and the indicator of kinematic hardening; cumulated strain, indicator and back stress of both together; one zero of elasticity
-  /// (U4.51.11). Logarithmic strains add the six components of their stress T, the multiplicative split those of (I - b) / 2.
+  /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic
+  /// hardening, by saturating exponentials the six plastic strains as well (not with the multiplicative split); the six
+  /// of the back stress and the indicator of kinematic hardening; cumulated strain, indicator and back stress of both
+  /// together; one zero of elasticity (U4.51.11). Logarithmic strains add the six components of their stress T, the
+  /// multiplicative split those of (I - b) / 2.
   int variable_count() const;
 
   /// Throws Error `integration-failure`, `out-of-function`.
@@ -64,20 +69,25 @@ class PointLaw {
   /// The same as if nothing could flow from here on.
   PointResponse respond_elastically(const PointInput& input) const;
 
-  /// The same for a point where a step begins: what has flowed goes on flowing, and what the command variables have changed is taken up elastically
-  /// (begin_von_mises). Where the point has moved already, or is of the multiplicative split, as respond().
+  /// The same for a point where a step begins: what has flowed goes on flowing, and what the command variables have
+  /// changed is taken up elastically (begin_von_mises). Where the point has moved already, or is of the multiplicative
+  /// split, as respond().
   PointResponse begin(const PointInput& input) const;
-  /// The stress (as PointResponse::stress) with which the elastic material would hold up the strain of the command variables.
+  /// The stress (as PointResponse::stress) with which the elastic material would hold up the strain of the command
+  /// variables.
   Vector6d stress_of_variables(const PointInput& input) const;
 
-  /// The same as respond() for a point that goes on as in the last step, flowing where it flowed, `ratio` times as much: linear in the strain (R5.03.81; after Oliver,
-  /// Huespe and Cante, Computer Methods in Applied Mechanics and Engineering 197, 2008). Throws Error `unsupported` but for elasticity and isotropic hardening in small strains,
+  /// The same as respond() for a point that goes on as in the last step, flowing where it flowed, `ratio` times as
+  /// much: linear in the strain (R5.03.81; after Oliver, Huespe and Cante, Computer Methods in Applied Mechanics and
+  /// Engineering 197, 2008). Throws Error `unsupported` but for elasticity and isotropic hardening in small strains,
   /// without plane stress.
   PointResponse respond_extrapolated(const PointInput& input, double ratio) const;
   /// By how much the cumulated plastic strain has grown; 0 for laws without one.
-  double flow_between(const std::array<double, most_variables>& before, const std::array<double, most_variables>& after) const;
+  double flow_between(const std::array<double, most_variables>& before,
+                      const std::array<double, most_variables>& after) const;
 
-  /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress that results show.
+  /// The law's own stress at a point that has a gradient, moduli and, if `has_variables`, variables, from the stress
+  /// that results show.
   Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
 
   /// The elastic energy for an initial volume of a point with its gradient, own stress and variables.
@@ -89,7 +99,8 @@ class PointLaw {
   PlasticState state_of(const PointPast& past) const;
   void write(const PlasticState& state, PointResponse& response) const;
   bool keeps_plastic_strain() const;
-  void write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state, PointResponse& response) const;
+  void write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state,
+                            PointResponse& response) const;
   PlasticResponse integrate(const PointInput& input, const PlasticPoint& now, const Vector6d& increment) const;
   Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
   PointResponse green(const PointInput& input, const PlasticPoint& now) const;

@@ -31,7 +31,9 @@ Vector6d deviator_of(Vector6d t) {
   return t;
 }
 
-double double_product(const Vector6d& a, const Vector6d& b) { return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>()); }
+double double_product(const Vector6d& a, const Vector6d& b) {
+  return a.head<3>().dot(b.head<3>()) + 2.0 * a.tail<3>().dot(b.tail<3>());
+}
 
 /// K 1 x 1 + 2 share mu (I - 1 x 1 / 3), for strains with shear angles.
 Matrix6d elastic_matrix(const PlasticModuli& now, double share) {
@@ -54,7 +56,8 @@ void subtract_flow(Matrix6d& d, const PlasticModuli& now, const Vector6d& normal
 void flow_on(Matrix6d& d, const PlasticPoint& now, const Vector6d& relative, double p) {
   const double size = std::sqrt(1.5 * double_product(relative, relative));
   if (!(size > 0.0)) return;
-  subtract_flow(d, now, 1.5 / size * relative, 1.0 / (3.0 * now.shear + 1.5 * now.kinematic + hardening(now.curve, p).second));
+  subtract_flow(d, now, 1.5 / size * relative,
+                1.0 / (3.0 * now.shear + 1.5 * now.kinematic + hardening(now.curve, p).second));
 }
 
 /// The matrix where no stress crosses the plane.
@@ -76,7 +79,9 @@ double plastic_increment(const HardeningCurve& curve, double trial, double hardn
   double low = 0.0, high = trial / hardness;
   double dp = 0.0;
   const auto checked = [&](double found, double radius) {
-    if (radius < -stress_rounding_share * trial) throw_no_return(fmt::format("the yield stress of a point falls below zero before the plastic strain {:.6g}", p + found));
+    if (radius < -stress_rounding_share * trial)
+      throw_no_return(
+          fmt::format("the yield stress of a point falls below zero before the plastic strain {:.6g}", p + found));
     return found;
   };
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -90,12 +95,15 @@ double plastic_increment(const HardeningCurve& curve, double trial, double hardn
     if (next == dp || !(high > low)) return checked(dp, radius);
     dp = next;
   }
-  throw_no_return(fmt::format("the plastic strain of a point cannot be found beyond {:.6g}: the hardening falls too steeply", p));
+  throw_no_return(
+      fmt::format("the plastic strain of a point cannot be found beyond {:.6g}: the hardening falls too steeply", p));
 }
 
-PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& increment) {
+PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
+                                    const Vector6d& increment) {
   const Vector6d strain = as_tensor(increment);
-  const Vector6d deviatoric = stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) + 2.0 * now.shear * deviator_of(strain);
+  const Vector6d deviatoric =
+      stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) + 2.0 * now.shear * deviator_of(strain);
   const double pressure = stiffness_ratio(now.bulk, before.bulk) * trace(state.stress) / 3.0 + now.bulk * trace(strain);
   const Vector6d back = stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
   const Vector6d relative = deviatoric - back;
@@ -123,15 +131,17 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
     response.state.back_stress += now.kinematic * dp * normal;
     const double slope = hardening(now.curve, state.p + dp).second;
     response.tangent = elastic_matrix(now, 1.0 - 3.0 * now.shear * dp / size);
-    // What flows because moduli or the radius have changed, while the strain goes back, is not taken to flow by the strain (R5.03.02; hsnv125a tells).
-    if (double_product(relative, strain) >= 0.0) subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
+    // What flows because moduli or the radius have changed, while the strain goes back, is not taken to flow by the
+    // strain (R5.03.02; hsnv125a tells).
+    if (double_product(relative, strain) >= 0.0)
+      subtract_flow(response.tangent, now, normal, 1.0 / (hardness + slope) - dp / size);
   }
   response.state.stress.head<3>().array() += pressure;
   return response;
 }
 
-PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
-                                             const Vector6d& increment) {
+PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now,
+                                             const PlasticState& state, const Vector6d& increment) {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Vector6d strain = increment;
@@ -139,10 +149,12 @@ PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const 
   PlasticResponse response = integrate_von_mises(before, now, state, strain);
   for (int iteration = 0;; ++iteration) {
     const double stress = response.state.stress[out_of_plane];
-    const double scale = response.state.stress.cwiseAbs().maxCoeff() + std::abs(response.tangent(out_of_plane, out_of_plane) * strain[out_of_plane]);
+    const double scale = response.state.stress.cwiseAbs().maxCoeff() +
+                         std::abs(response.tangent(out_of_plane, out_of_plane) * strain[out_of_plane]);
     if (std::abs(stress) <= stress_rounding_share * scale) break;
     if (iteration == most_iterations) {
-      throw Error("integration-failure", "the strain across the plane of a point in plane stress cannot be found", "take smaller steps");
+      throw Error("integration-failure", "the strain across the plane of a point in plane stress cannot be found",
+                  "take smaller steps");
     }
     // The stress rises with the strain: Newton's method between bounds.
     (stress > 0.0 ? high : low) = strain[out_of_plane];
@@ -157,26 +169,30 @@ PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const 
   return response;
 }
 
-PlasticResponse begin_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
-                                const Vector6d& strain_now) {
+PlasticResponse begin_von_mises(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
+                                const Vector6d& strain_before, const Vector6d& strain_now) {
   PlasticResponse response{state, elastic_matrix(now, 1.0)};
   response.state.stress += elastic_stress(before, strain_before) - elastic_stress(now, strain_now);
   const bool may_flow = !std::holds_alternative<NoYield>(now.curve);
-  const Vector6d relative =
-      stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) - stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
+  const Vector6d relative = stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress) -
+                            stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress;
   if (may_flow && state.flowing) flow_on(response.tangent, now, relative, state.p);
   return response;
 }
 
-PlasticResponse begin_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state, const Vector6d& strain_before,
+PlasticResponse begin_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now,
+                                         const PlasticState& state, const Vector6d& strain_before,
                                          const Vector6d& strain_now) {
   PlasticResponse response = begin_von_mises(before, now, state, strain_before, strain_now);
-  response.state.stress = state.stress + elastic_stress_in_plane(before, strain_before) - elastic_stress_in_plane(now, strain_now);
+  response.state.stress =
+      state.stress + elastic_stress_in_plane(before, strain_before) - elastic_stress_in_plane(now, strain_now);
   release_across(response.tangent);
   return response;
 }
 
-Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain) { return elastic_matrix(moduli, 1.0) * strain; }
+Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain) {
+  return elastic_matrix(moduli, 1.0) * strain;
+}
 
 Vector6d elastic_stress_in_plane(const PlasticModuli& moduli, const Vector6d& strain) {
   Matrix6d d = elastic_matrix(moduli, 1.0);

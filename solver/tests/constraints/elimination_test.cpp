@@ -184,7 +184,8 @@ TEST_CASE("values of another unit leave no room for a contradiction") {
   };
   CHECK_THROWS_WITH(Elimination(*model.mesh, dofs, conditions(1e9)), Catch::Contains("contradict"));
   // Beside metres of that size the same is rounding.
-  CHECK_NOTHROW(Elimination(*model.mesh, dofs, applied({relation({{0, dx}}, 0.0), relation({{0, dx}}, 1e-7), relation({{1, dx}}, 1e9)})));
+  CHECK_NOTHROW(Elimination(*model.mesh, dofs,
+                            applied({relation({{0, dx}}, 0.0), relation({{0, dx}}, 1e-7), relation({{1, dx}}, 1e9)})));
 }
 
 TEST_CASE("a contradiction through relations names all that take part and no other") {
@@ -255,7 +256,8 @@ TEST_CASE("nothing is left of the stiffness of a body that relations make rigid,
     std::vector<Eigen::Triplet<double>> entries;
     for (int j = 0; j < 3; ++j)
       for (int i = j; i < 3; ++i)
-        entries.emplace_back(std::max(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)), std::min(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)), strain[i] * strain[j]);
+        entries.emplace_back(std::max(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)),
+                             std::min(scene.dofs.dof(i, dx), scene.dofs.dof(j, dx)), strain[i] * strain[j]);
     entries.emplace_back(scene.dofs.dof(0, dx), scene.dofs.dof(0, dx), support);
     SymmetricMatrix stiffness(scene.elimination.full_size(), scene.elimination.full_size());
     stiffness.setFromTriplets(entries.begin(), entries.end());
@@ -273,7 +275,8 @@ TEST_CASE("nothing is left of the stiffness of a body that relations make rigid,
 TEST_CASE("the skew part of a stiffness is reduced like the symmetric one") {
   const Scene scene(4, {relation({{0, dx, 2.0}, {1, dx, -1.0}, {3, dy, 0.5}}, 3.0), relation({{2, dy}}, -1.0)});
   const int n = scene.elimination.full_size();
-  const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + static_cast<double>(3 * i + 7 * j)); });
+  const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(
+      n, n, [](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + static_cast<double>(3 * i + 7 * j)); });
   const Eigen::MatrixXd skew = any - any.transpose();
   const Eigen::MatrixXd below = skew.triangularView<Eigen::StrictlyLower>();
   const SkewMatrix given = below.sparseView();

@@ -16,9 +16,7 @@ const Origin origin = std::make_shared<const std::string>("test");
 double quadratic(const Point& x) {
   return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2] + 0.3 * x[0] * x[1] - 0.2 * x[1] * x[1];
 }
-double linear(const Point& x) {
-  return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2];
-}
+double linear(const Point& x) { return 1.0 + x[0] - 2.0 * x[1] + 0.5 * x[2]; }
 
 TEST_CASE(
     "a node in a cell takes the cell's linear field, on curved cells too; quadratic cells give quadratic fields when "

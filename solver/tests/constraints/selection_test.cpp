@@ -29,9 +29,9 @@ SymmetricMatrix stiffness(int size) {
 TEST_CASE("a transformation that leaves unknowns out is seen as such, one that does anything else is not") {
   CHECK(selected_unknowns(transformation(4, 2, {{1, 0, 1.0}, {3, 1, 1.0}})) == std::vector<int>{-1, 0, -1, 1});
   CHECK(selected_unknowns(transformation(2, 0, {})) == std::vector<int>{-1, -1});
-  CHECK(selected_unknowns(transformation(2, 1, {{0, 0, 1.0}, {1, 0, 1.0}})).empty());   // two move together
-  CHECK(selected_unknowns(transformation(2, 1, {{0, 0, -1.0}})).empty());               // one is turned round
-  CHECK(selected_unknowns(transformation(2, 2, {{1, 0, 1.0}, {0, 1, 1.0}})).empty());   // two change places
+  CHECK(selected_unknowns(transformation(2, 1, {{0, 0, 1.0}, {1, 0, 1.0}})).empty());  // two move together
+  CHECK(selected_unknowns(transformation(2, 1, {{0, 0, -1.0}})).empty());              // one is turned round
+  CHECK(selected_unknowns(transformation(2, 2, {{1, 0, 1.0}, {0, 1, 1.0}})).empty());  // two change places
 }
 
 TEST_CASE("what is selected of a matrix is its congruence, entry by entry") {
@@ -47,10 +47,12 @@ TEST_CASE("what is selected of a matrix is its congruence, entry by entry") {
 TEST_CASE("a congruence with too many contributions to list is the same") {
   std::vector<Eigen::Triplet<double>> dense;
   for (int row = 0; row < 5; ++row)
-    for (int column = 0; column < 4; ++column) dense.emplace_back(row, column, 0.1 * row - 0.3 * column + 0.05 * row * column);
+    for (int column = 0; column < 4; ++column)
+      dense.emplace_back(row, column, 0.1 * row - 0.3 * column + 0.05 * row * column);
   const Sparse ties = transformation(5, 4, dense);
   const SymmetricMatrix whole = stiffness(5);
-  const Eigen::MatrixXd listed = Eigen::MatrixXd(Congruence(whole, ties).apply(whole)), multiplied = Eigen::MatrixXd(Congruence(whole, ties, 0.0).apply(whole));
+  const Eigen::MatrixXd listed = Eigen::MatrixXd(Congruence(whole, ties).apply(whole)),
+                        multiplied = Eigen::MatrixXd(Congruence(whole, ties, 0.0).apply(whole));
   CHECK((listed - multiplied).norm() < 1e-13 * listed.norm());
 }
 

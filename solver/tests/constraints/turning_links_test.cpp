@@ -14,7 +14,8 @@ namespace turning_links_test {
 const Origin origin = std::make_shared<const std::string>("test");
 
 /// Displacements that turn all nodes by a rotation vector about the origin and shift them.
-Eigen::VectorXd moved(const Model& model, const DofMap& dofs, const Eigen::Vector3d& turn, const Eigen::Vector3d& shift) {
+Eigen::VectorXd moved(const Model& model, const DofMap& dofs, const Eigen::Vector3d& turn,
+                      const Eigen::Vector3d& shift) {
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
   Eigen::VectorXd u(dofs.size());
   for (int dof = 0; dof < dofs.size(); ++dof) {

@@ -33,5 +33,8 @@ TEST_CASE("The tree finds the nearest box that a scan finds, visiting few") {
 }
 
 TEST_CASE("An empty tree has nothing to visit") {
-  BoxTree({}).search(Vector3d::Zero(), [](int) -> double { FAIL("nothing to visit"); return 0.0; });
+  BoxTree({}).search(Vector3d::Zero(), [](int) -> double {
+    FAIL("nothing to visit");
+    return 0.0;
+  });
 }

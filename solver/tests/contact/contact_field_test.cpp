@@ -67,7 +67,8 @@ TEST_CASE("A node that two zones hold carries the forces of both, and the gap of
   const std::vector<ContactPair> pairs(2, pair(0, PairingStatus::paired));
   for (const bool swapped : {false, true}) {
     const std::vector<double> gaps = swapped ? std::vector<double>{0.5, 0.0} : std::vector<double>{0.0, 0.5};
-    const NodalField one = contact_field(pairs, gaps, swapped ? Eigen::Vector2d(0, 5) : Eigen::Vector2d(5, 0), 1, places);
+    const NodalField one =
+        contact_field(pairs, gaps, swapped ? Eigen::Vector2d(0, 5) : Eigen::Vector2d(5, 0), 1, places);
     CHECK(one.at(0, one.component("RN")) == 5.0);
     CHECK(one.at(0, one.component("CONT")) == 2.0);
     CHECK(one.at(0, one.component("JEU")) == 0.0);

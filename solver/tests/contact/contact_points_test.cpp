@@ -27,13 +27,14 @@ TEST_CASE("A point between nodes is near those that its shape functions weigh mo
 }
 
 TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either, on linear and on quadratic faces") {
-  // Two faces along the radius, one at height zero, the other at a tenth. Where the radius vanishes the weight of a quadratic
-  // rule does too, and so does the integral of the node's shape function.
+  // Two faces along the radius, one at height zero, the other at a tenth. Where the radius vanishes the weight of a
+  // quadratic rule does too, and so does the integral of the node's shape function.
   const bool quadratic = GENERATE(false, true);
   Scene scene;
   const CellType type = quadratic ? CellType::seg3 : CellType::seg2;
   const auto face = [&](const std::string& name, double height, bool reversed) {
-    std::vector<int> nodes = {scene.node(name + "a", reversed ? 1.0 : 0.0, height), scene.node(name + "b", reversed ? 0.0 : 1.0, height)};
+    std::vector<int> nodes = {scene.node(name + "a", reversed ? 1.0 : 0.0, height),
+                              scene.node(name + "b", reversed ? 0.0 : 1.0, height)};
     if (quadratic) nodes.push_back(scene.node(name + "m", 0.5, height));
     return scene.cell(name, type, nodes, Formulation::axisymmetric);
   };
@@ -51,12 +52,16 @@ TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either,
   }
 }
 
-TEST_CASE("On a surface that reaches the axis the weights of a rule with points between nodes add up to the integral of the radius") {
+TEST_CASE(
+    "On a surface that reaches the axis the weights of a rule with points between nodes add up to the integral of the "
+    "radius") {
   const bool quadratic = GENERATE(false, true);
-  const auto [rule, order] = GENERATE(std::pair(ContactRule::simpson, 2), std::pair(ContactRule::newton_cotes, 4), std::pair(ContactRule::gauss, 3));
+  const auto [rule, order] = GENERATE(std::pair(ContactRule::simpson, 2), std::pair(ContactRule::newton_cotes, 4),
+                                      std::pair(ContactRule::gauss, 3));
   Scene scene;
   const auto face = [&](const std::string& name, double height, bool reversed) {
-    std::vector<int> nodes = {scene.node(name + "a", reversed ? 2.0 : 0.0, height), scene.node(name + "b", reversed ? 0.0 : 2.0, height)};
+    std::vector<int> nodes = {scene.node(name + "a", reversed ? 2.0 : 0.0, height),
+                              scene.node(name + "b", reversed ? 0.0 : 2.0, height)};
     if (quadratic) nodes.push_back(scene.node(name + "m", 1.0, height));
     return scene.cell(name, quadratic ? CellType::seg3 : CellType::seg2, nodes, Formulation::axisymmetric);
   };
@@ -68,14 +73,19 @@ TEST_CASE("On a surface that reaches the axis the weights of a rule with points 
   std::vector<Eigen::Vector3d> positions;
   for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
   double area = 0.0;
-  for (const ContactPoint& point : contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0)) area += point.weight;
+  for (const ContactPoint& point : contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0))
+    area += point.weight;
   CHECK(area == Approx(2.0).epsilon(1e-8));
 }
 
-TEST_CASE("A node between faces of different thickness sees the mean of both, weighted by their areas, in any order of the faces") {
+TEST_CASE(
+    "A node between faces of different thickness sees the mean of both, weighted by their areas, in any order of the "
+    "faces") {
   const bool turned = GENERATE(false, true);
   Scene scene;
-  const auto segment = [&](const std::string& name, int first, int last) { return scene.cell(name, CellType::seg2, {first, last}, Formulation::plane_strain); };
+  const auto segment = [&](const std::string& name, int first, int last) {
+    return scene.cell(name, CellType::seg2, {first, last}, Formulation::plane_strain);
+  };
   const int master = segment("master", scene.node("ma", 4.0, 0.0), scene.node("mb", -1.0, 0.0));
   const int left = scene.node("a", 0.0, 0.1), shared = scene.node("b", 1.0, 0.1), right = scene.node("c", 3.0, 0.1);
   const int thick = segment("thick", left, shared), thin = segment("thin", shared, right);
@@ -87,5 +97,7 @@ TEST_CASE("A node between faces of different thickness sees the mean of both, we
   const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);
   REQUIRE(points.size() == 3);
   for (const ContactPoint& point : points)
-    CHECK(point.thickness == Approx(point.node == left ? 0.02 : point.node == right ? 0.01 : (0.02 * 1.0 + 0.01 * 2.0) / 3.0));
+    CHECK(point.thickness == Approx(point.node == left    ? 0.02
+                                    : point.node == right ? 0.01
+                                                          : (0.02 * 1.0 + 0.01 * 2.0) / 3.0));
 }

@@ -28,7 +28,8 @@ struct Sides {
     std::vector<int> cells;
     const int first = mesh.node_count();
     for (int i = 0; i <= count; ++i) mesh.nodes.push_back({static_cast<double>(i) / count, height, 0.0});
-    for (int i = 0; i < count; ++i) cells.push_back(mesh.add_cell(CellType::seg2, std::vector<int>{first + i, first + i + 1}));
+    for (int i = 0; i < count; ++i)
+      cells.push_back(mesh.add_cell(CellType::seg2, std::vector<int>{first + i, first + i + 1}));
     return cells;
   }
 };
@@ -41,7 +42,8 @@ TEST_CASE("Surfaces that have moved on since they were paired are told of by wha
   mesh.dimension = 2;
   mesh.nodes = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.1, 0.0}, {0.5, 0.0, 0.0}, {0.5, 1.0, 0.0}};
   ContactZone zone;
-  zone.master_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{1, 0}), mesh.add_cell(CellType::seg2, std::vector<int>{2, 1})};
+  zone.master_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{1, 0}),
+                       mesh.add_cell(CellType::seg2, std::vector<int>{2, 1})};
   zone.slave_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{3, 4})};
   ContactDefinition definition;
   definition.zones.push_back(zone);
@@ -52,7 +54,8 @@ TEST_CASE("Surfaces that have moved on since they were paired are told of by wha
     return result;
   };
   const auto told = [&](double slide, double pushed_back) {
-    const auto before = pair_surfaces(definition, mesh, places(0.0)), now = pair_surfaces(definition, mesh, places(slide));
+    const auto before = pair_surfaces(definition, mesh, places(0.0)),
+               now = pair_surfaces(definition, mesh, places(slide));
     ContactDoubts doubts;
     note_stale_geometry(definition, mesh, places(slide), {before, now, std::span(&pushed_back, 1)}, doubts);
     return doubts.all();
@@ -77,13 +80,15 @@ TEST_CASE("Mean gaps that are not those which were solved for are told of") {
   solved.status = PairingStatus::paired;
   solved.node = sides.mesh.cell(zone.slave_cells.front())[0];
   solved.facet = zone.master_cells.front();
-  solved.shares = {{solved.node, Eigen::Vector3d::UnitY()}, {sides.mesh.cell(solved.facet)[0], -Eigen::Vector3d::UnitY()}};
+  solved.shares = {{solved.node, Eigen::Vector3d::UnitY()},
+                   {sides.mesh.cell(solved.facet)[0], -Eigen::Vector3d::UnitY()}};
   solved.offset = 1.0;  // the gap of 1 is closed
   ContactPoint now = solved;
   now.offset = 1.03;
   const auto told = [&](double pushed_back) {
     ContactDoubts doubts;
-    note_stale_averages(sides.definition, sides.mesh, places, std::span(&solved, 1), std::span(&now, 1), std::span(&pushed_back, 1), doubts);
+    note_stale_averages(sides.definition, sides.mesh, places, std::span(&solved, 1), std::span(&now, 1),
+                        std::span(&pushed_back, 1), doubts);
     return doubts.all();
   };
   CHECK(told(1.0).empty());  // no average
@@ -132,7 +137,8 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
     for (const auto& node : sides.mesh.nodes) places.emplace_back(node[0], node[1], node[2]);
     // Every other master node, of the ones in front of the slave.
     for (const int cell : sides.definition.zones.front().master_cells)
-      for (const int node : sides.mesh.cell(cell)) places[static_cast<std::size_t>(node)][1] = 1.0 + (node % 2 == 0 ? deep : 0.0);
+      for (const int node : sides.mesh.cell(cell))
+        places[static_cast<std::size_t>(node)][1] = 1.0 + (node % 2 == 0 ? deep : 0.0);
     ContactDoubts found;
     PassedMaster passed(sides.definition, sides.mesh);
     std::vector<double> by_zone(sides.definition.zones.size(), other);

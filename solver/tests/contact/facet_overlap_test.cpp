@@ -40,7 +40,7 @@ double one(const OverlapPoint&) { return 1.0; }
 
 TEST_CASE("Segments have in common what their shadows on each other have") {
   for (const CellType type : {CellType::seg2, CellType::seg3}) {
-    const Points below = straight(type, {{0, 0, 0}, {2, 0, 0}});   // outward normal: down
+    const Points below = straight(type, {{0, 0, 0}, {2, 0, 0}});  // outward normal: down
     const Points above = straight(type, {{3, -0.5, 0}, {0.5, -0.5, 0}});
     CHECK(integral(facet(type, below), facet(type, above), one) == Approx(1.5).epsilon(1e-14));
     const Points beside = straight(type, {{4, -0.5, 0}, {2, -0.5, 0}});
@@ -49,7 +49,8 @@ TEST_CASE("Segments have in common what their shadows on each other have") {
     const Points away = straight(type, {{0.5, -0.5, 0}, {3, -0.5, 0}});
     CHECK(facet_overlap(facet(type, below), facet(type, away)).points.empty());
     // Nor does one that stands nearly upright.
-    CHECK_FALSE(facet_overlap(facet(type, below), facet(type, straight(type, {{1.5, -10, 0}, {0, -0.5, 0}}))).points.empty());
+    CHECK_FALSE(
+        facet_overlap(facet(type, below), facet(type, straight(type, {{1.5, -10, 0}, {0, -0.5, 0}}))).points.empty());
     const auto upright = facet_overlap(facet(type, below), facet(type, straight(type, {{1.5, -20, 0}, {0, -0.5, 0}})));
     CHECK(upright.points.empty());
     CHECK(upright.master.empty());
@@ -74,7 +75,8 @@ TEST_CASE("The overlaps of a bent slave line with the pieces of a master line ad
   for (int i = -4; i < 12; ++i) {
     const double x = 0.31 * i;
     const Points master = {{x + 0.31, -0.5 - 0.1 * x, 0}, {x, -0.5 - 0.1 * (x - 0.31), 0}};
-    for (const OverlapPoint& at : facet_overlap(facet(CellType::seg3, slave), facet(CellType::seg2, master)).points) sum += at.weight;
+    for (const OverlapPoint& at : facet_overlap(facet(CellType::seg3, slave), facet(CellType::seg2, master)).points)
+      sum += at.weight;
   }
   CHECK(sum == Approx(2.0).epsilon(1e-12));
 }
@@ -91,7 +93,10 @@ TEST_CASE("The areas of a facet's overlaps with a grid of others add up to its o
       for (int i = 0; i < 5; ++i)
         for (int j = 0; j < 5; ++j) {
           const double h = 0.4;
-          const Points square = {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}};
+          const Points square = {{h * i, h * j, 0.3},
+                                 {h * i, h * (j + 1), 0.3},
+                                 {h * (i + 1), h * (j + 1), 0.3},
+                                 {h * (i + 1), h * j, 0.3}};
           if (corner_count(other) == 4) {
             sum += integral(facet(type, slave), facet(other, straight(other, square)), one);
           } else {
@@ -112,7 +117,8 @@ TEST_CASE("The master's own part of an overlap is what the slave faces of it") {
   const Points below = straight(CellType::seg2, {{0, 0, 0}, {2, 0, 0}});
   const Points above = straight(CellType::seg3, {{3, -0.5, 0}, {0.5, -0.5, 0}});
   double sum = 0.0;
-  for (const FacePoint& at : facet_overlap(facet(CellType::seg2, below), facet(CellType::seg3, above)).master) sum += at.weight * 1.25;
+  for (const FacePoint& at : facet_overlap(facet(CellType::seg2, below), facet(CellType::seg3, above)).master)
+    sum += at.weight * 1.25;
   CHECK(sum == Approx(1.5).epsilon(1e-14));
   // A master that leans by half a right angle has more area than its shadow.
   const Points slave = straight(CellType::tria3, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
@@ -131,12 +137,16 @@ TEST_CASE("Whatever middle nodes do, a facet is covered once by others that tile
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) {
       const double h = 0.4;
-      Points square = straight(CellType::quad8, {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}});
+      Points square = straight(
+          CellType::quad8,
+          {{h * i, h * j, 0.3}, {h * i, h * (j + 1), 0.3}, {h * (i + 1), h * (j + 1), 0.3}, {h * (i + 1), h * j, 0.3}});
       square[4] += Vector3d(0.03, 0.01, -0.02);
-      for (const OverlapPoint& at : facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square)).points) {
+      for (const OverlapPoint& at :
+           facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square)).points) {
         sum += at.weight;
         // What they face lies over what the slave's own shape functions say, along the normal of its corners.
-        const Vector3d apart = place(facet(CellType::quad8, square), at.master) - place(facet(CellType::tria6, slave), at.slave);
+        const Vector3d apart =
+            place(facet(CellType::quad8, square), at.master) - place(facet(CellType::tria6, slave), at.slave);
         CHECK(apart.cross(facet_normal(CellType::tria3, std::span(slave).first(3), {0, 0})).norm() < 1e-9);
       }
     }

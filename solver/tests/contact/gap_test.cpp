@@ -32,7 +32,8 @@ struct Scene {
 
   std::vector<Vector3d> places(const Eigen::VectorXd& u) const {
     std::vector<Vector3d> result;
-    for (int i = 0; i < 3; ++i) result.emplace_back(mesh->nodes[i][0] + u[2 * i], mesh->nodes[i][1] + u[2 * i + 1], 0.0);
+    for (int i = 0; i < 3; ++i)
+      result.emplace_back(mesh->nodes[i][0] + u[2 * i], mesh->nodes[i][1] + u[2 * i + 1], 0.0);
     return result;
   }
 };
@@ -75,7 +76,8 @@ TEST_CASE("A clamped node that touches a clamped facet but for a rounding does n
   const DofMap dofs(scene.model);
   Load clamp;
   for (int node = 0; node < 3; ++node)
-    for (const Component component : {Component::dx, Component::dy}) clamp.relations.emplace_back().terms = {{node, component, 1.0}};
+    for (const Component component : {Component::dx, Component::dy})
+      clamp.relations.emplace_back().terms = {{node, component, 1.0}};
   const std::vector<AppliedLoad> loads = {{std::make_shared<const Load>(clamp), nullptr}};
   const Elimination elimination(*scene.mesh, dofs, loads);
   const auto reduced_at = [&](double depth) {

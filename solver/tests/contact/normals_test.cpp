@@ -74,7 +74,9 @@ TEST_CASE("A normal across a given direction is square to it, on lines in space 
   CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, 0, 1)).norm() < 1e-15);
   zone.master_vector = {1, 0, 0};
   CHECK_THROWS_AS(surface_normal(master_choice(zone), mesh, 0, {0, 0}, places(mesh)), Error);
-  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) - Vector3d(0, -std::sqrt(0.5), std::sqrt(0.5))).norm() < 1e-15);
+  CHECK((surface_normal(master_choice(zone), mesh, 1, {0, 0}, places(mesh)) -
+         Vector3d(0, -std::sqrt(0.5), std::sqrt(0.5)))
+            .norm() < 1e-15);
 }
 
 TEST_CASE("Normals at nodes follow the rule that is given for the surface") {

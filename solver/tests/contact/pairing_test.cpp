@@ -56,7 +56,9 @@ TEST_CASE("A projection outside the surface is brought back within the tolerance
 }
 
 TEST_CASE("Within a margin a slave node keeps the facet that it faced, and facing the surface at all") {
-  Table table({{2.02, 1, 0}, {4.54, 1, 0}});  // beside the first facet by 0.02 of a half edge; beyond the last one and its tolerance by 0.04
+  Table table(
+      {{2.02, 1, 0},
+       {4.54, 1, 0}});  // beside the first facet by 0.02 of a half edge; beyond the last one and its tolerance by 0.04
   CHECK(table.pair()[0].facet == 1);
   CHECK(table.pair({{0, 1}, 0.03})[0].facet == 0);
   CHECK((table.pair({{0, 1}, 0.03})[0].foot - Vector3d(2, 0, 0)).norm() == 0.0);

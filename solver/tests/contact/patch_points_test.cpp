@@ -70,12 +70,13 @@ TEST_CASE("The mean gap of a patch is that of the surfaces, now and along its sh
     // Parabolas over half an angle a leave the arc by up to R a^4 / 16, here 1.6e-4 of the bush's.
     CHECK(mean_gap(point, arcs.places) == Approx(0.5).margin(1.6e-4));
   }
-  // The bush widens: its nodes move along their normals, and the gaps by as much; along its shares, which are those of the force on it, by the
-  // bush's own length over the pin's.
+  // The bush widens: its nodes move along their normals, and the gaps by as much; along its shares, which are those of
+  // the force on it, by the bush's own length over the pin's.
   std::vector<Vector3d> wider = arcs.places;
   for (Vector3d& place : wider)
     if (place.norm() > 10.25) place *= 10.6 / 10.5;
-  for (const ContactPoint& point : points) CHECK(mean_gap(point, wider) == Approx(mean_gap(point, arcs.places) + 0.105).epsilon(1e-3));
+  for (const ContactPoint& point : points)
+    CHECK(mean_gap(point, wider) == Approx(mean_gap(point, arcs.places) + 0.105).epsilon(1e-3));
   for (const ContactPoint& point : arcs.points(wider)) CHECK(mean_gap(point, wider) == Approx(0.6).margin(1.6e-4));
 }
 
@@ -98,15 +99,19 @@ TEST_CASE("The pressure of a patch acts on each node along the normal there") {
   }
 }
 
-TEST_CASE("Without smoothing, the pressure of a patch has the resultant of a uniform pressure on the curve: that on its chord") {
+TEST_CASE(
+    "Without smoothing, the pressure of a patch has the resultant of a uniform pressure on the curve: that on its "
+    "chord") {
   const Arcs arcs(10.0, 10.01);
   const auto points = arcs.points(arcs.places);
   for (std::size_t p = 0; p < points.size(); ++p) {
     Vector3d pin = Vector3d::Zero();
     for (const GapShare& share : points[p].shares)
-      if (arcs.places[static_cast<std::size_t>(share.node)].norm() < 10.005) pin += points[p].weight * share.coefficient;
+      if (arcs.places[static_cast<std::size_t>(share.node)].norm() < 10.005)
+        pin += points[p].weight * share.coefficient;
     const auto nodes = arcs.mesh->cell(arcs.definition.zones.front().slave_cells[p]);
-    const Vector3d chord = arcs.places[static_cast<std::size_t>(nodes[1])] - arcs.places[static_cast<std::size_t>(nodes[0])];
+    const Vector3d chord =
+        arcs.places[static_cast<std::size_t>(nodes[1])] - arcs.places[static_cast<std::size_t>(nodes[0])];
     CHECK((pin + Vector3d(chord[1], -chord[0], 0.0)).norm() < 1e-9 * chord.norm());
   }
 }
@@ -114,14 +119,16 @@ TEST_CASE("Without smoothing, the pressure of a patch has the resultant of a uni
 TEST_CASE("Surfaces face each other as the bodies are, and pressures act over the areas before") {
   Mesh mesh;
   for (const double z : {0.0, -0.1})
-    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}}) mesh.nodes.push_back({x, y, z});
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}})
+      mesh.nodes.push_back({x, y, z});
   mesh.nodes.push_back({1.0, 0.5, 0.0});
   ContactDefinition definition;
   definition.zones.emplace_back();
   ContactZone& zone = definition.zones.front();
   zone.mixed.local_average = true;
   // The slave's outward normal is down, the master's up.
-  for (const std::vector<int>& nodes : {std::vector{8, 1, 0}, {8, 2, 1}, {8, 3, 2}, {8, 0, 3}}) zone.slave_cells.push_back(mesh.add_cell(CellType::tria3, nodes));
+  for (const std::vector<int>& nodes : {std::vector{8, 1, 0}, {8, 2, 1}, {8, 3, 2}, {8, 0, 3}})
+    zone.slave_cells.push_back(mesh.add_cell(CellType::tria3, nodes));
   zone.master_cells.push_back(mesh.add_cell(CellType::quad4, std::vector{4, 5, 6, 7}));
   mesh.slave_patches.push_back(zone.slave_cells);
   Model model;
@@ -138,7 +145,8 @@ TEST_CASE("Surfaces face each other as the bodies are, and pressures act over th
   CHECK(points[0].weight == exactly(1.5));
   double on_slave = 0.0;
   double on_master = 0.0;
-  for (const GapShare& share : points[0].shares) (share.node >= 4 && share.node < 8 ? on_master : on_slave) += points[0].weight * share.coefficient[2];
+  for (const GapShare& share : points[0].shares)
+    (share.node >= 4 && share.node < 8 ? on_master : on_slave) += points[0].weight * share.coefficient[2];
   CHECK(on_slave == exactly(1.5));
   CHECK(on_master == exactly(-0.75));
 }
@@ -153,7 +161,8 @@ TEST_CASE("The mean gap of a patch is over areas as they are, and by the radius 
   ContactZone& zone = definition.zones.front();
   zone.mixed.local_average = true;
   // Outward is on the right of the way: up for the slave, down for the master.
-  for (const std::vector<int>& nodes : {std::vector{1, 0}, {2, 1}}) zone.slave_cells.push_back(mesh.add_cell(CellType::seg2, nodes));
+  for (const std::vector<int>& nodes : {std::vector{1, 0}, {2, 1}})
+    zone.slave_cells.push_back(mesh.add_cell(CellType::seg2, nodes));
   zone.master_cells.push_back(mesh.add_cell(CellType::seg2, std::vector{3, 4}));
   mesh.slave_patches.push_back(zone.slave_cells);
   Model model;
@@ -164,7 +173,7 @@ TEST_CASE("The mean gap of a patch is over areas as they are, and by the radius 
   append_patch_points(definition, 0, model, now, 0.0, points);
   REQUIRE(points.size() == 1);
   CHECK(points[0].weight == exactly(0.5));                // integral of r from 0 to 1
-  CHECK(mean_gap(points[0], now) == exactly(4.0 / 3.0));    // of r r over that of r, from 0 to 2
+  CHECK(mean_gap(points[0], now) == exactly(4.0 / 3.0));  // of r r over that of r, from 0 to 2
   // Bodies that have gone through the axis face nothing.
   for (Vector3d& place : now) place[0] -= 3.0;
   append_patch_points(definition, 0, model, now, 0.0, points);

@@ -35,8 +35,10 @@ struct TwoBricks {
   int add_face(int brick) {
     for (const BoundaryFacet& facet : boundary_facets(CellType::hexa20)) {
       std::vector<int> nodes;
-      for (int i = 0; i < node_count(facet.type); ++i) nodes.push_back(mesh->cell(brick)[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
-      if (std::ranges::all_of(nodes, [&](int node) { return mesh->nodes[node][2] == 1.0; })) return mesh->add_cell(facet.type, nodes);
+      for (int i = 0; i < node_count(facet.type); ++i)
+        nodes.push_back(mesh->cell(brick)[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])]);
+      if (std::ranges::all_of(nodes, [&](int node) { return mesh->nodes[node][2] == 1.0; }))
+        return mesh->add_cell(facet.type, nodes);
     }
     return -1;
   }
@@ -84,7 +86,9 @@ Result solved(const StaticProblem& problem) {
   return result;
 }
 
-const NodalField& last(const Result& result, const char* field) { return std::get<NodalField>(result.steps.back().fields.at(field)); }
+const NodalField& last(const Result& result, const char* field) {
+  return std::get<NodalField>(result.steps.back().fields.at(field));
+}
 
 }  // namespace
 
@@ -99,7 +103,8 @@ TEST_CASE("the corners of an eight-node face make contact, its edges stay straig
   REQUIRE(relations.size() == 2 * 4 * 3);
   for (const LinearRelation& relation : relations) {
     Eigen::Vector3d gap = Eigen::Vector3d::Zero();
-    for (const auto& term : relation.terms) gap += term.coefficient * Eigen::Map<const Eigen::Vector3d>(bricks.mesh->nodes[term.node].data());
+    for (const auto& term : relation.terms)
+      gap += term.coefficient * Eigen::Map<const Eigen::Vector3d>(bricks.mesh->nodes[term.node].data());
     CHECK(gap.norm() == 0.0);
   }
 }
@@ -108,7 +113,8 @@ TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[co
   const TwoBricks bricks;
   const Result result = solved(pressed(bricks));
   const auto& displacement = last(result, "DEPL");
-  for (const int node : bricks.level(1.0)) CHECK(displacement.at(node, displacement.component("DZ")) == Approx(-0.1).epsilon(1e-10));
+  for (const int node : bricks.level(1.0))
+    CHECK(displacement.at(node, displacement.component("DZ")) == Approx(-0.1).epsilon(1e-10));
 }
 
 TEST_CASE("where contact is not enforced, nodes go through and their depth is told", "[contact]") {

@@ -17,13 +17,15 @@ struct Differences {
 };
 
 /// Central differences of traction and residual by the multiplier or by the jump.
-Differences differences(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump, bool by_jump) {
+Differences differences(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump,
+                        bool by_jump) {
   Differences result;
   for (int k = 0; k < 3; ++k) {
     const double step = 1e-6 * (by_jump ? jump.norm() : multiplier.norm());
     const Vector3d shift = step * Vector3d::Unit(k);
     const auto at = [&](double side) {
-      return by_jump ? contact_law(law, status, multiplier, jump + side * shift) : contact_law(law, status, multiplier + side * shift, jump);
+      return by_jump ? contact_law(law, status, multiplier, jump + side * shift)
+                     : contact_law(law, status, multiplier + side * shift, jump);
     };
     const ContactLawValue after = at(1.0);
     const ContactLawValue before = at(-1.0);
@@ -40,8 +42,10 @@ void check_tangents(const ContactLaw& law, ContactStatus status) {
   const Differences by_multiplier = differences(law, status, multiplier, jump, false);
   const Differences by_jump = differences(law, status, multiplier, jump, true);
   // Central differences of steps of 1e-6 lose their fourth digits before the sixth.
-  CHECK((by_multiplier.traction - value.traction_by_multiplier).norm() < 1e-6 * (1.0 + value.traction_by_multiplier.norm()));
-  CHECK((by_multiplier.residual - value.residual_by_multiplier).norm() < 1e-6 * (1.0 + value.residual_by_multiplier.norm()));
+  CHECK((by_multiplier.traction - value.traction_by_multiplier).norm() <
+        1e-6 * (1.0 + value.traction_by_multiplier.norm()));
+  CHECK((by_multiplier.residual - value.residual_by_multiplier).norm() <
+        1e-6 * (1.0 + value.residual_by_multiplier.norm()));
   CHECK((by_jump.traction - value.traction_by_jump).norm() < 1e-6 * (1.0 + value.traction_by_jump.norm()));
   CHECK((by_jump.residual - value.residual_by_jump).norm() < 1e-6 * (1.0 + value.residual_by_jump.norm()));
 }
@@ -96,7 +100,8 @@ TEST_CASE("Pointwise, tangents of a shear that slides are its derivatives once t
   const ContactLawValue value = contact_law(law, ContactStatus::sliding, multiplier, jump);
   CHECK(value.residual == exact.residual);
   CHECK((value.traction_by_jump - exact.traction_by_jump).norm() < 1e-12 * exact.traction_by_jump.norm());
-  CHECK((value.residual_by_multiplier - exact.residual_by_multiplier).norm() < 1e-12 * exact.residual_by_multiplier.norm());
+  CHECK((value.residual_by_multiplier - exact.residual_by_multiplier).norm() <
+        1e-12 * exact.residual_by_multiplier.norm());
 
   // Without a shear yet, slip brings one along the slip too.
   const Vector3d none(100.0, 0.0, 0.0), slip(-0.03, 0.1, 0.0);
@@ -111,7 +116,8 @@ TEST_CASE("A sliding point bears the limit of friction against the slip; a stick
   CHECK(sliding.traction[0] == exactly(10.0));
   CHECK(sliding.traction[1] == exactly(-5.0));
   CHECK(sliding.residual.norm() == Approx(0.0).margin(1e-15));
-  const ContactLawValue sticking = contact_law(law, ContactStatus::sticking, Vector3d(10.0, 3.0, 1.0), Vector3d::Zero());
+  const ContactLawValue sticking =
+      contact_law(law, ContactStatus::sticking, Vector3d(10.0, 3.0, 1.0), Vector3d::Zero());
   CHECK(sticking.traction[1] == exactly(-3.0));
   CHECK(sticking.residual.norm() == Approx(0.0).margin(1e-15));
 }
@@ -127,7 +133,8 @@ TEST_CASE("By shares a shear is a share of the limit of friction, whatever the p
     const Vector3d whole(10.0, law.friction * pressure, 0.0);
     CHECK(contact_law(law, ContactStatus::sliding, whole, jump).traction[1] == exactly(-5.0));
     CHECK(contact_law(law, ContactStatus::sliding, whole, jump).residual.tail<2>().norm() == Approx(0.0).margin(1e-14));
-    CHECK(contact_law(law, ContactStatus::sticking, 0.5 * whole + Vector3d(5, 0, 0), Vector3d::Zero()).traction[1] == exactly(-2.5));
+    CHECK(contact_law(law, ContactStatus::sticking, 0.5 * whole + Vector3d(5, 0, 0), Vector3d::Zero()).traction[1] ==
+          exactly(-2.5));
     // A penalty of 0.4 of the limit a unit of slip.
     law.friction_penalised = true;
     law.friction_augmentation = 0.4 * law.friction * pressure;
@@ -141,11 +148,13 @@ TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; o
   ContactLaw law;
   law.friction = 0.5;
   const Vector3d overlapping(-0.2, 0.3, 0.4);
-  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == exactly(5.0));
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() ==
+        exactly(5.0));
   CHECK(contact_status(law, false, Vector3d(10, 4.9, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sticking);
   CHECK(contact_status(law, false, Vector3d(10, 5.1, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sliding);
   law.penalised = true;
-  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() == exactly(10.0));
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() ==
+        exactly(10.0));
 }
 
 TEST_CASE("Statuses: an overlap closes, a pull opens, a shear below the limit sticks") {

@@ -28,7 +28,8 @@ inline RowMatrix identity_rows(int size) {
   return rows;
 }
 
-/// A problem of `count` multipliers and points of three rows each, all open and without forces; the points are still to come.
+/// A problem of `count` multipliers and points of three rows each, all open and without forces; the points are still to
+/// come.
 inline void make_room(int count, CondensedProblem& problem, CondensedState& state) {
   problem.node_count = count;
   problem.components = 3;
@@ -59,7 +60,8 @@ struct Coupled {
   }
 };
 
-/// Points on the nodes of a square grid of a surface, each with a force on it, whose compliance falls off with the distance as that of a half-space does.
+/// Points on the nodes of a square grid of a surface, each with a force on it, whose compliance falls off with the
+/// distance as that of a half-space does.
 struct CoupledSurface {
   static constexpr double friction = 0.4;
   CondensedProblem problem;

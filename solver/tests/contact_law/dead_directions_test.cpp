@@ -36,7 +36,8 @@ TEST_CASE("Along a direction in which a point cannot move there is no friction")
 }
 
 TEST_CASE("Nor is there any where the surface lies askew to the direction in which both bodies are held") {
-  // Both are held along z. A surface that a step has tilted by 1e-5 has a tangent that is nearly z, and one that is inclined by 1.
+  // Both are held along z. A surface that a step has tilted by 1e-5 has a tangent that is nearly z, and one that is
+  // inclined by 1.
   for (const double tilt : {1e-5, 1.0}) {
     const Eigen::Vector3d normal(0.0, std::cos(tilt), 0.0), tangent(0.0, -std::sin(tilt), 0.0);
     std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
@@ -47,7 +48,8 @@ TEST_CASE("Nor is there any where the surface lies askew to the direction in whi
   }
   // Held along x as well, they cannot slip.
   std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
-  find_dead_directions(rows_of(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(), 0.5 * Eigen::Vector3d::UnitY()), points);
+  find_dead_directions(rows_of(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(), 0.5 * Eigen::Vector3d::UnitY()),
+                       points);
   CHECK(points[0].law.friction == 0.0);
 }
 

@@ -92,11 +92,13 @@ TEST_CASE("Faces of any area are solved as well: a point that is open shares a m
         step.add_law_derivative(rows + law, row, share);
         step.add_law_weight(rows + law, share);
       }
-    // A third point, between the second node and one more, is open: its law is one of pressures alone, and lengths of it are small beside those of jumps.
+    // A third point, between the second node and one more, is open: its law is one of pressures alone, and lengths of
+    // it are small beside those of jumps.
     const double length = 1e-4 * area;
     for (const int law : {rows + 1, rows + 2}) {
       step.add_law_weight(law, 0.5 * area);
-      for (const int other : {rows + 1, rows + 2}) step.add_law_derivative(law, other, (law == other ? 0.3 : 0.2) * area * length);
+      for (const int other : {rows + 1, rows + 2})
+        step.add_law_derivative(law, other, (law == other ? 0.3 : 0.2) * area * length);
     }
     schur.require(step.rows());
     Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(step.unknowns(), -1.0, 2.0);

@@ -27,7 +27,8 @@ Eigen::MatrixXd system(SchurComplement& schur, const std::vector<ForceBlock>& bl
     by_force.block<3, 3>(block.place, block.place) = block.by_force;
     by_jump.block<3, 3>(block.place, block.place) = block.by_jump;
   }
-  for (Eigen::Index column = 0; column < size; ++column) compliance.col(column) = schur.times(Eigen::VectorXd::Unit(size, column));
+  for (Eigen::Index column = 0; column < size; ++column)
+    compliance.col(column) = schur.times(Eigen::VectorXd::Unit(size, column));
   return by_force + by_jump * compliance;
 }
 

@@ -50,5 +50,6 @@ TEST_CASE("Where products with the compliance lead nowhere, the direct way follo
   const CondensedSolution solution = solve_condensed(followed.schur, followed.problem, followed.state);
   REQUIRE(solution.verdict == CondensedVerdict::solved);
   CHECK((solution.forces - expected.forces).norm() == 0.0);
-  CHECK(solve_condensed(bounded.schur, bounded.problem, bounded.state).verdict == CondensedVerdict::too_many_iterations);
+  CHECK(solve_condensed(bounded.schur, bounded.problem, bounded.state).verdict ==
+        CondensedVerdict::too_many_iterations);
 }

@@ -18,7 +18,8 @@ struct TurningPatch : CoupledSurface {
       const double x = (p % edge + 0.5) / edge - 0.5, y = (p / edge + 0.5) / edge - 0.5;
       CondensedPoint& point = problem.points[static_cast<std::size_t>(p)];
       point.law.friction = 0.2;
-      problem.free.segment<3>(3 * p) << -0.5 + 4.0 * (x * x + y * y), 0.2 * (0.3 + 2.0 * x * x - y), 0.2 * (y * y - 2.0 * x);
+      problem.free.segment<3>(3 * p) << -0.5 + 4.0 * (x * x + y * y), 0.2 * (0.3 + 2.0 * x * x - y),
+          0.2 * (y * y - 2.0 * x);
     }
   }
 };
@@ -39,7 +40,9 @@ TEST_CASE("Friction on points that turn as they are pressed settles in a few ite
   }
 }
 
-TEST_CASE("Penalties a hundred million times as stiff as the bodies settle as fast, by products as well, and differ by no more from contact without") {
+TEST_CASE(
+    "Penalties a hundred million times as stiff as the bodies settle as fast, by products as well, and differ by no "
+    "more from contact without") {
   TurningPatch rigid;
   REQUIRE(solve_condensed(rigid.schur, rigid.problem, rigid.state).verdict == CondensedVerdict::solved);
   for (const int most_direct_rows : {1000, 0}) {
@@ -63,8 +66,10 @@ TEST_CASE("Statuses that come back while less is left are no cycle") {
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::srand(seed);
     const Eigen::MatrixXd factor = Eigen::MatrixXd::Random(size, size);
-    const Eigen::MatrixXd compliance = factor * factor.transpose() / count + 0.3 * Eigen::MatrixXd::Identity(size, size);
-    SchurComplement schur(identity_rows(size), [&compliance](Eigen::Ref<Eigen::MatrixXd> columns) { columns = compliance * columns; });
+    const Eigen::MatrixXd compliance =
+        factor * factor.transpose() / count + 0.3 * Eigen::MatrixXd::Identity(size, size);
+    SchurComplement schur(identity_rows(size),
+                          [&compliance](Eigen::Ref<Eigen::MatrixXd> columns) { columns = compliance * columns; });
     Coupled bodies(count, 1.0);
     bodies.problem.free = 3.0 * Eigen::VectorXd::Random(size);
     for (int p = 0; p < count; ++p) bodies.problem.free[3 * p] = -1.0;

@@ -25,7 +25,9 @@ std::pair<double, double> penalties_of(const RaisedPenalties& raised, int number
 
 }  // namespace
 
-TEST_CASE("A penalty grows by more than points are too deep, so that a pressure that stays makes no point too deep any more") {
+TEST_CASE(
+    "A penalty grows by more than points are too deep, so that a pressure that stays makes no point too deep any "
+    "more") {
   const double excess = GENERATE(1.01, 3.0, 1e4);
   RaisedPenalties raised(2);
   REQUIRE(raised.raise({{excess, 0.5}, {0.0, 0.0}}));

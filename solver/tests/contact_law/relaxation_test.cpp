@@ -53,15 +53,18 @@ TEST_CASE("Points that stuck slide where displacements are imposed that leave th
     normal[3 * p] = 1.0;
     scene.problem.free.segment<3>(3 * p) << -1.0, 0.3, 0.4;
   }
-  SchurComplement schur(identity_rows(3 * count), [&](Eigen::Ref<Eigen::MatrixXd> columns) { columns = (normal.asDiagonal() * columns).eval(); });
+  SchurComplement schur(identity_rows(3 * count),
+                        [&](Eigen::Ref<Eigen::MatrixXd> columns) { columns = (normal.asDiagonal() * columns).eval(); });
   scene.state.statuses.assign(count, ContactStatus::sticking);
   const CondensedSolution solution = solve_condensed(schur, scene.problem, scene.state);
   REQUIRE(solution.verdict == CondensedVerdict::solved);
-  for (int p = 0; p < count; ++p) CHECK((solution.forces.segment<3>(3 * p) - Eigen::Vector3d(1.0, -0.15, -0.2)).norm() < 1e-12);
+  for (int p = 0; p < count; ++p)
+    CHECK((solution.forces.segment<3>(3 * p) - Eigen::Vector3d(1.0, -0.15, -0.2)).norm() < 1e-12);
 }
 
 TEST_CASE("Friction grows from none where a status does not settle") {
-  // Normal forces move the points sideways, and friction is stronger than what causes it: cycles, for Newton's method and sweeps alike.
+  // Normal forces move the points sideways, and friction is stronger than what causes it: cycles, for Newton's method
+  // and sweeps alike.
   constexpr int count = 30, size = 2 * count;
   std::minstd_rand numbers(7);
   std::uniform_real_distribution<double> between(-1.0, 1.0);
@@ -71,7 +74,8 @@ TEST_CASE("Friction grows from none where a status does not settle") {
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < size; ++j) factor(i, j) = between(numbers);
     const Eigen::MatrixXd matrix = factor * factor.transpose() / size + 0.002 * Eigen::MatrixXd::Identity(size, size);
-    SchurComplement schur(identity_rows(size), [matrix](Eigen::Ref<Eigen::MatrixXd> columns) { columns = matrix * columns; });
+    SchurComplement schur(identity_rows(size),
+                          [matrix](Eigen::Ref<Eigen::MatrixXd> columns) { columns = matrix * columns; });
     CondensedProblem problem;
     problem.node_count = count;
     problem.components = 2;

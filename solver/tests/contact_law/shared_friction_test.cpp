@@ -11,7 +11,8 @@ using namespace comma::solver;
 namespace {
 
 bool by_shares(const CondensedProblem& problem) {
-  return std::ranges::any_of(problem.points, [](const CondensedPoint& point) { return point.law.share_pressure > 0.0; });
+  return std::ranges::any_of(problem.points,
+                             [](const CondensedPoint& point) { return point.law.share_pressure > 0.0; });
 }
 
 /// A point between two nodes.
@@ -58,14 +59,17 @@ TEST_CASE("Shares of friction are weighed by the pressures of their own surface"
   problem.points.back().nodes = {2, 3};
   problem.node_count = 4;
   problem.free = problem.held = Eigen::VectorXd::Zero(4);
-  CondensedState state{.multipliers = Eigen::VectorXd::Zero(8), .statuses = {ContactStatus::sticking, ContactStatus::sticking}};
+  CondensedState state{.multipliers = Eigen::VectorXd::Zero(8),
+                       .statuses = {ContactStatus::sticking, ContactStatus::sticking}};
   std::vector<double> weighed_by;
   const auto method = [&](const CondensedProblem& each, CondensedState& solved) {
     if (by_shares(each)) weighed_by = {each.points[0].law.share_pressure, each.points[1].law.share_pressure};
-    for (const Eigen::Index node : {0, 1, 2, 3}) solved.multipliers[2 * node] = node < 2 ? 2.0 + static_cast<double>(node) : 5.0e6;
+    for (const Eigen::Index node : {0, 1, 2, 3})
+      solved.multipliers[2 * node] = node < 2 ? 2.0 + static_cast<double>(node) : 5.0e6;
     return CondensedSolution{};
   };
-  REQUIRE(solve_shared_friction(problem, state, {method, method, method, method, method}).verdict == CondensedVerdict::solved);
+  REQUIRE(solve_shared_friction(problem, state, {method, method, method, method, method}).verdict ==
+          CondensedVerdict::solved);
   CHECK(weighed_by == std::vector<double>{3.0, 5.0e6});
 }
 

@@ -21,7 +21,8 @@ struct WithMiddle : Coupled {
       middle.nodes[static_cast<std::size_t>(i)] = i;
       middle.shape[static_cast<std::size_t>(i)] = 0.25;
     }
-    for (CondensedPoint& point : problem.points) point.law.augmentation = point.law.friction_augmentation = augmentation;
+    for (CondensedPoint& point : problem.points)
+      point.law.augmentation = point.law.friction_augmentation = augmentation;
   }
 };
 
@@ -32,7 +33,8 @@ void check_solution(Scene smoothed, Scene solved) {
   std::vector<PointStiffness> stiffness;
   REQUIRE(smooth_condensed(smoothed.schur, smoothed.problem, smoothed.state, jumps, stiffness, Augmentations::of_law));
   REQUIRE(solve_condensed(solved.schur, solved.problem, solved.state).verdict == CondensedVerdict::solved);
-  CAPTURE(smoothed.state.multipliers.transpose(), solved.state.multipliers.transpose(), smoothed.problem.points[0].law.augmentation);
+  CAPTURE(smoothed.state.multipliers.transpose(), solved.state.multipliers.transpose(),
+          smoothed.problem.points[0].law.augmentation);
   CHECK(smoothed.state.statuses == solved.state.statuses);
   // Pressures are rounded off by 1e-9 of the largest, and what is left may be 1e-7 of the jumps.
   CHECK((smoothed.state.multipliers - solved.state.multipliers).norm() < 1e-6 * solved.state.multipliers.norm());
@@ -44,7 +46,8 @@ TEST_CASE("Laws that are smooth at first end where statuses settle, whatever the
   for (const double friction : {0.0, 0.2, 1.0})
     for (const double augmentation : {1e-6, 1.0, 1e6}) {
       Coupled scene(6, friction);
-      for (CondensedPoint& point : scene.problem.points) point.law.augmentation = point.law.friction_augmentation = augmentation;
+      for (CondensedPoint& point : scene.problem.points)
+        point.law.augmentation = point.law.friction_augmentation = augmentation;
       check_solution(scene, scene);
     }
 }
@@ -61,7 +64,8 @@ TEST_CASE("They find the solution of penalties, however stiff") {
 }
 
 TEST_CASE("Between nodes they end with the augmentations of the law") {
-  for (const double augmentation : {0.05, 1.0, 20.0}) check_solution(WithMiddle(0.3, augmentation), WithMiddle(0.3, augmentation));
+  for (const double augmentation : {0.05, 1.0, 20.0})
+    check_solution(WithMiddle(0.3, augmentation), WithMiddle(0.3, augmentation));
 }
 
 TEST_CASE("Shears alone may keep the augmentation of the bodies") {
@@ -69,7 +73,8 @@ TEST_CASE("Shears alone may keep the augmentation of the bodies") {
   Eigen::VectorXd jumps = scene.problem.free;
   std::vector<PointStiffness> stiffness;
   REQUIRE(smooth_condensed(scene.schur, scene.problem, scene.state, jumps, stiffness, Augmentations::of_pressures));
-  for (std::size_t p = 0; p < solved.problem.points.size(); ++p) solved.problem.points[p].law.friction_augmentation = stiffness[p].along;
+  for (std::size_t p = 0; p < solved.problem.points.size(); ++p)
+    solved.problem.points[p].law.friction_augmentation = stiffness[p].along;
   REQUIRE(solve_condensed(solved.schur, solved.problem, solved.state).verdict == CondensedVerdict::solved);
   CHECK((scene.state.multipliers - solved.state.multipliers).norm() < 1e-6 * solved.state.multipliers.norm());
 }
@@ -82,7 +87,8 @@ TEST_CASE("A point that is held along one direction of the surface takes no shea
   scene.state.multipliers.setConstant(0.3);
   Coupled smoothed = scene;
   REQUIRE(solve_condensed(scene.schur, scene.problem, scene.state).verdict == CondensedVerdict::solved);
-  for (int p = 0; p < 3; ++p) CHECK(std::abs(scene.state.multipliers.segment<2>(3 * p + 1).dot(Eigen::Vector2d(0.6, 0.8))) < 1e-14);
+  for (int p = 0; p < 3; ++p)
+    CHECK(std::abs(scene.state.multipliers.segment<2>(3 * p + 1).dot(Eigen::Vector2d(0.6, 0.8))) < 1e-14);
   CHECK(scene.state.multipliers.segment<2>(1).norm() > 0.01);
   Eigen::VectorXd jumps = smoothed.problem.free;
   std::vector<PointStiffness> stiffness;

@@ -41,7 +41,10 @@ TEST_CASE("Friction beside penalties far stiffer than the bodies is solved from 
       rows.block<3, 3>(3 * k, 3 * point.nodes[0]) = axes(0.03 * any(generator), 0.03 * any(generator));
     }
     const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(3 * nodes, 3 * nodes, [&] { return any(generator); });
-    SchurComplement schur(rows.sparseView(), [compliance = Eigen::MatrixXd(half * half.transpose())](Eigen::Ref<Eigen::MatrixXd> columns) { columns = compliance * columns; });
+    SchurComplement schur(rows.sparseView(),
+                          [compliance = Eigen::MatrixXd(half * half.transpose())](Eigen::Ref<Eigen::MatrixXd> columns) {
+                            columns = compliance * columns;
+                          });
     Eigen::VectorXd moved = Eigen::VectorXd::NullaryExpr(3 * nodes, [&] { return any(generator); });
     for (int n = 0; n < nodes; ++n) moved[3 * n + 2] -= 0.5;
     problem.free = rows * moved;

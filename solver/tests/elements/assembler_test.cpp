@@ -47,7 +47,8 @@ std::shared_ptr<Mesh> cube(int n) {
       for (int i = 0; i < m; ++i) {
         const bool inside = i > 0 && i < n && j > 0 && j < n && k > 0 && k < n;
         const double shift = inside ? 0.2 / n * std::cos(2.0 * i + 3.0 * j + 5.0 * k) : 0.0;
-        mesh->nodes.push_back({static_cast<double>(i) / n + shift, static_cast<double>(j) / n - shift, static_cast<double>(k) / n + 0.5 * shift});
+        mesh->nodes.push_back({static_cast<double>(i) / n + shift, static_cast<double>(j) / n - shift,
+                               static_cast<double>(k) / n + 0.5 * shift});
       }
     }
   }
@@ -70,7 +71,9 @@ bool on_boundary(const Mesh& mesh, const Point& x) {
   return false;
 }
 
-double linear_field(const Point& x, int c) { return 1e-3 * (1.0 + c + (2 + c) * x[0] - (1.5 - c) * x[1] + (0.5 + c) * x[2]); }
+double linear_field(const Point& x, int c) {
+  return 1e-3 * (1.0 + c + (2 + c) * x[0] - (1.5 - c) * x[1] + (0.5 + c) * x[2]);
+}
 
 /// Imposes the linear field on the boundary, solves for the inner nodes, returns the largest error there.
 double patch_error(const Body& body) {
@@ -123,7 +126,8 @@ TEST_CASE("the assembled stiffness is the sum of the cells and gives the interna
   CHECK((body.assembler->internal_forces(u) - k * u).norm() < 1e-13 * (k * u).norm());
 }
 
-TEST_CASE("the stiffness holds the lower triangle with every diagonal entry, its pattern does not change", "[elements]") {
+TEST_CASE("the stiffness holds the lower triangle with every diagonal entry, its pattern does not change",
+          "[elements]") {
   const Body body = body_on_springs(10.0);
   const SymmetricMatrix first = body.assembler->stiffness(body.zero());
   const SymmetricMatrix second = body.assembler->stiffness(Eigen::VectorXd::Constant(body.dofs->size(), 1.0));
@@ -162,11 +166,13 @@ TEST_CASE("rows of a body's assembled stiffness add up to exactly zero", "[eleme
   }
 }
 
-TEST_CASE("nodes with more components than an element uses: a spring with rotation at the corner of a plane body", "[elements]") {
+TEST_CASE("nodes with more components than an element uses: a spring with rotation at the corner of a plane body",
+          "[elements]") {
   auto mesh = single_cell(CellType::tria3);
   mesh->add_cell(CellType::poi1, std::array{1});
   ElementProperties properties;
-  properties.discrete[1] = diagonal_stiffness(*mesh, 1, Formulation::spring_rotation_2d, std::array{3.0, 5.0, 7.0}, DiscreteFrame::global);
+  properties.discrete[1] =
+      diagonal_stiffness(*mesh, 1, Formulation::spring_rotation_2d, std::array{3.0, 5.0, 7.0}, DiscreteFrame::global);
   const Body body(mesh, {Formulation::plane_strain, Formulation::spring_rotation_2d}, elastic(1.0, 0.25), properties);
   const Body alone(single_cell(CellType::tria3), Formulation::plane_strain, elastic(1.0, 0.25));
   REQUIRE(body.dofs->size() == 7);
@@ -208,12 +214,13 @@ TEST_CASE("a displacement becomes a field with gaps where nodes have no such com
 TEST_CASE("a discrete element without stiffness is named", "[elements]") {
   auto mesh = single_cell(CellType::tria3);
   mesh->add_cell(CellType::poi1, std::array{1});
-  CHECK_THROWS_WITH(Body(mesh, {Formulation::plane_strain, Formulation::spring_2d}, elastic(1.0, 0.25)), Catch::Contains("M2"));
+  CHECK_THROWS_WITH(Body(mesh, {Formulation::plane_strain, Formulation::spring_2d}, elastic(1.0, 0.25)),
+                    Catch::Contains("M2"));
 }
 
 TEST_CASE("a pressed square that weak springs centre spreads evenly to both sides", "[elements]") {
-  // A body of 2e9 Pa, 50 m wide, flattened by 1 m in 50, held sideways by springs of 10 N/m between its foot corners and the
-  // ground: the sides move by -/+ nu / (1 - nu) * 0.02 * 25 m. 1e-8 m of drift is what 2e-7 N would cause.
+  // A body of 2e9 Pa, 50 m wide, flattened by 1 m in 50, held sideways by springs of 10 N/m between its foot corners
+  // and the ground: the sides move by -/+ nu / (1 - nu) * 0.02 * 25 m. 1e-8 m of drift is what 2e-7 N would cause.
   auto mesh = std::make_shared<Mesh>();
   mesh->dimension = 2;
   mesh->nodes = {{0, 0, 0}, {50, 0, 0}, {50, 50, 0}, {0, 50, 0}, {-5, 0, 0}, {55, 0, 0}};
@@ -222,9 +229,11 @@ TEST_CASE("a pressed square that weak springs centre spreads evenly to both side
   mesh->add_cell(CellType::seg2, std::array{1, 5});
   ElementProperties properties;
   for (const int cell : {1, 2}) {
-    properties.discrete[cell] = diagonal_stiffness(*mesh, cell, Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
+    properties.discrete[cell] =
+        diagonal_stiffness(*mesh, cell, Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
   }
-  const Body body(mesh, {Formulation::plane_strain, Formulation::spring_2d, Formulation::spring_2d}, elastic(2e9, 0.3), properties);
+  const Body body(mesh, {Formulation::plane_strain, Formulation::spring_2d, Formulation::spring_2d}, elastic(2e9, 0.3),
+                  properties);
   const std::vector<int> free = {0, 2, 4, 6};  // DX of the four corners
   Eigen::VectorXd u = body.zero();
   u[5] = u[7] = -1.0;

@@ -5,8 +5,8 @@
 
 #include "sample_meshes.hpp"
 #include "solver/error.hpp"
-#include "solver/materials/elasticity.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
+#include "solver/materials/elasticity.hpp"
 
 using namespace comma::solver;
 using namespace comma::solver::testing;
@@ -24,14 +24,15 @@ struct Case {
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const CellType type : plane_types) {
-    for (const auto f : {Formulation::plane_strain, Formulation::plane_stress, Formulation::axisymmetric}) cases.push_back({type, f});
+    for (const auto f : {Formulation::plane_strain, Formulation::plane_stress, Formulation::axisymmetric})
+      cases.push_back({type, f});
   }
   for (const CellType type : solid_types) cases.push_back({type, Formulation::solid});
   return cases;
 }
 
-/// Number of zero-energy motions of an unsupported cell. Four strains at the one point of an axisymmetric TRIA3 leave two of its
-/// six degrees of freedom free: the axial translation, and a mode that its neighbours hold.
+/// Number of zero-energy motions of an unsupported cell. Four strains at the one point of an axisymmetric TRIA3 leave
+/// two of its six degrees of freedom free: the axial translation, and a mode that its neighbours hold.
 int free_motions(const Case& c) {
   if (c.formulation == Formulation::axisymmetric && c.type == CellType::tria3) return 2;
   if (c.formulation == Formulation::axisymmetric) return 1;
@@ -58,7 +59,8 @@ TEST_CASE("stiffness of one cell is symmetric, positive, and free of energy for 
 }
 
 TEST_CASE("a linear displacement gives the exact stress in every cell, curved ones included", "[elements]") {
-  // Isoparametric elements represent linear fields whatever the mapping; Hooke's law then gives one stress for all points.
+  // Isoparametric elements represent linear fields whatever the mapping; Hooke's law then gives one stress for all
+  // points.
   const Eigen::Matrix3d h = (Eigen::Matrix3d() << 1.0, 0.4, -0.3, 0.2, -0.7, 0.5, 0.6, -0.1, 0.9).finished() * 1e-3;
   const auto linear = [&](const Point& x, int c) { return 0.1 + h(c, 0) * x[0] + h(c, 1) * x[1] + h(c, 2) * x[2]; };
   for (const Case& c : all_cases()) {
@@ -71,8 +73,9 @@ TEST_CASE("a linear displacement gives the exact stress in every cell, curved on
     Eigen::VectorXd expected = solid_stiffness(material) * strain;
     if (c.formulation != Formulation::solid) {
       strain[2] = 0.0;
-      expected = c.formulation == Formulation::plane_strain ? Eigen::VectorXd(plane_strain_stiffness(material) * strain.head<4>())
-                                                            : Eigen::VectorXd(plane_stress_stiffness(material) * strain.head<4>());
+      expected = c.formulation == Formulation::plane_strain
+                     ? Eigen::VectorXd(plane_strain_stiffness(material) * strain.head<4>())
+                     : Eigen::VectorXd(plane_stress_stiffness(material) * strain.head<4>());
     }
     const ElementField stress = body.assembler->stresses(body.displacements(linear));
     REQUIRE(static_cast<Eigen::Index>(stress.components.size()) == expected.size());
@@ -91,7 +94,8 @@ TEST_CASE("axisymmetric strain: u = a r + b r z, w = c z gives the stresses of t
   for (const CellType type : plane_types) {
     CAPTURE(name_of(type));
     const Body body(single_cell(type, 0.02), Formulation::axisymmetric, elastic(young, poisson));
-    const auto u = body.displacements([&](const Point& x, int component) { return component == 0 ? a * x[0] : c * x[1]; });
+    const auto u =
+        body.displacements([&](const Point& x, int component) { return component == 0 ? a * x[0] : c * x[1]; });
     const Eigen::Vector4d expected = plane_strain_stiffness({young, poisson}) * Eigen::Vector4d(a, c, a, 0.0);
     const ElementField stress = body.assembler->stresses(u);
     for (int point = 0; point < stress.points(0); ++point) {
@@ -104,10 +108,12 @@ TEST_CASE("internal forces are the stiffness times the displacement", "[elements
   for (const Case& c : all_cases()) {
     CAPTURE(name_of(c.type), static_cast<int>(c.formulation));
     const Body body(single_cell(c.type, 0.04), c.formulation, elastic(young, poisson));
-    const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * std::sin(3 * x[0] + x[1] + 2 * x[2] + k); });
+    const auto u =
+        body.displacements([](const Point& x, int k) { return 1e-3 * std::sin(3 * x[0] + x[1] + 2 * x[2] + k); });
     const Eigen::MatrixXd k = body.dense_stiffness();
     const Eigen::VectorXd difference = body.assembler->internal_forces(u) - k * u;
-    CHECK(difference.cwiseAbs().maxCoeff() < 1e-13 * k.cwiseAbs().maxCoeff() * u.cwiseAbs().maxCoeff() * static_cast<double>(u.size()));
+    CHECK(difference.cwiseAbs().maxCoeff() <
+          1e-13 * k.cwiseAbs().maxCoeff() * u.cwiseAbs().maxCoeff() * static_cast<double>(u.size()));
   }
 }
 
@@ -115,13 +121,15 @@ TEST_CASE("the stiffness is the derivative of the internal forces", "[elements]"
   for (const Case& c : all_cases()) {
     CAPTURE(name_of(c.type), static_cast<int>(c.formulation));
     const Body body(single_cell(c.type, 0.04), c.formulation, elastic(young, poisson));
-    const auto u = body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
+    const auto u =
+        body.displacements([](const Point& x, int k) { return 1e-3 * std::cos(x[0] - 2 * x[1] + x[2] + k); });
     const Eigen::MatrixXd k = body.dense_stiffness();
     const double step = 1e-4;
     Eigen::MatrixXd difference(k.rows(), k.cols());
     for (int j = 0; j < k.cols(); ++j) {
       const Eigen::VectorXd e = step * Eigen::VectorXd::Unit(k.cols(), j);
-      difference.col(j) = (body.assembler->internal_forces(u + e) - body.assembler->internal_forces(u - e)) / (2 * step);
+      difference.col(j) =
+          (body.assembler->internal_forces(u + e) - body.assembler->internal_forces(u - e)) / (2 * step);
     }
     // The forces are linear: only their rounding, 1e-16 * K u / step, is left.
     CHECK((difference - k).cwiseAbs().maxCoeff() < 1e-12 * k.cwiseAbs().maxCoeff());
@@ -152,7 +160,8 @@ TEST_CASE("forces of a deformed body add up to zero far below the rounding of it
   // The resultant of a body of 2e9 N/m at 20 m must be small beside what springs of 10 N/m feel at 1e-8 m: 1e-7 N.
   const Body body(single_cell(CellType::quad4, 0.05), Formulation::plane_strain, elastic(2e9, 0.3));
   const auto u = body.displacements([](const Point& x, int k) { return 20.0 + 4.0 * std::sin(x[0] + 2 * x[1] + k); });
-  // Seen through the sum of each element in extended precision; what is left is the rounding of the four results to doubles.
+  // Seen through the sum of each element in extended precision; what is left is the rounding of the four results to
+  // doubles.
   const Eigen::VectorXd forces = body.assembler->internal_forces(u);
   long double sum = 0.0L;
   for (int dof = 0; dof < forces.size(); dof += 2) sum += forces[dof];
@@ -160,8 +169,13 @@ TEST_CASE("forces of a deformed body add up to zero far below the rounding of it
 }
 
 TEST_CASE("reduced integration keeps the patch test and adds no more than its known zero-energy modes", "[elements]") {
-  struct Reduced { CellType type; Formulation formulation; int modes; };
-  // An eight-node quadrangle on 2 x 2 points has one spurious mode (which neighbours suppress); HEXA20 on 2 x 2 x 2 has six.
+  struct Reduced {
+    CellType type;
+    Formulation formulation;
+    int modes;
+  };
+  // An eight-node quadrangle on 2 x 2 points has one spurious mode (which neighbours suppress); HEXA20 on 2 x 2 x 2 has
+  // six.
   for (const Reduced& c : {Reduced{CellType::quad8, Formulation::plane_strain_reduced, 3 + 1},
                            Reduced{CellType::hexa20, Formulation::solid_reduced, 6 + 6}}) {
     const Body body(single_cell(c.type), c.formulation, elastic(young, poisson));
@@ -173,8 +187,11 @@ TEST_CASE("reduced integration keeps the patch test and adds no more than its kn
 TEST_CASE("cells that no element can be made of are named", "[elements]") {
   auto folded = single_cell(CellType::quad4);
   std::swap(folded->nodes[2], folded->nodes[3]);
-  CHECK_THROWS_WITH(Body(folded, Formulation::plane_strain, elastic(young, poisson)), Catch::Contains("M1") && Catch::Contains("folded"));
-  CHECK_THROWS_WITH(Body(single_cell(CellType::quad4), Formulation::plane_strain, nullptr), Catch::Contains("M1") && Catch::Contains("material"));
-  CHECK_THROWS_WITH(Body(single_cell(CellType::quad4), Formulation::plane_strain_reduced, elastic(young, poisson)), Catch::Contains("QUAD4"));
+  CHECK_THROWS_WITH(Body(folded, Formulation::plane_strain, elastic(young, poisson)),
+                    Catch::Contains("M1") && Catch::Contains("folded"));
+  CHECK_THROWS_WITH(Body(single_cell(CellType::quad4), Formulation::plane_strain, nullptr),
+                    Catch::Contains("M1") && Catch::Contains("material"));
+  CHECK_THROWS_WITH(Body(single_cell(CellType::quad4), Formulation::plane_strain_reduced, elastic(young, poisson)),
+                    Catch::Contains("QUAD4"));
   CHECK_THROWS_AS(Body(single_cell(CellType::quad4), Formulation::plane_strain, elastic(young, 0.5)), Error);
 }

@@ -12,7 +12,8 @@ const BehaviourOfCells touching = {{Kinematics::small, Relation::contact_spring}
 
 std::shared_ptr<const Material> contact_material() {
   Material material;
-  material.contact_spring = ContactSpring{.normal = 10.0, .tangential = 4.0, .friction = 0.3, .first_distance = 2.0, .second_distance = 0.9};
+  material.contact_spring =
+      ContactSpring{.normal = 10.0, .tangential = 4.0, .friction = 0.3, .first_distance = 2.0, .second_distance = 0.9};
   return std::make_shared<const Material>(material);
 }
 
@@ -30,7 +31,8 @@ Body segment(Formulation formulation, double stiffness = 0.0) {
 
 }  // namespace
 
-TEST_CASE("a segment with contact pushes its nodes apart along itself, and moments are those of its stiffness", "[elements]") {
+TEST_CASE("a segment with contact pushes its nodes apart along itself, and moments are those of its stiffness",
+          "[elements]") {
   const Body body = segment(Formulation::spring_rotation_3d, 7.0);
   Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &touching);
   const Eigen::Vector3d along(1.0 / 3, 2.0 / 3, 2.0 / 3);
@@ -56,7 +58,8 @@ TEST_CASE("the tangent of a segment with contact is the derivative of its forces
   constexpr double h = 1e-6;
   for (int k = 0; k < 6; ++k) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(6, k);
-    const Eigen::VectorXd column = (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
+    const Eigen::VectorXd column =
+        (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
     CHECK((column - tangent.col(k)).norm() <= 1e-7);
   }
 }
@@ -80,8 +83,10 @@ TEST_CASE("a segment with contact goes on from its force and its variables as if
 TEST_CASE("contact is a law of discrete elements that have a contact spring", "[elements]") {
   Body body = segment(Formulation::spring_3d);
   body.materials.by_cell[0] = elastic(1.0, 0.0);
-  CHECK_THROWS_WITH(Assembler(body.model, body.materials, body.properties, *body.dofs, &touching), Catch::Contains("no contact spring"));
+  CHECK_THROWS_WITH(Assembler(body.model, body.materials, body.properties, *body.dofs, &touching),
+                    Catch::Contains("no contact spring"));
   Body coupled = segment(Formulation::spring_rotation_3d);
   coupled.properties.discrete[0].matrix(0, 3) = coupled.properties.discrete[0].matrix(3, 0) = 1.0;
-  CHECK_THROWS_WITH(Assembler(coupled.model, coupled.materials, coupled.properties, *coupled.dofs, &touching), Catch::Contains("couples"));
+  CHECK_THROWS_WITH(Assembler(coupled.model, coupled.materials, coupled.properties, *coupled.dofs, &touching),
+                    Catch::Contains("couples"));
 }

@@ -15,11 +15,13 @@ Body segment(const SpringLaws& laws) {
   mesh->nodes = {{0, 0, 0}, {1, 2, 2}};
   mesh->add_cell(CellType::seg2, std::array{0, 1});
   ElementProperties properties;
-  properties.discrete[0] = diagonal_stiffness(*mesh, 0, Formulation::spring_rotation_3d, std::array{5.0, 6.0, 7.0, 8.0, 9.0, 10.0}, DiscreteFrame::local);
+  properties.discrete[0] = diagonal_stiffness(*mesh, 0, Formulation::spring_rotation_3d,
+                                              std::array{5.0, 6.0, 7.0, 8.0, 9.0, 10.0}, DiscreteFrame::local);
   Material material;
   material.springs = laws;
   material.knows_bilinear_springs = material.knows_hardening_springs = true;
-  return Body(mesh, std::vector<Formulation>{Formulation::spring_rotation_3d}, std::make_shared<const Material>(material), properties);
+  return Body(mesh, std::vector<Formulation>{Formulation::spring_rotation_3d},
+              std::make_shared<const Material>(material), properties);
 }
 
 SpringLaws laws() {
@@ -37,7 +39,8 @@ Eigen::VectorXd moved() {
   return u;
 }
 
-TEST_CASE("the tangent of a segment with a law for each component is the derivative of its forces, which balance", "[elements]") {
+TEST_CASE("the tangent of a segment with a law for each component is the derivative of its forces, which balance",
+          "[elements]") {
   const Body body = segment(laws());
   for (const Relation relation : {Relation::bilinear_spring, Relation::hardening_spring}) {
     const BehaviourOfCells behaviour = {{Kinematics::small, relation}};
@@ -47,7 +50,8 @@ TEST_CASE("the tangent of a segment with a law for each component is the derivat
     constexpr double h = 1e-6;
     for (int k = 0; k < 12; ++k) {
       const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(12, k);
-      const Eigen::VectorXd column = (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
+      const Eigen::VectorXd column =
+          (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
       CHECK((column - tangent.col(k)).norm() <= 1e-7);
     }
     const Eigen::VectorXd forces = assembler.internal_forces(u);
@@ -56,7 +60,8 @@ TEST_CASE("the tangent of a segment with a law for each component is the derivat
   }
 }
 
-TEST_CASE("a segment that has flowed goes on from its force or its variables as if it had never stopped", "[elements]") {
+TEST_CASE("a segment that has flowed goes on from its force or its variables as if it had never stopped",
+          "[elements]") {
   const Body body = segment(laws());
   const BehaviourOfCells behaviour = {{Kinematics::small, Relation::hardening_spring}};
   const Eigen::VectorXd u = moved(), later = -0.2 * u;
@@ -74,10 +79,12 @@ TEST_CASE("laws of components ask for their material and for a stiffness that co
   const BehaviourOfCells behaviour = {{Kinematics::small, Relation::hardening_spring}};
   Body lacking = segment(laws());
   lacking.materials.by_cell[0] = elastic(1.0, 0.0);
-  CHECK_THROWS_WITH(Assembler(lacking.model, lacking.materials, lacking.properties, *lacking.dofs, &behaviour), Catch::Contains("lacks"));
+  CHECK_THROWS_WITH(Assembler(lacking.model, lacking.materials, lacking.properties, *lacking.dofs, &behaviour),
+                    Catch::Contains("lacks"));
   Body coupled = segment(laws());
   coupled.properties.discrete[0].matrix(0, 3) = coupled.properties.discrete[0].matrix(3, 0) = 1.0;
-  CHECK_THROWS_WITH(Assembler(coupled.model, coupled.materials, coupled.properties, *coupled.dofs, &behaviour), Catch::Contains("couples"));
+  CHECK_THROWS_WITH(Assembler(coupled.model, coupled.materials, coupled.properties, *coupled.dofs, &behaviour),
+                    Catch::Contains("couples"));
 }
 
 }  // namespace discrete_law_test

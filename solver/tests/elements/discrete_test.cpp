@@ -19,13 +19,15 @@ std::shared_ptr<Mesh> segment(const Point& from, const Point& to) {
   return mesh;
 }
 
-Body spring(const std::shared_ptr<Mesh>& mesh, Formulation formulation, std::span<const double> values, DiscreteFrame frame) {
+Body spring(const std::shared_ptr<Mesh>& mesh, Formulation formulation, std::span<const double> values,
+            DiscreteFrame frame) {
   ElementProperties properties;
   properties.discrete[0] = diagonal_stiffness(*mesh, 0, formulation, values, frame);
   return Body(mesh, {formulation}, nullptr, properties);
 }
 
-TEST_CASE("a spring along a slanted segment resists along it with its first value, across it with the second", "[elements]") {
+TEST_CASE("a spring along a slanted segment resists along it with its first value, across it with the second",
+          "[elements]") {
   const auto mesh = segment({1, 1, 0}, {4, 5, 0});  // direction (0.6, 0.8)
   const Body body = spring(mesh, Formulation::spring_2d, std::array{100.0, 7.0}, DiscreteFrame::local);
   Eigen::Vector4d stretch(0, 0, 0.6, 0.8);
@@ -39,7 +41,8 @@ TEST_CASE("a spring along a slanted segment resists along it with its first valu
 }
 
 TEST_CASE("a spring in global axes ignores the direction of its segment", "[elements]") {
-  const Body body = spring(segment({0, 0, 0}, {0, 5, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::global);
+  const Body body =
+      spring(segment({0, 0, 0}, {0, 5, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::global);
   const Eigen::Vector4d u(0, 0, 1, 1);
   CHECK((body.assembler->internal_forces(u) - Eigen::Vector4d(-10, -3, 10, 3)).norm() == 0.0);
 }
@@ -56,7 +59,8 @@ TEST_CASE("own axes of segments are right-handed, the first along the segment, t
   // Coordinates that are rounding turn nothing.
   for (const Point& lean : {Point{0, 1e-16, 0}, Point{-3e-12, 0, 0}, Point{1e-17, -1e-16, 0}}) {
     for (const double way : {1.0, -1.0})
-      CHECK(own_axes(*segment({0, 0, 0}, {lean[0], lean[1], 2 * way}), 0, 0.3) == own_axes(*segment({0, 0, 0}, {0, 0, 2 * way}), 0, 0.3));
+      CHECK(own_axes(*segment({0, 0, 0}, {lean[0], lean[1], 2 * way}), 0, 0.3) ==
+            own_axes(*segment({0, 0, 0}, {0, 0, 2 * way}), 0, 0.3));
   }
 }
 
@@ -75,15 +79,17 @@ TEST_CASE("a full symmetric stiffness is read by columns of its upper triangle",
   auto mesh = std::make_shared<Mesh>();
   mesh->nodes = {{0, 0, 0}};
   mesh->add_cell(CellType::poi1, std::array{0});
-  const auto k = symmetric_stiffness(*mesh, 0, Formulation::spring_3d, std::array{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, DiscreteFrame::local);
+  const auto k = symmetric_stiffness(*mesh, 0, Formulation::spring_3d, std::array{1.0, 2.0, 3.0, 4.0, 5.0, 6.0},
+                                     DiscreteFrame::local);
   const Eigen::Matrix3d expected = (Eigen::Matrix3d() << 1, 2, 4, 2, 3, 5, 4, 5, 6).finished();
   CHECK(k.matrix == expected);
 }
 
 TEST_CASE("a wrong number of values says how many there should be", "[elements]") {
   const auto mesh = segment({0, 0, 0}, {1, 0, 0});
-  CHECK_THROWS_WITH(diagonal_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::local),
-                    Catch::Contains("takes 2 values, not 3"));
+  CHECK_THROWS_WITH(
+      diagonal_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::local),
+      Catch::Contains("takes 2 values, not 3"));
 }
 
 TEST_CASE("the roll towards a direction turns the second own axis to its side", "[elements]") {
@@ -94,7 +100,8 @@ TEST_CASE("the roll towards a direction turns the second own axis to its side", 
   CHECK(axes.row(2).dot(wanted) == Approx(0.0).margin(1e-15));
   CHECK_THROWS_AS(roll_towards(*mesh, 0, {2, 4, 6}), Error);
   CHECK_THROWS_AS(axes_along({1, 0, 0}, {-2, 0, 0}), Error);
-  CHECK((axes_along({0, 2, 0}, {-1, 1, 0}) - (Eigen::Matrix3d() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished()).norm() == 0.0);
+  CHECK((axes_along({0, 2, 0}, {-1, 1, 0}) - (Eigen::Matrix3d() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished()).norm() ==
+        0.0);
 }
 
 TEST_CASE("points and segments without length take the axes that they are given", "[elements]") {
@@ -104,7 +111,8 @@ TEST_CASE("points and segments without length take the axes that they are given"
   const Orientation quarter{.roll = 0.0, .point_axes = axes_along({0, 1, 0}, {-1, 0, 0})};
   for (const auto& mesh : {point, segment({1, 1, 1}, {1, 1, 1})}) {
     CHECK_FALSE(has_direction(*mesh, 0));
-    const auto k = diagonal_stiffness(*mesh, 0, Formulation::spring_3d, std::array{5.0, 7.0, 9.0}, DiscreteFrame::local, quarter);
+    const auto k =
+        diagonal_stiffness(*mesh, 0, Formulation::spring_3d, std::array{5.0, 7.0, 9.0}, DiscreteFrame::local, quarter);
     CHECK((k.matrix.topLeftCorner<3, 3>() - Eigen::Vector3d(7, 5, 9).asDiagonal().toDenseMatrix()).norm() < 1e-14);
   }
 }
@@ -120,7 +128,8 @@ TEST_CASE("a segment no longer than is asked for takes the axes that it is given
 }
 
 TEST_CASE("forces come in own axes whatever the frame of the stiffness", "[elements]") {
-  const Body body = spring(segment({0, 0, 0}, {3, 4, 0}), Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
+  const Body body =
+      spring(segment({0, 0, 0}, {3, 4, 0}), Formulation::spring_2d, std::array{10.0, 10.0}, DiscreteFrame::global);
   const ElementField force = body.assembler->stresses(Eigen::Vector4d(0, 0, 0.6, 0.8));
   CHECK(force.at(0, 0, 0) == exactly(10.0));
   CHECK(force.at(0, 0, 1) == Approx(0.0).margin(1e-14));
@@ -141,12 +150,15 @@ TEST_CASE("an unsymmetric stiffness is read by columns, and turned into global a
   mesh->nodes = {{0, 0, 0}};
   mesh->add_cell(CellType::poi1, std::array{0});
   const Orientation quarter{.roll = 0.0, .point_axes = axes_along({0, 1, 0}, {-1, 0, 0})};  // x' = Y, y' = -X
-  const auto own = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0}, DiscreteFrame::global, quarter);
+  const auto own = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0},
+                                         DiscreteFrame::global, quarter);
   CHECK(own.matrix == (Eigen::Matrix2d() << 1, 3, 2, 4).finished());
-  const auto turned = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0}, DiscreteFrame::local, quarter);
+  const auto turned = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0, 4.0},
+                                            DiscreteFrame::local, quarter);
   CHECK((turned.matrix - (Eigen::Matrix2d() << 4, -2, -3, 1).finished()).norm() < 1e-15);
-  CHECK_THROWS_WITH(unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::global),
-                    Catch::Contains("takes 4 values, not 3"));
+  CHECK_THROWS_WITH(
+      unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, std::array{1.0, 2.0, 3.0}, DiscreteFrame::global),
+      Catch::Contains("takes 4 values, not 3"));
 }
 
 TEST_CASE("symmetric and skew part of an unsymmetric spring are together the derivative of its forces", "[elements]") {
@@ -157,13 +169,15 @@ TEST_CASE("symmetric and skew part of an unsymmetric spring are together the der
   properties.discrete[0] = unsymmetric_stiffness(*mesh, 0, Formulation::spring_2d, values, DiscreteFrame::local);
   const Body body(mesh, {Formulation::spring_2d}, nullptr, properties);
   CHECK_FALSE(body.assembler->is_symmetric());
-  const Eigen::MatrixXd tangent =
-      full_matrix(body.assembler->stiffness(Eigen::VectorXd::Zero(4)), body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)));
-  for (int i = 0; i < 4; ++i) CHECK((tangent.col(i) - body.assembler->internal_forces(Eigen::VectorXd::Unit(4, i))).norm() < 1e-15);
+  const Eigen::MatrixXd tangent = full_matrix(body.assembler->stiffness(Eigen::VectorXd::Zero(4)),
+                                              body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)));
+  for (int i = 0; i < 4; ++i)
+    CHECK((tangent.col(i) - body.assembler->internal_forces(Eigen::VectorXd::Unit(4, i))).norm() < 1e-15);
 }
 
 TEST_CASE("a model of symmetric elements has no skew part", "[elements]") {
-  const Body body = spring(segment({0, 0, 0}, {1, 0, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::local);
+  const Body body =
+      spring(segment({0, 0, 0}, {1, 0, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::local);
   CHECK(body.assembler->is_symmetric());
   CHECK(body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)).nonZeros() == 0);
 }

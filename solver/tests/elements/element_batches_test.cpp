@@ -36,7 +36,8 @@ TEST_CASE("every element is computed and added once, in order") {
   constexpr int count = 1500;
   std::vector<int> computed(count, 0), added;
   for_each_in_batches<Item>(
-      count, true, [&](int element, Item&) { ++computed[static_cast<std::size_t>(element)]; }, [&](int element, const Item&) { added.push_back(element); });
+      count, true, [&](int element, Item&) { ++computed[static_cast<std::size_t>(element)]; },
+      [&](int element, const Item&) { added.push_back(element); });
   CHECK(std::ranges::all_of(computed, [](int times) { return times == 1; }));
   REQUIRE(static_cast<int>(added.size()) == count);
   for (int element = 0; element < count; ++element) CHECK(added[static_cast<std::size_t>(element)] == element);
@@ -46,7 +47,11 @@ TEST_CASE("an element that fails stops the sum with its own error") {
   for (const bool concurrent : {false, true}) {
     const auto run = [&] {
       for_each_in_batches<Item>(
-          1000, concurrent, [](int element, Item&) { if (element == 700) throw std::runtime_error("element 700"); }, [](int, const Item&) {});
+          1000, concurrent,
+          [](int element, Item&) {
+            if (element == 700) throw std::runtime_error("element 700");
+          },
+          [](int, const Item&) {});
     };
     CHECK_THROWS_WITH(run(), "element 700");
   }

@@ -145,12 +145,14 @@ TEST_CASE("a force in a body that is a function is integrated where the stresses
     double expected = 0.0;
     for (const auto& point : quadrature(CellType::tetra10, stiffness_family(CellType::tetra10, formulation))) {
       Eigen::Matrix<double, 3, 10> places;
-      for (int node = 0; node < 10; ++node) places.col(node) = Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());
+      for (int node = 0; node < 10; ++node)
+        places.col(node) = Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());
       const Eigen::Vector3d at = places * shape_functions(CellType::tetra10, point.at);
       const Eigen::Matrix3d jacobian = places * shape_derivatives(CellType::tetra10, point.at);
       expected += point.weight * jacobian.determinant() * density({at[0], at[1], at[2]}, 0.0);
     }
-    CHECK(resultant(body, body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0))[0] == Approx(expected).epsilon(1e-12));
+    CHECK(resultant(body, body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0))[0] ==
+          Approx(expected).epsilon(1e-12));
   }
 }
 
@@ -269,7 +271,9 @@ TEST_CASE("a pressure at nodes acts as the function that its cells interpolate",
     auto load = std::make_shared<Load>(*by_function.load);
     for (PressureLoad& pressure : load->pressures) {
       pressure.pressure_function = {};
-      pressure.pressure_at_nodes = [&](int node, double time) { return linear(body.model.mesh->nodes[static_cast<std::size_t>(node)], time); };
+      pressure.pressure_at_nodes = [&](int node, double time) {
+        return linear(body.model.mesh->nodes[static_cast<std::size_t>(node)], time);
+      };
     }
     const AppliedLoad at_nodes{load, {}};
     const Eigen::VectorXd expected = body.assembler->external_forces(std::span(&by_function, 1), 2.0);

@@ -22,7 +22,9 @@ struct Pressed {
 
   template <class SetUp>
   Pressed(CellType type, Formulation formulation, SetUp&& set_up)
-      : body(moved_away(type), formulation, dense(1.0, 0.3, 1.0)), loads(load_of(body, set_up)), forces(body.model, *body.dofs, loads) {}
+      : body(moved_away(type), formulation, dense(1.0, 0.3, 1.0)),
+        loads(load_of(body, set_up)),
+        forces(body.model, *body.dofs, loads) {}
 
   // Clear of the axis of axisymmetric bodies.
   static std::shared_ptr<Mesh> moved_away(CellType type) {
@@ -46,10 +48,12 @@ struct Pressed {
   }
 };
 
-constexpr CellType bodies[] = {CellType::tria3, CellType::quad8, CellType::quad9, CellType::tetra4, CellType::tetra10, CellType::penta15, CellType::hexa8, CellType::hexa27};
+constexpr CellType bodies[] = {CellType::tria3,   CellType::quad8,   CellType::quad9, CellType::tetra4,
+                               CellType::tetra10, CellType::penta15, CellType::hexa8, CellType::hexa27};
 
 Eigen::VectorXd some_displacement(const Body& body) {
-  return body.displacements([](const Point& x, int c) { return 0.2 * std::sin(1.0 + c + 2.0 * x[0] - x[1] * x[2] + 0.7 * x[(c + 1) % 3]); });
+  return body.displacements(
+      [](const Point& x, int c) { return 0.2 * std::sin(1.0 + c + 2.0 * x[0] - x[1] * x[2] + 0.7 * x[(c + 1) % 3]); });
 }
 
 }  // namespace
@@ -72,7 +76,8 @@ TEST_CASE("the tangent of pressures that follow is their derivative", "[loads]")
   };
   const auto constant = [](PressureLoad& load) { load.pressure = 3.0; };
   const auto varying = [](PressureLoad& load) {
-    load.pressure_function = DeformedPlaceFunction{[](const Point& at, double time) { return time * (1.0 + at[0] * at[0] - at[1] + 0.5 * at[2]); }};
+    load.pressure_function = DeformedPlaceFunction{
+        [](const Point& at, double time) { return time * (1.0 + at[0] * at[0] - at[1] + 0.5 * at[2]); }};
   };
   for (const CellType type : bodies) {
     check(type, continuum_of(type), constant);
@@ -92,7 +97,8 @@ TEST_CASE("a constant pressure all round a body neither pushes nor turns it, how
     const Eigen::VectorXd forces = scene.forces.at(u);
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
     for (int node = 0; node < scene.body.model.mesh->node_count(); ++node) {
-      Eigen::Vector3d at(scene.body.model.mesh->nodes[static_cast<std::size_t>(node)].data()), f = Eigen::Vector3d::Zero();
+      Eigen::Vector3d at(scene.body.model.mesh->nodes[static_cast<std::size_t>(node)].data()),
+          f = Eigen::Vector3d::Zero();
       for (int c = 0; c < 3; ++c) {
         const int dof = scene.body.dofs->dof(node, static_cast<Component>(c));
         if (dof < 0) continue;
@@ -118,7 +124,8 @@ TEST_CASE("on the body at rest pressures that follow are those that do not", "[l
     CHECK((scene.forces.at(scene.body.zero()) - fixed).norm() < 1e-14 * fixed.norm());
     // A function of the initial place does not see how far the body has moved.
     Eigen::VectorXd lifted = scene.body.zero();
-    for (int dof = 0; dof < lifted.size(); ++dof) lifted[dof] = scene.body.dofs->component_of(dof) == Component::dy ? 7.0 : 0.0;
+    for (int dof = 0; dof < lifted.size(); ++dof)
+      lifted[dof] = scene.body.dofs->component_of(dof) == Component::dy ? 7.0 : 0.0;
     CHECK((scene.forces.at(lifted) - fixed).norm() < 1e-13 * fixed.norm());
   }
 }

@@ -79,7 +79,13 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
     mesh->nodes = {{0, 0, 0}, {0, 2, 0}};
     mesh->add_cell(CellType::seg2, std::array{0, 1});
     ElementProperties properties;
-    properties.sections[0] = {.area = 0.5, .inertia_y = 0.02, .inertia_z = 0.03, .torsion = 0.01, .shear_y = 1.2, .shear_z = 1.3, .roll = 0.3};
+    properties.sections[0] = {.area = 0.5,
+                              .inertia_y = 0.02,
+                              .inertia_z = 0.03,
+                              .torsion = 0.01,
+                              .shear_y = 1.2,
+                              .shear_z = 1.3,
+                              .roll = 0.3};
     Body body(mesh, std::vector{formulation}, elastic(100.0, 0.25), properties);
     const double elongation = 1e-3, curvature_y = beam ? 2e-3 : 0.0, curvature_z = beam ? -3e-3 : 0.0;
     Load load;
@@ -101,7 +107,9 @@ TEST_CASE("bars and beams take elongation and curvature without section forces",
     // No energy where there is no stress; held back, that of what the section bears.
     const auto loads = applied(load);
     body.assembler->impose_strains(loads, 0.0);
-    const double held = 0.5 * 2.0 * 100.0 * (0.5 * elongation * elongation + 0.02 * curvature_y * curvature_y + 0.03 * curvature_z * curvature_z);
+    const double held =
+        0.5 * 2.0 * 100.0 *
+        (0.5 * elongation * elongation + 0.02 * curvature_y * curvature_y + 0.03 * curvature_z * curvature_z);
     CHECK(std::abs(body.assembler->elastic_energies(u).values[0]) <= 1e-14 * held);
     CHECK(body.assembler->elastic_energies(body.zero()).values[0] == Approx(held).epsilon(1e-13));
     CHECK(body.assembler->geometric_stiffness(u).norm() <= 1e-13);
@@ -125,7 +133,8 @@ std::shared_ptr<const Material> metal() {
 TEST_CASE("a free body whose material flows takes an initial strain without stress and without flow", "[loads]") {
   for (const CellType type : {CellType::quad8, CellType::tetra10, CellType::hexa8}) {
     CAPTURE(name_of(type));
-    const Body body(single_cell(type, 0.04), dimension(type) == 3 ? Formulation::solid : Formulation::plane_stress, metal());
+    const Body body(single_cell(type, 0.04), dimension(type) == 3 ? Formulation::solid : Formulation::plane_stress,
+                    metal());
     const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear}};
     Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &behaviours);
     Load load;
@@ -134,7 +143,8 @@ TEST_CASE("a free body whose material flows takes an initial strain without stre
     CHECK_THROWS_WITH(assembler.external_forces(loads, 1.0), Catch::Contains("memory"));
     assembler.impose_strains(loads, 1.0);
     CHECK(assembler.external_forces(loads, 1.0).norm() == 0.0);
-    const Eigen::VectorXd u = body.displacements([&](const Point& x, int c) { return stretched(x, c, dimension(type)); });
+    const Eigen::VectorXd u =
+        body.displacements([&](const Point& x, int c) { return stretched(x, c, dimension(type)); });
     CHECK(assembler.internal_forces(u).norm() < 1e-13);
     CHECK(assembler.variable_forces(u).norm() > 1e-3);
     CHECK(largest_stress(assembler.stresses(u, loads, 1.0)) < 1e-13);
@@ -161,7 +171,8 @@ TEST_CASE("loads without initial strains are not asked for their size", "[loads]
   const Body body(single_cell(CellType::quad4, 0.0), Formulation::plane_strain, elastic(100.0, 0.3));
   Load load;
   load.pressures.emplace_back().cell = 0;
-  const auto loads = applied(load, [](double) -> double { throw Error("out-of-function", "the function ends earlier"); });
+  const auto loads =
+      applied(load, [](double) -> double { throw Error("out-of-function", "the function ends earlier"); });
   CHECK(ImposedStrains(body.model, loads, 1.0).empty());
 }
 

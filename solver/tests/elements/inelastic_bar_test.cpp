@@ -65,7 +65,9 @@ TEST_CASE("the tangent of a bar that flows is the derivative of its forces", "[e
       constexpr double h = 1e-7;
       for (int k = 0; k < 6; ++k) {
         const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(6, k);
-        const Eigen::VectorXd column = (assembler.internal_forces(moved(strain) + step) - assembler.internal_forces(moved(strain) - step)) / (2 * h);
+        const Eigen::VectorXd column =
+            (assembler.internal_forces(moved(strain) + step) - assembler.internal_forces(moved(strain) - step)) /
+            (2 * h);
         // Forces are straight in the strain on each branch: rounding of some 500 over h is left.
         CHECK((column - tangent.col(k)).norm() <= 1e-6 * young * area / 3.0);
       }
@@ -83,7 +85,8 @@ TEST_CASE("a bar goes on from its force and its variables as if it had never sto
   resumed.resume(moved(0.006), &stresses, &variables);
   const Eigen::VectorXd expected = whole.internal_forces(moved(-0.002));
   CHECK((resumed.internal_forces(moved(-0.002)) - expected).norm() <= 1e-12 * expected.norm());
-  CHECK((whole.forces_of_stresses(moved(0.006), stresses) - whole.internal_forces(moved(0.006))).norm() <= 1e-12 * expected.norm());
+  CHECK((whole.forces_of_stresses(moved(0.006), stresses) - whole.internal_forces(moved(0.006))).norm() <=
+        1e-12 * expected.norm());
 }
 
 TEST_CASE("a bar that has flowed goes on by the tangent of the flow where steps extrapolate it", "[elements]") {
@@ -99,7 +102,8 @@ TEST_CASE("a bar that has flowed goes on by the tangent of the flow where steps 
   assembler.accept(moved(0.004));
   assembler.extrapolate(0.5);
   // Forwards as the law, and backwards where the law would be elastic.
-  for (const double strain : {0.006, 0.003}) CHECK(force(strain) == exactly(area * (yield + slope * (strain - at_yield))));
+  for (const double strain : {0.006, 0.003})
+    CHECK(force(strain) == exactly(area * (yield + slope * (strain - at_yield))));
   assembler.extrapolate(std::nullopt);
   CHECK(force(0.003) == exactly(area * (yield + slope * (0.004 - at_yield) - young * 0.001)));
   Assembler kinematic(body.model, body.materials, body.properties, *body.dofs, &mixed);
@@ -108,10 +112,12 @@ TEST_CASE("a bar that has flowed goes on by the tangent of the flow where steps 
 
 TEST_CASE("beams do not flow, and bars in small strains only", "[elements]") {
   const Body beam = bar(Formulation::euler_beam);
-  CHECK_THROWS_WITH(Assembler(beam.model, beam.materials, beam.properties, *beam.dofs, &mixed), Catch::Contains("are elastic"));
+  CHECK_THROWS_WITH(Assembler(beam.model, beam.materials, beam.properties, *beam.dofs, &mixed),
+                    Catch::Contains("are elastic"));
   const Body straight = bar(Formulation::bar);
   const BehaviourOfCells large = {{Kinematics::logarithmic, Relation::isotropic_linear}};
-  CHECK_THROWS_WITH(Assembler(straight.model, straight.materials, straight.properties, *straight.dofs, &large), Catch::Contains("small strains"));
+  CHECK_THROWS_WITH(Assembler(straight.model, straight.materials, straight.properties, *straight.dofs, &large),
+                    Catch::Contains("small strains"));
 }
 
 }  // namespace inelastic_bar_test

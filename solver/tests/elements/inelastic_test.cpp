@@ -41,9 +41,10 @@ struct Flowed {
 };
 
 TEST_CASE("the tangent of an inelastic body is the derivative of its internal forces") {
-  const auto [type, formulation] = GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::tetra10, Formulation::solid},
-                                            std::pair{CellType::quad8, Formulation::plane_strain}, std::pair{CellType::quad4, Formulation::axisymmetric},
-                                            std::pair{CellType::tria6, Formulation::plane_stress});
+  const auto [type, formulation] = GENERATE(
+      std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::tetra10, Formulation::solid},
+      std::pair{CellType::quad8, Formulation::plane_strain}, std::pair{CellType::quad4, Formulation::axisymmetric},
+      std::pair{CellType::tria6, Formulation::plane_stress});
   const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::logarithmic);
   const Relation relation = GENERATE(Relation::isotropic_linear, Relation::mixed_linear);
   const Flowed body(type, formulation, {kinematics, relation});
@@ -55,13 +56,15 @@ TEST_CASE("the tangent of an inelastic body is the derivative of its internal fo
     Eigen::VectorXd ahead = u, behind = u;
     ahead[k] += step;
     behind[k] -= step;
-    const Eigen::VectorXd column = (body.assembler->internal_forces(ahead) - body.assembler->internal_forces(behind)) / (2 * step);
+    const Eigen::VectorXd column =
+        (body.assembler->internal_forces(ahead) - body.assembler->internal_forces(behind)) / (2 * step);
     CHECK((tangent.col(k) - column).cwiseAbs().maxCoeff() < 1e-5 * young);
   }
 }
 
 TEST_CASE("the tangent of the multiplicative split is the symmetric part of that derivative") {
-  const auto [type, formulation] = GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::quad8, Formulation::axisymmetric});
+  const auto [type, formulation] =
+      GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::quad8, Formulation::axisymmetric});
   const Flowed body(type, formulation, {Kinematics::multiplicative, Relation::isotropic_linear});
   const Eigen::VectorXd u = body.rough(0.06);
   const Eigen::MatrixXd lower = body.assembler->stiffness(u);
@@ -108,9 +111,10 @@ TEST_CASE("a trial leaves no trace until it is accepted") {
 }
 
 TEST_CASE("where no command variable has changed a step starts with the tangent and the forces of where it is") {
-  const auto [type, formulation] = GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::hexa8, Formulation::solid_reduced},
-                                            std::pair{CellType::tetra10, Formulation::solid_reduced}, std::pair{CellType::tria6, Formulation::plane_stress},
-                                            std::pair{CellType::quad8, Formulation::axisymmetric_reduced});
+  const auto [type, formulation] = GENERATE(
+      std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::hexa8, Formulation::solid_reduced},
+      std::pair{CellType::tetra10, Formulation::solid_reduced}, std::pair{CellType::tria6, Formulation::plane_stress},
+      std::pair{CellType::quad8, Formulation::axisymmetric_reduced});
   const Flowed body(type, formulation, {Kinematics::small, Relation::isotropic_linear});
   const Eigen::VectorXd u = body.rough(0.03);
   const Eigen::VectorXd forces = body.assembler->internal_forces(u);
@@ -149,7 +153,8 @@ TEST_CASE("springs, bars, beams and plates that should flow say so") {
   materials.by_cell = {testing::elastic(young, 0.3)};
   const DofMap dofs(model);
   const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear}};
-  CHECK_THROWS_WITH(Assembler(model, materials, ElementProperties{}, dofs, &behaviours), Catch::Contains("RELATION") || Catch::Contains("elastic"));
+  CHECK_THROWS_WITH(Assembler(model, materials, ElementProperties{}, dofs, &behaviours),
+                    Catch::Contains("RELATION") || Catch::Contains("elastic"));
 }
 
 }  // namespace inelastic_test

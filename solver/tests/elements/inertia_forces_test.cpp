@@ -128,7 +128,13 @@ TEST_CASE("bars and beams weigh, and fly apart, along their length", "[loads]") 
     mesh->nodes = {{1, 2, 0}, {4, 6, mesh->dimension == 2 ? 0.0 : 12.0}};
     mesh->add_cell(CellType::seg2, std::array{0, 1});
     ElementProperties properties;
-    properties.sections[0] = {.area = 0.5, .inertia_y = 0.02, .inertia_z = 0.03, .torsion = 0.01, .shear_y = 1.2, .shear_z = 1.3, .roll = 0.4};
+    properties.sections[0] = {.area = 0.5,
+                              .inertia_y = 0.02,
+                              .inertia_z = 0.03,
+                              .torsion = 0.01,
+                              .shear_y = 1.2,
+                              .shear_z = 1.3,
+                              .roll = 0.4};
     const Body body(mesh, std::vector{formulation}, dense(100.0, 0.25, 8.0), properties);
     const Eigen::Vector3d x1(mesh->nodes[0].data()), x2(mesh->nodes[1].data()), g(1.0, -2.0, 3.0);
     const double line = 8.0 * 0.5;
@@ -171,17 +177,20 @@ TEST_CASE("discrete masses weigh: points, segments, and one beside its node", "[
 }
 
 // Eight equal masses at the corners of a box have the inertia of one rigid body at its centre.
-TEST_CASE("a mass beside its node is driven outwards where it is, and turned towards the plane of the rotation", "[loads]") {
+TEST_CASE("a mass beside its node is driven outwards where it is, and turned towards the plane of the rotation",
+          "[loads]") {
   auto mesh = std::make_shared<Mesh>();
   mesh->nodes = {{1.0, -0.5, 0.25}};
   mesh->add_cell(CellType::poi1, std::array{0});
   const Formulation formulation = Formulation::spring_rotation_3d;
   const Eigen::Vector3d offset(0.5, 1.0, -0.75);
-  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turned =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
   std::vector<Eigen::Vector3d> corners;
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d half((corner & 1) != 0 ? 0.1 : -0.1, (corner & 2) != 0 ? 0.2 : -0.2, (corner & 4) != 0 ? 0.4 : -0.4);
+    const Eigen::Vector3d half((corner & 1) != 0 ? 0.1 : -0.1, (corner & 2) != 0 ? 0.2 : -0.2,
+                               (corner & 4) != 0 ? 0.4 : -0.4);
     const Eigen::Vector3d arm = turned * half;
     corners.push_back(offset + arm);
     tensor += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
@@ -191,7 +200,8 @@ TEST_CASE("a mass beside its node is driven outwards where it is, and turned tow
   properties.discrete[0] = diagonal_stiffness(*mesh, 0, formulation, values, DiscreteFrame::global);
   properties.masses[0] = rigid_mass(*mesh, 0, formulation, {8.0, tensor, offset}, DiscreteFrame::global);
   const Body body(mesh, std::vector{formulation}, nullptr, properties);
-  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized(), centre(0.25, 0.5, -1.0), node(1.0, -0.5, 0.25);
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized(), centre(0.25, 0.5, -1.0),
+                        node(1.0, -0.5, 0.25);
   const double speed = 3.0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& corner : corners) {

@@ -46,9 +46,9 @@ Eigen::VectorXd rough(int size, double amplitude) {
 }
 
 TEST_CASE("the tangent of large strains is the derivative of the internal forces") {
-  const auto [formulation, solid] = GENERATE(std::pair{Formulation::solid, true}, std::pair{Formulation::plane_strain, false},
-                                             std::pair{Formulation::plane_stress, false},
-                                             std::pair{Formulation::axisymmetric, false});
+  const auto [formulation, solid] =
+      GENERATE(std::pair{Formulation::solid, true}, std::pair{Formulation::plane_strain, false},
+               std::pair{Formulation::plane_stress, false}, std::pair{Formulation::axisymmetric, false});
   const Body body(formulation, solid);
   const DofMap dofs(body.model);
   const Assembler assembler(body.model, body.materials, body.properties, dofs, &body.behaviours);

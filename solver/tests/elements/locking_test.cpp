@@ -25,7 +25,8 @@ double least_eigenvalue(Formulation formulation, double poisson) {
 
 }  // namespace
 
-TEST_CASE("linear cells are at risk of locking before quadratic ones, reduced and plane stress ones never", "[elements]") {
+TEST_CASE("linear cells are at risk of locking before quadratic ones, reduced and plane stress ones never",
+          "[elements]") {
   CHECK_FALSE(at_risk(CellType::quad4, Formulation::plane_strain, 0.3));
   CHECK(at_risk(CellType::quad4, Formulation::plane_strain, 0.495));
   CHECK(at_risk(CellType::hexa8, Formulation::solid, 0.495));
@@ -49,9 +50,11 @@ TEST_CASE("the risk of locking counts body cells, not their skin", "[elements]")
   CHECK(risk->poisson == 0.499);
 }
 
-// The five-point rule of TETRA10 is exact on straight cells, but has a negative weight in its centre: in a curved cell whose material
-// resists changes of volume ever more, a motion that changes the volume most there gives energy. The four-point rule has none.
-TEST_CASE("curved TETRA10 lose positive energy near incompressibility, but not with reduced integration", "[elements]") {
+// The five-point rule of TETRA10 is exact on straight cells, but has a negative weight in its centre: in a curved cell
+// whose material resists changes of volume ever more, a motion that changes the volume most there gives energy. The
+// four-point rule has none.
+TEST_CASE("curved TETRA10 lose positive energy near incompressibility, but not with reduced integration",
+          "[elements]") {
   constexpr double rounding = 1e-12;
   CHECK(least_eigenvalue(Formulation::solid, 0.3) > -rounding);
   CHECK(least_eigenvalue(Formulation::solid, 0.4999) < -1e-4);

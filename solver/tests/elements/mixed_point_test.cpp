@@ -41,7 +41,8 @@ struct At {
     const VolumeMeasure measure = volume_measure(kinematics);
     const double trace = two_fields ? swelling : pressure / bulk;
     const Matrix3d given = with_volume(h, trace, measure);
-    MixedResponse response = mixed_response(h, trace, pressure, law.respond({given, nothing, constants, past}), measure);
+    MixedResponse response =
+        mixed_response(h, trace, pressure, law.respond({given, nothing, constants, past}), measure);
     if (!two_fields) eliminate_swelling(bulk, response);
     return response;
   }
@@ -79,10 +80,15 @@ TEST_CASE("the volume strain of a small gradient does not drown in the rounding 
   CHECK(volume_of(h, VolumeMeasure::logarithm) == Approx(3e-14).epsilon(1e-12));
 }
 
-TEST_CASE("the tangent of a mixed point is the derivative of what works, elastic and flowing, with two fields and with one") {
-  const auto [kinematics, two_fields] = GENERATE(std::pair{Kinematics::small, true}, std::pair{Kinematics::small, false}, std::pair{Kinematics::logarithmic, true},
-                                                 std::pair{Kinematics::logarithmic, false}, std::pair{Kinematics::multiplicative, true});
-  const double amplitude = kinematics == Kinematics::multiplicative ? 0.002 : GENERATE(0.002, 0.15);  // below and above yield; the split has the symmetric half alone where it flows
+TEST_CASE(
+    "the tangent of a mixed point is the derivative of what works, elastic and flowing, with two fields and with one") {
+  const auto [kinematics, two_fields] = GENERATE(
+      std::pair{Kinematics::small, true}, std::pair{Kinematics::small, false}, std::pair{Kinematics::logarithmic, true},
+      std::pair{Kinematics::logarithmic, false}, std::pair{Kinematics::multiplicative, true});
+  const double amplitude =
+      kinematics == Kinematics::multiplicative
+          ? 0.002
+          : GENERATE(0.002, 0.15);  // below and above yield; the split has the symmetric half alone where it flows
   const bool large = kinematics != Kinematics::small;
   const At at{kinematics, two_fields};
   const Matrix3d h = rough(amplitude);
@@ -96,12 +102,15 @@ TEST_CASE("the tangent of a mixed point is the derivative of what works, elastic
     const Matrix3d ahead = h + step * direction, behind = h - step * direction;
     Eigen::Matrix<double, 8, 1> change = Eigen::Matrix<double, 8, 1>::Zero();
     change.head<6>() = (strain_of(ahead, large) - strain_of(behind, large)) / (2.0 * step);
-    const Eigen::Matrix<double, 8, 1> found = (worked(at(ahead, swelling, pressure)) - worked(at(behind, swelling, pressure))) / (2.0 * step);
+    const Eigen::Matrix<double, 8, 1> found =
+        (worked(at(ahead, swelling, pressure)) - worked(at(behind, swelling, pressure))) / (2.0 * step);
     CHECK((tangent * change - found).norm() < 1e-5 * young);
   }
-  const Eigen::Matrix<double, 8, 1> by_swelling = (worked(at(h, swelling + step, pressure)) - worked(at(h, swelling - step, pressure))) / (2.0 * step);
+  const Eigen::Matrix<double, 8, 1> by_swelling =
+      (worked(at(h, swelling + step, pressure)) - worked(at(h, swelling - step, pressure))) / (2.0 * step);
   CHECK((tangent.col(6) - by_swelling).norm() < 1e-5 * young);
-  const Eigen::Matrix<double, 8, 1> by_pressure = (worked(at(h, swelling, pressure + 1e-3)) - worked(at(h, swelling, pressure - 1e-3))) / 2e-3;
+  const Eigen::Matrix<double, 8, 1> by_pressure =
+      (worked(at(h, swelling, pressure + 1e-3)) - worked(at(h, swelling, pressure - 1e-3))) / 2e-3;
   CHECK((tangent.col(7) - by_pressure).norm() < 1e-7);
 }
 
@@ -115,8 +124,10 @@ TEST_CASE("where swelling and pressure are those of the law itself, the stress i
   const Matrix3d h = rough(0.1);
   const PointResponse own = law.respond({h, nothing, constants, past});
   const VolumeMeasure measure = volume_measure(kinematics);
-  const double ratio = measure == VolumeMeasure::logarithm ? 1.0 + volume_of(h, VolumeMeasure::ratio) : 1.0;  // of Kirchhoff's stress to Cauchy's
-  const MixedResponse response = mixed_response(h, volume_of(h, measure), ratio * own.reported.head<3>().mean(), own, measure);
+  const double ratio = measure == VolumeMeasure::logarithm ? 1.0 + volume_of(h, VolumeMeasure::ratio)
+                                                           : 1.0;  // of Kirchhoff's stress to Cauchy's
+  const MixedResponse response =
+      mixed_response(h, volume_of(h, measure), ratio * own.reported.head<3>().mean(), own, measure);
   CHECK((response.stress - own.stress).norm() < 1e-12 * own.stress.norm());
   CHECK(std::abs(response.swelling) < 1e-12 * own.stress.norm());
   CHECK(std::abs(response.pressure) < 1e-15);

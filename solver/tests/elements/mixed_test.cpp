@@ -20,11 +20,12 @@ struct Kind {
   Formulation formulation;
 };
 
-const std::vector<Kind> kinds = {{CellType::tria6, Formulation::plane_strain_pressure},  {CellType::tria6, Formulation::axisymmetric_swelling},
-                          {CellType::quad8, Formulation::plane_strain_swelling},  {CellType::quad8, Formulation::axisymmetric_pressure},
-                          {CellType::tetra10, Formulation::solid_pressure},       {CellType::penta15, Formulation::solid_swelling},
-                          {CellType::pyram13, Formulation::solid_swelling},       {CellType::hexa20, Formulation::solid_pressure},
-                          {CellType::hexa20, Formulation::solid_swelling}};
+const std::vector<Kind> kinds = {
+    {CellType::tria6, Formulation::plane_strain_pressure}, {CellType::tria6, Formulation::axisymmetric_swelling},
+    {CellType::quad8, Formulation::plane_strain_swelling}, {CellType::quad8, Formulation::axisymmetric_pressure},
+    {CellType::tetra10, Formulation::solid_pressure},      {CellType::penta15, Formulation::solid_swelling},
+    {CellType::pyram13, Formulation::solid_swelling},      {CellType::hexa20, Formulation::solid_pressure},
+    {CellType::hexa20, Formulation::solid_swelling}};
 
 /// One cell of metal that hardens.
 struct Cell {
@@ -35,7 +36,8 @@ struct Cell {
   std::unique_ptr<DofMap> dofs;
   std::unique_ptr<Assembler> assembler;
 
-  Cell(const Kind& kind, CellBehaviour behaviour, double bend = 0.1) : model{single_cell(kind.type, bend), {kind.formulation}} {
+  Cell(const Kind& kind, CellBehaviour behaviour, double bend = 0.1)
+      : model{single_cell(kind.type, bend), {kind.formulation}} {
     Material material;
     material.elasticity = IsotropicElasticity{young, poisson};
     material.plasticity.linear = LinearHardening{100.0, 30.0};
@@ -74,7 +76,8 @@ TEST_CASE("the stiffness of mixed elements is the derivative of their forces") {
     Eigen::VectorXd ahead = u, behind = u;
     ahead[k] += step;
     behind[k] -= step;
-    const Eigen::VectorXd column = (cell.assembler->internal_forces(ahead) - cell.assembler->internal_forces(behind)) / (2.0 * step);
+    const Eigen::VectorXd column =
+        (cell.assembler->internal_forces(ahead) - cell.assembler->internal_forces(behind)) / (2.0 * step);
     CHECK((tangent.col(k) - column).cwiseAbs().maxCoeff() < 1e-5 * young / cell.size_of(k));
   }
 }
@@ -92,13 +95,17 @@ TEST_CASE("a linear displacement, its change of volume and the pressure of that 
   for (int dof = 0; dof < cell.dofs->size(); ++dof) {
     const Point& at = cell.model.mesh->nodes[static_cast<std::size_t>(cell.dofs->node_of(dof))];
     const Component component = cell.dofs->component_of(dof);
-    if (component == Component::pressure) u[dof] = bulk * trace;
-    else if (component == Component::swelling) u[dof] = trace;
-    else u[dof] = h.row(static_cast<int>(component)).dot(Eigen::Vector3d(at[0], at[1], dimension == 3 ? at[2] : 0.0));
+    if (component == Component::pressure)
+      u[dof] = bulk * trace;
+    else if (component == Component::swelling)
+      u[dof] = trace;
+    else
+      u[dof] = h.row(static_cast<int>(component)).dot(Eigen::Vector3d(at[0], at[1], dimension == 3 ? at[2] : 0.0));
   }
   const Eigen::VectorXd forces = cell.assembler->internal_forces(u);
   for (int dof = 0; dof < cell.dofs->size(); ++dof)
-    if (cell.dofs->component_of(dof) >= Component::pressure) CHECK(std::abs(forces[dof]) < 1e-12 * forces.cwiseAbs().maxCoeff());
+    if (cell.dofs->component_of(dof) >= Component::pressure)
+      CHECK(std::abs(forces[dof]) < 1e-12 * forces.cwiseAbs().maxCoeff());
   const ElementField stresses = cell.assembler->stresses(u);
   const double shear = young / (2.0 * (1.0 + poisson));
   const int sip = stresses.component("SIP");
@@ -110,7 +117,8 @@ TEST_CASE("a linear displacement, its change of volume and the pressure of that 
 }
 
 TEST_CASE("stresses and variables of a mixed element give its forces back and take it up again") {
-  const Kind kind = GENERATE(Kind{CellType::hexa20, Formulation::solid_swelling}, Kind{CellType::tria6, Formulation::axisymmetric_pressure});
+  const Kind kind = GENERATE(Kind{CellType::hexa20, Formulation::solid_swelling},
+                             Kind{CellType::tria6, Formulation::axisymmetric_pressure});
   const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::logarithmic);
   Cell cell(kind, {kinematics, Relation::isotropic_linear});
   const Eigen::VectorXd u = cell.rough(0.04);
@@ -128,12 +136,17 @@ TEST_CASE("stresses and variables of a mixed element give its forces back and ta
 }
 
 TEST_CASE("mixed elements say which cells and strains they do not know") {
-  const auto make = [](CellType type, Formulation formulation, CellBehaviour behaviour) { Cell({type, formulation}, behaviour); };
+  const auto make = [](CellType type, Formulation formulation, CellBehaviour behaviour) {
+    Cell({type, formulation}, behaviour);
+  };
   CHECK_THROWS_WITH(make(CellType::hexa8, Formulation::solid_swelling, {}), Catch::Contains("HEXA8"));
   CHECK_THROWS_WITH(make(CellType::quad9, Formulation::plane_strain_pressure, {}), Catch::Contains("QUAD9"));
-  CHECK_THROWS_WITH(make(CellType::hexa20, Formulation::solid_pressure, {Kinematics::multiplicative, Relation::isotropic_linear}),
-                    Catch::Contains("multiplicative"));
-  CHECK_THROWS_WITH(make(CellType::hexa20, Formulation::solid_swelling, {Kinematics::updated, Relation::isotropic_linear}), Catch::Contains("strains"));
+  CHECK_THROWS_WITH(
+      make(CellType::hexa20, Formulation::solid_pressure, {Kinematics::multiplicative, Relation::isotropic_linear}),
+      Catch::Contains("multiplicative"));
+  CHECK_THROWS_WITH(
+      make(CellType::hexa20, Formulation::solid_swelling, {Kinematics::updated, Relation::isotropic_linear}),
+      Catch::Contains("strains"));
 }
 
 }  // namespace mixed_test

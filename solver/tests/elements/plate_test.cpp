@@ -36,13 +36,15 @@ Place tilted() {
 }
 
 /// A rectangle in n x m quadrangles, or twice as many triangles; `shift` moves the nodes inside off the regular grid.
-std::shared_ptr<Mesh> rectangle(CellType type, double length, double width, int n, int m, double shift, const Place& place) {
+std::shared_ptr<Mesh> rectangle(CellType type, double length, double width, int n, int m, double shift,
+                                const Place& place) {
   auto mesh = std::make_shared<Mesh>();
   for (int j = 0; j <= m; ++j) {
     for (int i = 0; i <= n; ++i) {
       const bool inside = i > 0 && i < n && j > 0 && j < m;
       const double move = inside ? shift : 0.0;
-      mesh->nodes.push_back(place.at(length / n * (i + move * std::sin(3.0 * i + j)), width / m * (j + move * std::cos(2.0 * j - i))));
+      mesh->nodes.push_back(
+          place.at(length / n * (i + move * std::sin(3.0 * i + j)), width / m * (j + move * std::cos(2.0 * j - i))));
     }
   }
   for (int j = 0; j < m; ++j) {
@@ -57,7 +59,8 @@ std::shared_ptr<Mesh> rectangle(CellType type, double length, double width, int 
   return mesh;
 }
 
-Body plate(const std::shared_ptr<Mesh>& mesh, Formulation formulation, const PlateSection& section, double nu = poisson) {
+Body plate(const std::shared_ptr<Mesh>& mesh, Formulation formulation, const PlateSection& section,
+           double nu = poisson) {
   ElementProperties properties;
   for (int cell = 0; cell < mesh->cell_count(); ++cell) properties.plates[cell] = section;
   return Body(mesh, std::vector<Formulation>(mesh->cell_types.size(), formulation), elastic(young, nu), properties);
@@ -83,7 +86,8 @@ auto constant_strains(const Eigen::Vector3d& e, const Eigen::Vector3d& k) {
   return [e, k](double x, double y) {
     Six u;
     const double beta_x = k[0] * x + 0.5 * k[2] * y, beta_y = k[1] * y + 0.5 * k[2] * x;
-    u << e[0] * x + 0.5 * e[2] * y, e[1] * y + 0.5 * e[2] * x, -0.5 * (k[0] * x * x + k[1] * y * y + k[2] * x * y), -beta_y, beta_x, 0.0;
+    u << e[0] * x + 0.5 * e[2] * y, e[1] * y + 0.5 * e[2] * x, -0.5 * (k[0] * x * x + k[1] * y * y + k[2] * x * y),
+        -beta_y, beta_x, 0.0;
     return u;
   };
 }
@@ -114,7 +118,8 @@ TEST_CASE("the stiffness of a plate does not depend on the unit of length", "[el
     for (const CellType type : {CellType::tria3, CellType::quad4}) {
       CAPTURE(name_of(type));
       const auto stiffness = [&](double scale) {
-        const PlateSection section{.thickness = 1e-3 * scale, .offset = 2e-4 * scale, .direction = Eigen::Vector3d::UnitX(), .drilling = 0.0};
+        const PlateSection section{
+            .thickness = 1e-3 * scale, .offset = 2e-4 * scale, .direction = Eigen::Vector3d::UnitX(), .drilling = 0.0};
         return plate(rectangle(type, 0.3 * scale, 0.2 * scale, 1, 1, 0.0, {}), formulation, section).dense_stiffness();
       };
       const Eigen::MatrixXd one = stiffness(1.0), other = stiffness(unit);
@@ -124,7 +129,8 @@ TEST_CASE("the stiffness of a plate does not depend on the unit of length", "[el
         for (Eigen::Index j = 0; j < one.cols(); ++j) {
           const std::size_t rotations = (i % 6 >= 3) + (j % 6 >= 3);
           largest[rotations] = std::max(largest[rotations], std::abs(one(i, j)));
-          off[rotations] = std::max(off[rotations], std::abs(one(i, j) - other(i, j) / std::pow(unit, 1.0 + static_cast<double>(rotations))));
+          off[rotations] = std::max(
+              off[rotations], std::abs(one(i, j) - other(i, j) / std::pow(unit, 1.0 + static_cast<double>(rotations))));
         }
       }
       for (std::size_t kind = 0; kind < 3; ++kind) CHECK(off[kind] <= 2e-14 * largest[kind]);
@@ -132,14 +138,16 @@ TEST_CASE("the stiffness of a plate does not depend on the unit of length", "[el
   }
 }
 
-TEST_CASE("plates have constant strains and curvatures exactly, on distorted meshes, in the axes asked for", "[elements]") {
+TEST_CASE("plates have constant strains and curvatures exactly, on distorted meshes, in the axes asked for",
+          "[elements]") {
   const Place place = tilted();
   const Eigen::Vector3d e(1e-4, -3e-4, 2e-4), k(2e-3, 1e-3, -3e-3);
   const double h = 0.05, offset = 0.02;
   const double membrane = young * h / (1 - poisson * poisson);
   for (const Formulation formulation : both) {
     for (const CellType type : cells) {
-      const PlateSection section{.thickness = h, .offset = offset, .direction = place.axes.row(0).transpose(), .drilling = 0.0};
+      const PlateSection section{
+          .thickness = h, .offset = offset, .direction = place.axes.row(0).transpose(), .drilling = 0.0};
       const Body body = plate(rectangle(type, 2.0, 1.5, 3, 3, 0.25, place), formulation, section);
       const Eigen::VectorXd u = displacements(body, place, constant_strains(e, k));
       const Eigen::Vector3d normal = plane_law(membrane) * (e + offset * k);
@@ -164,12 +172,13 @@ TEST_CASE("plates have constant strains and curvatures exactly, on distorted mes
   }
 }
 
-// Of thin plates alone: the rotations of plates with shear differ between cells that share a side, which costs them this equilibrium
-// on distorted meshes (Batoz and Katili, 1992).
+// Of thin plates alone: the rotations of plates with shear differ between cells that share a side, which costs them
+// this equilibrium on distorted meshes (Batoz and Katili, 1992).
 TEST_CASE("nodes inside a thin plate of constant strain and curvature are in equilibrium", "[elements]") {
   const Place place = tilted();
   for (const CellType type : cells) {
-    const Body body = plate(rectangle(type, 2.0, 1.5, 3, 3, 0.25, place), Formulation::thin_plate, {.thickness = 0.05, .offset = 0.02, .drilling = 0.0});
+    const Body body = plate(rectangle(type, 2.0, 1.5, 3, 3, 0.25, place), Formulation::thin_plate,
+                            {.thickness = 0.05, .offset = 0.02, .drilling = 0.0});
     const Eigen::VectorXd u = displacements(body, place, constant_strains({1e-4, -3e-4, 2e-4}, {2e-3, 1e-3, -3e-3}));
     const Eigen::VectorXd forces = body.assembler->internal_forces(u);
     for (const int node : {5, 6, 9, 10}) CHECK(forces.segment<6>(6 * node).norm() < 1e-9 * forces.norm());
@@ -180,7 +189,8 @@ TEST_CASE("a plate has six motions without energy and none more once its normal 
   const Place place = tilted();
   for (const Formulation formulation : both) {
     for (const CellType type : cells) {
-      const Body body = plate(rectangle(type, 2.0, 1.5, 2, 2, 0.2, place), formulation, {.thickness = 0.1, .offset = 0.03, .drilling = -1e-2});
+      const Body body = plate(rectangle(type, 2.0, 1.5, 2, 2, 0.2, place), formulation,
+                              {.thickness = 0.1, .offset = 0.03, .drilling = -1e-2});
       const Eigen::VectorXd values = symmetric_eigen(body.dense_stiffness()).values;
       CHECK(values.head(6).cwiseAbs().maxCoeff() < 1e-12 * values.maxCoeff());
       CHECK(values[6] > 1e-7 * values.maxCoeff());
@@ -192,7 +202,8 @@ TEST_CASE("a plate has six motions without energy and none more once its normal 
 
 TEST_CASE("rotation about the normal is free, tied to the membrane, or held against the ground", "[elements]") {
   const auto energy_of_spin = [](double drilling, bool rigid) {
-    const Body body = plate(rectangle(CellType::quad4, 1.0, 1.0, 1, 1, 0.0, {}), Formulation::thin_plate, {.thickness = 0.1, .drilling = drilling});
+    const Body body = plate(rectangle(CellType::quad4, 1.0, 1.0, 1, 1, 0.0, {}), Formulation::thin_plate,
+                            {.thickness = 0.1, .drilling = drilling});
     const Eigen::VectorXd u = displacements(body, {}, [&](double x, double y) {
       Six spin;
       spin << (rigid ? -y : 0.0), (rigid ? x : 0.0), 0.0, 0.0, 0.0, 1.0;
@@ -213,10 +224,13 @@ TEST_CASE("what holds the normal rotation of a plate does not depend on the axes
     for (const CellType type : cells) {
       CAPTURE(name_of(type));
       const auto stiffness = [&](const Eigen::Vector3d& direction) {
-        return plate(rectangle(type, 3.0, 1.0, 2, 2, 0.2, tilted()), formulation, {.thickness = 0.1, .direction = direction, .drilling = 1e-2}).dense_stiffness();
+        return plate(rectangle(type, 3.0, 1.0, 2, 2, 0.2, tilted()), formulation,
+                     {.thickness = 0.1, .direction = direction, .drilling = 1e-2})
+            .dense_stiffness();
       };
       const Eigen::MatrixXd one = stiffness(Eigen::Vector3d::UnitX());
-      CHECK((one - stiffness(Eigen::Vector3d(1.0, 2.0, 0.5))).cwiseAbs().maxCoeff() < 1e-12 * one.cwiseAbs().maxCoeff());
+      CHECK((one - stiffness(Eigen::Vector3d(1.0, 2.0, 0.5))).cwiseAbs().maxCoeff() <
+            1e-12 * one.cwiseAbs().maxCoeff());
     }
   }
 }
@@ -228,7 +242,8 @@ TEST_CASE("two plates that lie on each other are one of twice the thickness", "[
   for (const CellType type : cells) {
     const auto mesh = rectangle(type, 2.0, 1.5, 2, 2, 0.2, place);
     const auto stiffness = [&](double thickness, double offset) {
-      return plate(mesh, Formulation::thin_plate, {.thickness = thickness, .offset = offset, .drilling = 0.0}).dense_stiffness();
+      return plate(mesh, Formulation::thin_plate, {.thickness = thickness, .offset = offset, .drilling = 0.0})
+          .dense_stiffness();
     };
     const Eigen::MatrixXd one = stiffness(2 * h, 0.0);
     CHECK((stiffness(h, 0.5 * h) + stiffness(h, -0.5 * h) - one).norm() < 1e-12 * one.norm());
@@ -240,11 +255,13 @@ TEST_CASE("a strip bends like a beam, and shears like one where the plate knows 
   const double bending = load * std::pow(length, 3) / (3 * young * width * h * h * h / 12);
   const double shear = load * length / (5.0 / 6.0 * 0.5 * young * width * h);  // Poisson's ratio 0
   for (const Formulation formulation : both) {
-    const Body body = plate(rectangle(CellType::quad4, length, width, 4, 1, 0.0, {}), formulation, {.thickness = h}, 0.0);
+    const Body body =
+        plate(rectangle(CellType::quad4, length, width, 4, 1, 0.0, {}), formulation, {.thickness = h}, 0.0);
     Eigen::VectorXd force = body.zero();
     for (const int node : {4, 9}) force[body.dofs->dof(node, Component::dz)] = 0.5 * load;
     const Eigen::VectorXd u = solve(body, force, [](const Point& at, Component) { return at[0] == 0.0; });
-    CHECK(u[body.dofs->dof(4, Component::dz)] == Approx(bending + (formulation == Formulation::shear_plate ? shear : 0.0)).epsilon(1e-8));
+    CHECK(u[body.dofs->dof(4, Component::dz)] ==
+          Approx(bending + (formulation == Formulation::shear_plate ? shear : 0.0)).epsilon(1e-8));
     const ElementField forces = body.assembler->plate_forces(u, PlatePlaces::corners, {}, 0.0);
     for (int cell = 0; cell < 4; ++cell) {
       for (int point = 0; point < 4; ++point) {
@@ -256,8 +273,9 @@ TEST_CASE("a strip bends like a beam, and shears like one where the plate knows 
   }
 }
 
-/// The deflection at the middle of a simply supported square of side 1 under a pressure of 1 (Navier's series; Timoshenko and
-/// Woinowsky-Krieger, Theory of Plates and Shells, section 30; with shear as for any simply supported polygon).
+/// The deflection at the middle of a simply supported square of side 1 under a pressure of 1 (Navier's series;
+/// Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, section 30; with shear as for any simply supported
+/// polygon).
 double navier(double bending, double shear) {
   double sum = 0.0;
   for (int m = 1; m < 200; m += 2) {
@@ -286,10 +304,14 @@ double quarter(CellType type, Formulation formulation, double h, int n) {
     switch (c) {
       case Component::dx:
       case Component::dy:
-      case Component::drz: return true;
-      case Component::dz: return side_x || side_y;
-      case Component::drx: return side_x || middle_y;
-      default: return side_y || middle_x;
+      case Component::drz:
+        return true;
+      case Component::dz:
+        return side_x || side_y;
+      case Component::drx:
+        return side_x || middle_y;
+      default:
+        return side_y || middle_x;
     }
   });
   return u[body.dofs->dof(0, Component::dz)];
@@ -314,14 +336,16 @@ TEST_CASE("a simply supported square plate bends as Navier's series says", "[ele
 }
 
 TEST_CASE("a warped quadrangle is the plate on its mean plane", "[elements]") {
-  const auto flat = rectangle(CellType::quad4, 2.0, 1.0, 1, 1, 0.0, {}), saddle = rectangle(CellType::quad4, 2.0, 1.0, 1, 1, 0.0, {});
+  const auto flat = rectangle(CellType::quad4, 2.0, 1.0, 1, 1, 0.0, {}),
+             saddle = rectangle(CellType::quad4, 2.0, 1.0, 1, 1, 0.0, {});
   for (const int node : {0, 3}) saddle->nodes[node][2] = 0.05;
   for (const int node : {1, 2}) saddle->nodes[node][2] = -0.05;
   CHECK(warp_of_plate(*flat, 0) == 0.0);
   CHECK(warp_of_plate(*saddle, 0) == Approx(0.1 / std::hypot(2.0, 1.0)));
   for (const Formulation formulation : {Formulation::thin_plate, Formulation::shear_plate}) {
     const Eigen::MatrixXd expected = plate(flat, formulation, {.thickness = 0.1}).dense_stiffness();
-    CHECK((plate(saddle, formulation, {.thickness = 0.1}).dense_stiffness() - expected).norm() < 1e-12 * expected.norm());
+    CHECK((plate(saddle, formulation, {.thickness = 0.1}).dense_stiffness() - expected).norm() <
+          1e-12 * expected.norm());
   }
 }
 
@@ -336,7 +360,9 @@ TEST_CASE("plates that cannot be are errors", "[elements]") {
   };
   const auto square = [] { return rectangle(CellType::quad4, 1.0, 1.0, 1, 1, 0.0, {}); };
   CHECK(code_of([&] { plate(square(), Formulation::thin_plate, {.thickness = 0.0}); }) == "invalid-properties");
-  CHECK(code_of([&] { plate(square(), Formulation::thin_plate, {.thickness = 0.1, .direction = {0, 0, 1}}); }) == "zero-vector");
+  CHECK(code_of([&] {
+          plate(square(), Formulation::thin_plate, {.thickness = 0.1, .direction = {0, 0, 1}});
+        }) == "zero-vector");
   CHECK(code_of([&] { Body(square(), Formulation::thin_plate, elastic(young, poisson)); }) == "missing-properties");
   const auto dart = square();
   dart->nodes[3] = {0.1, 0.1, 0.0};
@@ -345,11 +371,14 @@ TEST_CASE("plates that cannot be are errors", "[elements]") {
 }
 
 TEST_CASE("a normal rotation that is tied does not follow the parasitic spin of bilinear functions", "[plate]") {
-  // Pure in-plane bending u = x y, v = -x^2 / 2 about the middle of a square: at its nodes v is the same, so that the bilinear spin is -x / 2
-  // where that of the surface is -x. Both vanish on average, and so does the rotation that is tied to them.
-  const Body body = plate(rectangle(CellType::quad4, 2.0, 2.0, 1, 1, 0.0, {}), Formulation::thin_plate, {.thickness = 0.1, .drilling = -1e-3});
+  // Pure in-plane bending u = x y, v = -x^2 / 2 about the middle of a square: at its nodes v is the same, so that the
+  // bilinear spin is -x / 2 where that of the surface is -x. Both vanish on average, and so does the rotation that is
+  // tied to them.
+  const Body body = plate(rectangle(CellType::quad4, 2.0, 2.0, 1, 1, 0.0, {}), Formulation::thin_plate,
+                          {.thickness = 0.1, .drilling = -1e-3});
   const auto tie_energy = [&](const Eigen::VectorXd& u) {
-    const Body untied = plate(rectangle(CellType::quad4, 2.0, 2.0, 1, 1, 0.0, {}), Formulation::thin_plate, {.thickness = 0.1, .drilling = 0.0});
+    const Body untied = plate(rectangle(CellType::quad4, 2.0, 2.0, 1, 1, 0.0, {}), Formulation::thin_plate,
+                              {.thickness = 0.1, .drilling = 0.0});
     return 0.5 * u.dot((body.dense_stiffness() - untied.dense_stiffness()) * u);
   };
   const Eigen::VectorXd bent = displacements(body, {}, [](double x, double y) {

@@ -29,18 +29,26 @@ double pyramid_moment(int i, int j, int k) {
 
 double moment(CellType type, int i, int j, int k) {
   switch (type) {
-    case CellType::seg2: return segment_moment(i);
-    case CellType::tria3: return triangle_moment(i, j);
-    case CellType::quad4: return segment_moment(i) * segment_moment(j);
-    case CellType::tetra4: return factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
-    case CellType::penta6: return segment_moment(i) * triangle_moment(j, k);
-    case CellType::pyram5: return pyramid_moment(i, j, k);
-    default: return segment_moment(i) * segment_moment(j) * segment_moment(k);
+    case CellType::seg2:
+      return segment_moment(i);
+    case CellType::tria3:
+      return triangle_moment(i, j);
+    case CellType::quad4:
+      return segment_moment(i) * segment_moment(j);
+    case CellType::tetra4:
+      return factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
+    case CellType::penta6:
+      return segment_moment(i) * triangle_moment(j, k);
+    case CellType::pyram5:
+      return pyramid_moment(i, j, k);
+    default:
+      return segment_moment(i) * segment_moment(j) * segment_moment(k);
   }
 }
 
 bool within_degree(CellType type, int degree, int i, int j, int k) {
-  if (type == CellType::quad4 || type == CellType::hexa8 || type == CellType::seg2) return i <= degree && j <= degree && k <= degree;
+  if (type == CellType::quad4 || type == CellType::hexa8 || type == CellType::seg2)
+    return i <= degree && j <= degree && k <= degree;
   if (type == CellType::penta6) return i <= degree && j + k <= degree;
   return i + j + k <= degree;
 }
@@ -66,7 +74,8 @@ TEST_CASE("integration families are exact up to their degree", "[elements]") {
             if (!within_degree(type, degree, i, j, k)) continue;
             CAPTURE(i, j, k);
             double sum = 0.0;
-            for (const auto& p : points) sum += p.weight * std::pow(p.at[0], i) * std::pow(p.at[1], j) * std::pow(p.at[2], k);
+            for (const auto& p : points)
+              sum += p.weight * std::pow(p.at[0], i) * std::pow(p.at[1], j) * std::pow(p.at[2], k);
             // Constants are given to 16 digits.
             CHECK(sum == Approx(moment(type, i, j, k)).margin(1e-14));
           }
@@ -80,8 +89,9 @@ TEST_CASE("every cell type has the families that its elements use", "[elements]"
   for (int t = 0; t < cell_type_count; ++t) {
     const auto type = static_cast<CellType>(t);
     CAPTURE(name_of(type));
-    for (const auto family : {stiffness_family(type, Formulation::solid), stiffness_family(type, Formulation::solid_reduced),
-                              mass_family(type), boundary_family(type)}) {
+    for (const auto family :
+         {stiffness_family(type, Formulation::solid), stiffness_family(type, Formulation::solid_reduced),
+          mass_family(type), boundary_family(type)}) {
       double sum = 0.0;
       for (const auto& point : quadrature(type, family)) sum += point.weight;
       CHECK(sum == Approx(reference_measure(type)).epsilon(1e-14));

@@ -30,7 +30,8 @@ TEST_CASE("shape functions are 1 at their node and 0 at the others", "[elements]
     REQUIRE(static_cast<int>(nodes.size()) == node_count(type));
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       const Eigen::VectorXd values = shape_functions(type, nodes[b]);
-      CHECK((values - Eigen::VectorXd::Unit(values.size(), static_cast<Eigen::Index>(b))).cwiseAbs().maxCoeff() < rounding);
+      CHECK((values - Eigen::VectorXd::Unit(values.size(), static_cast<Eigen::Index>(b))).cwiseAbs().maxCoeff() <
+            rounding);
     }
   }
 }

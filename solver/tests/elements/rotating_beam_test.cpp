@@ -22,7 +22,8 @@ Body beam(Formulation formulation) {
   mesh->nodes = {{0, 0, 0}, {1, 2, 2}};
   mesh->add_cell(CellType::seg2, std::array{0, 1});
   ElementProperties properties;
-  properties.sections[0] = {.area = 2.0, .inertia_y = 0.5, .inertia_z = 0.8, .torsion = 0.6, .shear_y = 1.2, .shear_z = 1.1, .roll = 0.3};
+  properties.sections[0] = {
+      .area = 2.0, .inertia_y = 0.5, .inertia_z = 0.8, .torsion = 0.6, .shear_y = 1.2, .shear_z = 1.1, .roll = 0.3};
   return Body(mesh, std::vector<Formulation>{formulation}, elastic(100.0, 0.25), properties);
 }
 
@@ -44,7 +45,8 @@ TEST_CASE("the tangent of a beam in large rotations is the derivative of its for
     constexpr double h = 1e-6;
     for (int k = 0; k < 12; ++k) {
       const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(12, k);
-      const Eigen::VectorXd column = (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
+      const Eigen::VectorXd column =
+          (assembler.internal_forces(u + step) - assembler.internal_forces(u - step)) / (2 * h);
       CHECK((column - tangent.col(k)).norm() <= 1e-7 * tangent.norm());
     }
   }
@@ -83,7 +85,8 @@ TEST_CASE("the axes of a beam turn with it, and its forces with them", "[element
   still.accept(bent(0.01));
   const Eigen::VectorXd first = still.forces_of_stresses(bent(0.01), before);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5 * std::numbers::pi, axis).toRotationMatrix();
-  for (int part = 0; part < 12; part += 3) CHECK((turned.segment<3>(part) - turn * first.segment<3>(part)).norm() <= 1e-3 * first.norm());
+  for (int part = 0; part < 12; part += 3)
+    CHECK((turned.segment<3>(part) - turn * first.segment<3>(part)).norm() <= 1e-3 * first.norm());
 }
 
 TEST_CASE("a beam in large rotations goes on from its forces and variables as if it had never stopped", "[elements]") {

@@ -9,8 +9,8 @@
 
 namespace comma::solver::testing {
 
-/// The reference cell of a type as a mesh of one cell, moved by a smooth map: `bend` = 0 leaves it affine (but sheared and
-/// stretched), else sides curve.
+/// The reference cell of a type as a mesh of one cell, moved by a smooth map: `bend` = 0 leaves it affine (but sheared
+/// and stretched), else sides curve.
 inline std::shared_ptr<Mesh> single_cell(CellType type, double bend = 0.0) {
   auto mesh = std::make_shared<Mesh>();
   mesh->dimension = dimension(type) == 3 ? 3 : 2;
@@ -70,7 +70,8 @@ struct Body {
 
 inline constexpr CellType plane_types[] = {CellType::tria3, CellType::tria6, CellType::tria7,
                                            CellType::quad4, CellType::quad8, CellType::quad9};
-inline constexpr CellType solid_types[] = {CellType::tetra4,  CellType::tetra10, CellType::pyram5, CellType::pyram13, CellType::penta6,
-                                           CellType::penta15, CellType::penta18, CellType::hexa8,  CellType::hexa20,  CellType::hexa27};
+inline constexpr CellType solid_types[] = {CellType::tetra4, CellType::tetra10, CellType::pyram5,  CellType::pyram13,
+                                           CellType::penta6, CellType::penta15, CellType::penta18, CellType::hexa8,
+                                           CellType::hexa20, CellType::hexa27};
 
 }  // namespace comma::solver::testing

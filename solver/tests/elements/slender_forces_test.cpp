@@ -58,7 +58,7 @@ TEST_CASE("a cantilever under a uniform load bends by q L^4 / 8 E I, and shears 
   CHECK(euler[5] == exactly(q * l3 / (6 * young * section.inertia_z)));
   const auto timoshenko = Cantilever(Formulation::timoshenko_beam).tip(force(2, q));
   CHECK(timoshenko[2] == exactly(q * l4 / (8 * young * section.inertia_y) +
-                                q * l2 * section.shear_z / (2 * shear_modulus * section.area)));
+                                 q * l2 * section.shear_z / (2 * shear_modulus * section.area)));
   CHECK(timoshenko[4] == exactly(-q * l3 / (6 * young * section.inertia_y)));
   const auto pulled = Cantilever(Formulation::euler_beam).tip(force(0, q));
   CHECK(pulled[0] == exactly(q * l2 / (2 * young * section.area)));

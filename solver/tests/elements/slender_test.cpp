@@ -17,7 +17,8 @@ const double poisson = 0.25;
 const double shear_modulus = young / 2.5;
 
 /// A chain of segments from the origin along a direction, each of length `step`.
-Body chain(const Eigen::Vector3d& direction, double step, int cells, Formulation formulation, const BeamSection& section) {
+Body chain(const Eigen::Vector3d& direction, double step, int cells, Formulation formulation,
+           const BeamSection& section) {
   auto mesh = std::make_shared<Mesh>();
   for (int i = 0; i <= cells; ++i) {
     const Eigen::Vector3d at = i * step * direction.normalized();
@@ -35,17 +36,21 @@ Eigen::VectorXd clamped(const Body& body, const Eigen::VectorXd& tip) {
   force.tail(6) = tip;
   Eigen::VectorXd u = body.zero();
   const auto free = body.dofs->size() - 6;
-  u.tail(free) = Eigen::MatrixXd(body.dense_stiffness().bottomRightCorner(free, free)).ldlt().solve(Eigen::VectorXd(force.tail(free)));
+  u.tail(free) = Eigen::MatrixXd(body.dense_stiffness().bottomRightCorner(free, free))
+                     .ldlt()
+                     .solve(Eigen::VectorXd(force.tail(free)));
   return u;
 }
 
-const BeamSection section{.area = 2e-3, .inertia_y = 3e-6, .inertia_z = 5e-6, .torsion = 4e-6, .shear_y = 1.2, .shear_z = 1.5};
+const BeamSection section{
+    .area = 2e-3, .inertia_y = 3e-6, .inertia_z = 5e-6, .torsion = 4e-6, .shear_y = 1.2, .shear_z = 1.5};
 
 TEST_CASE("a bar resists along its axis alone, with E A / L", "[elements]") {
   const Body body = chain({3, 4, 0}, 5.0, 1, Formulation::bar_2d, {.area = 1e-3});
   const Eigen::VectorXd u = Eigen::Vector4d(0, 0, 0.6, 0.8) * 1e-3;
   const double tension = young * 1e-3 / 5.0 * 1e-3;
-  CHECK((body.assembler->internal_forces(u) - tension * Eigen::Vector4d(-0.6, -0.8, 0.6, 0.8)).norm() < 1e-10 * tension);
+  CHECK((body.assembler->internal_forces(u) - tension * Eigen::Vector4d(-0.6, -0.8, 0.6, 0.8)).norm() <
+        1e-10 * tension);
   CHECK(body.assembler->stresses(u).at(0, 0, 0) == exactly(tension));
   CHECK(body.assembler->internal_forces(Eigen::Vector4d(0, 0, -0.8, 0.6)).norm() < 1e-10 * young * 1e-3 / 5.0);
   CHECK(body.assembler->internal_forces(Eigen::Vector4d(7.1, 3.3, 7.1, 3.3)).norm() == 0.0);
@@ -53,7 +58,8 @@ TEST_CASE("a bar resists along its axis alone, with E A / L", "[elements]") {
 
 TEST_CASE("beams have six motions without energy, in any direction, and none more", "[elements]") {
   for (const auto formulation : {Formulation::euler_beam, Formulation::timoshenko_beam}) {
-    for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 2, -3)}) {
+    for (const Eigen::Vector3d& direction :
+         {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 2, -3)}) {
       const Body body = chain(direction, 1.7, 1, formulation, section);
       const Eigen::VectorXd values = symmetric_eigen(body.dense_stiffness()).values;
       CHECK(values.head(6).cwiseAbs().maxCoeff() < 1e-13 * values.maxCoeff());
@@ -70,7 +76,8 @@ TEST_CASE("a cantilever bends by P L^3 / 3 E I, and by shear where the beam know
   for (const int cells : {1, 4}) {  // the elements are exact at their nodes
     for (const auto formulation : {Formulation::euler_beam, Formulation::timoshenko_beam}) {
       const Body body = chain({1, 0, 0}, length / cells, cells, formulation, section);
-      const double shear = formulation == Formulation::timoshenko_beam ? p * length / (shear_modulus * section.area) : 0.0;
+      const double shear =
+          formulation == Formulation::timoshenko_beam ? p * length / (shear_modulus * section.area) : 0.0;
       Eigen::VectorXd tip(6);
       tip << p, p, p, p, 0, 0;
       const Eigen::VectorXd u = clamped(body, tip).tail(6);

@@ -21,7 +21,8 @@ constexpr double poisson = 0.25;
 constexpr double shear_modulus = young / 2.5;
 constexpr double length = 3.0;
 
-/// A cantilever of `cells` beams from the origin along (1, 2, 2), cut out of one cone that ends in `tip` of its first radius.
+/// A cantilever of `cells` beams from the origin along (1, 2, 2), cut out of one cone that ends in `tip` of its first
+/// radius.
 Body cone(double radius, double tip, int cells, Formulation formulation) {
   auto mesh = std::make_shared<Mesh>();
   ElementProperties properties;
@@ -34,7 +35,8 @@ Body cone(double radius, double tip, int cells, Formulation formulation) {
     mesh->nodes.push_back({at / 3, 2 * at / 3, 2 * at / 3});
     if (i == 0) continue;
     mesh->add_cell(CellType::seg2, std::array{i - 1, i});
-    properties.sections[i - 1] = varying_section(disc((i - 1.0) / cells), disc(static_cast<double>(i) / cells), all_sizes_vary);
+    properties.sections[i - 1] =
+        varying_section(disc((i - 1.0) / cells), disc(static_cast<double>(i) / cells), all_sizes_vary);
   }
   return Body(mesh, std::vector<Formulation>(cells, formulation), elastic(young, poisson), properties);
 }
@@ -119,7 +121,8 @@ TEST_CASE("the section halfway along a tapered rectangle lies between those of i
   CHECK(middle.area == exactly(exact.area));
   CHECK(middle.reach_z == exactly(exact.reach_z));
   CHECK(middle.shear_y == exactly(1.2));
-  CHECK_THROWS_AS(varying_section({.area = 1.0, .centre_y = 0.1}, {.area = 1.0, .centre_y = 0.2}, all_sizes_vary), Error);
+  CHECK_THROWS_AS(varying_section({.area = 1.0, .centre_y = 0.1}, {.area = 1.0, .centre_y = 0.2}, all_sizes_vary),
+                  Error);
 }
 
 TEST_CASE("a cone weighs a third of base times height, and all of it reaches the nodes", "[elements]") {

@@ -34,8 +34,9 @@ TEST_CASE("a cantilever under a uniform load: -q L^2 / 2 where it is clamped, no
     const Eigen::VectorXd external = body.assembler->external_forces(loads, 0.0);
     Eigen::VectorXd u = body.zero();
     u.tail<6>() = body.dense_stiffness().bottomRightCorner<6, 6>().ldlt().solve(external.tail<6>());
-    const ElementField found = end_section_forces({body.model, body.materials, body.properties, *body.dofs},
-                                                  to_element_nodes(body.model, body.assembler->stresses(u)), loads, 0.0);
+    const ElementField found =
+        end_section_forces({body.model, body.materials, body.properties, *body.dofs},
+                           to_element_nodes(body.model, body.assembler->stresses(u)), loads, 0.0);
     const auto at = [&](int end, std::string_view name) { return found.at(0, end, found.component(name)); };
     CHECK(at(0, "MFZ") == exactly(-load * length * length / 2));
     CHECK(at(0, "VY") == exactly(-load * length));

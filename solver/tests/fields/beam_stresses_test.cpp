@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/beam_stresses.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -40,9 +40,7 @@ ElementField forces(std::vector<double> values) {
   return {"SIEF_R", Support::element_node, {"N", "VY", "VZ", "MT", "MFY", "MFZ"}, {0, 2}, both};
 }
 
-FieldInput input_of(const Body& body) {
-  return {body.model, body.materials, body.properties, body.assembler->state()};
-}
+FieldInput input_of(const Body& body) { return {body.model, body.materials, body.properties, body.assembler->state()}; }
 
 TEST_CASE("each section force gives the stress of beam theory at the outermost fibre", "[fields]") {
   const Body body = beam(rectangle());

@@ -24,7 +24,8 @@ Mesh two_edges() {
 
 NodalField uniform(const Mesh& mesh, const std::array<double, 4>& stress) {
   NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {}};
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) field.values.insert(field.values.end(), stress.begin(), stress.end());
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    field.values.insert(field.values.end(), stress.begin(), stress.end());
   return field;
 }
 

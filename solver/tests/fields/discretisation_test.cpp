@@ -52,7 +52,8 @@ TEST_CASE("a linear field at nodes is the same at Gauss points, those of the ski
   for (int i = 0; i < at_points.points(2); ++i) sum += at_points.at(2, i, 0);
   CHECK(sum / at_points.points(2) == exactly(linear(0.0, 0.5)));
   // The smoothing of the rectangle-like cells is exact on bilinear fields.
-  const NodalField back = brought_to_nodes(*model.mesh, &model, brought_to(model, linear_field(*model.mesh), Support::gauss_point, false));
+  const NodalField back =
+      brought_to_nodes(*model.mesh, &model, brought_to(model, linear_field(*model.mesh), Support::gauss_point, false));
   CHECK(back.at(3, 0) == exactly(linear(0.0, 1.0)));
 }
 

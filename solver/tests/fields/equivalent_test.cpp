@@ -16,9 +16,7 @@ ElementField stress(std::vector<double> values) {
   return {"SIEF_R", Support::gauss_point, names, {0, 1}, std::move(values)};
 }
 
-double value(const ElementField& field, std::string_view name) {
-  return field.at(0, 0, field.component(name));
-}
+double value(const ElementField& field, std::string_view name) { return field.at(0, 0, field.component(name)); }
 
 }  // namespace
 

@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/extrapolation.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -13,9 +13,7 @@ using namespace comma::solver::testing;
 
 namespace extrapolation_test {
 
-double linear(const ReferencePoint& at) {
-  return 3.0 + 2.0 * at[0] - 1.5 * at[1] + 0.7 * at[2];
-}
+double linear(const ReferencePoint& at) { return 3.0 + 2.0 * at[0] - 1.5 * at[1] + 0.7 * at[2]; }
 
 /// Values of a function at the points of a family, and what the smoothing makes of them at the nodes.
 template <class F>
@@ -51,7 +49,8 @@ TEST_CASE("a single point gives its value to all nodes", "[fields]") {
 TEST_CASE("a node in the middle of an edge has the mean of its ends, whatever the field", "[fields]") {
   const Eigen::VectorXd values =
       smoothed(CellType::quad8, "FPG9", [](const auto& at) { return std::exp(at[0]) * std::cos(2 * at[1]); });
-  for (int edge = 0; edge < 4; ++edge) CHECK(values[4 + edge] == exactly(0.5 * (values[edge] + values[(edge + 1) % 4])));
+  for (int edge = 0; edge < 4; ++edge)
+    CHECK(values[4 + edge] == exactly(0.5 * (values[edge] + values[(edge + 1) % 4])));
 }
 
 TEST_CASE("smoothing four points of a quadrangle is exact on bilinear fields", "[fields]") {

@@ -52,7 +52,8 @@ TEST_CASE("a combination adds components where terms have them", "[fields]") {
 TEST_CASE("fields at different places do not combine", "[fields]") {
   const Field nodes = nodal({"X1"}, {1, 2});
   const Field cells = empty_cell_field(*square_of_triangles().mesh, "NEUT_R", {"X1"});
-  CHECK_THROWS_WITH(linear_combination(std::vector<FieldTerm>{{&nodes, 1.0}, {&cells, 1.0}}), Catch::Contains("same places"));
+  CHECK_THROWS_WITH(linear_combination(std::vector<FieldTerm>{{&nodes, 1.0}, {&cells, 1.0}}),
+                    Catch::Contains("same places"));
 }
 
 TEST_CASE("a piece replaces or adds, under other names, at its places alone", "[fields]") {
@@ -91,7 +92,8 @@ TEST_CASE("what is made of numbers and is none is infinite, not absent", "[field
   CHECK(first_infinite(twice)->place == 0);
   CHECK(values_of(twice)[1] == 0.0);
   CHECK(std::isnan(values_of(twice)[2]));
-  const std::vector<ValueFunction> functions = {{{"X1"}, [](std::span<const double> at) { return (at[0] - 1) * huge * huge - (at[0] - 1) * huge * huge; }}};
+  const std::vector<ValueFunction> functions = {
+      {{"X1"}, [](std::span<const double> at) { return (at[0] - 1) * huge * huge - (at[0] - 1) * huge * huge; }}};
   const Field which = nodal({"X2"}, {absent, 0, absent}), two = nodal({"X1"}, {1, 2, 1});
   const std::vector<const Field*> arguments = {&two};
   const Field made = evaluate(which, functions, arguments, "NEUT_R");

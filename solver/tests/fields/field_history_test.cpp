@@ -19,7 +19,8 @@ Field swing(double dx, double dy) { return NodalField{"DEPL_R", {"DX", "DY"}, {d
 
 TEST_CASE("extremes over time, and when they are reached", "[fields]") {
   const std::array<Field, 3> fields = {swing(2.0, 0.5), swing(-3.0, 4.0), swing(1.0, -1.0)};
-  const std::array steps = {FieldAtInstant{1.0, &fields[0]}, FieldAtInstant{2.0, &fields[1]}, FieldAtInstant{3.0, &fields[2]}};
+  const std::array steps = {FieldAtInstant{1.0, &fields[0]}, FieldAtInstant{2.0, &fields[1]},
+                            FieldAtInstant{3.0, &fields[2]}};
   const auto value = [&](ExtremeOverTime which, ExtremeShown shown, int node, int component) {
     return std::get<NodalField>(extreme_over_time(steps, which, shown)).at(node, component);
   };

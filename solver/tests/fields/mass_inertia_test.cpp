@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/mass_inertia.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -113,7 +113,9 @@ TEST_CASE("a slanted plate with an offset: its middle surface", "[fields]") {
   }
 }
 
-TEST_CASE("discrete masses: a point with an offset and a tensor, a segment with half of it at each end, a point in the plane", "[fields]") {
+TEST_CASE(
+    "discrete masses: a point with an offset and a tensor, a segment with half of it at each end, a point in the plane",
+    "[fields]") {
   auto mesh = std::make_shared<Mesh>();
   mesh->nodes = {{1, 2, 3}, {0, 0, 0}, {4, 0, 0}, {0, 5, 0}};
   mesh->add_cell(CellType::poi1, std::array{0});
@@ -121,9 +123,11 @@ TEST_CASE("discrete masses: a point with an offset and a tensor, a segment with 
   mesh->add_cell(CellType::poi1, std::array{3});
   const std::vector kinds = {Formulation::spring_rotation_3d, Formulation::spring_3d, Formulation::spring_2d};
   const Eigen::Matrix3d tensor = Eigen::Vector3d(0.3, 0.4, 0.5).asDiagonal();
-  const std::vector<DiscreteInertia> inertias = {{.mass = 5.0, .tensor = tensor, .offset = {0, 0, 2}}, {.mass = 6.0}, {.mass = 7.0}};
+  const std::vector<DiscreteInertia> inertias = {
+      {.mass = 5.0, .tensor = tensor, .offset = {0, 0, 2}}, {.mass = 6.0}, {.mass = 7.0}};
   const std::vector<Eigen::Vector3d> centres = {{1, 2, 5}, {2, 0, 0}, {0, 5, 0}};
-  const std::vector<Eigen::Matrix3d> about_centres = {tensor, Eigen::Vector3d(0, 24, 24).asDiagonal(), Eigen::Matrix3d::Zero()};
+  const std::vector<Eigen::Matrix3d> about_centres = {tensor, Eigen::Vector3d(0, 24, 24).asDiagonal(),
+                                                      Eigen::Matrix3d::Zero()};
   for (int cell = 0; cell < 3; ++cell) {
     const auto k = static_cast<std::size_t>(cell);
     ElementProperties properties;

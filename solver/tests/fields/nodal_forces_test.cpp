@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -30,7 +30,8 @@ TEST_CASE("nodal forces of a square pressed flat are half its stress on each cor
   const double nu = 0.3;
   const double strain = -0.02;
   const Body body(unit_square(), Formulation::plane_strain, elastic(young, nu));
-  const auto u = body.displacements([&](const Point& x, int c) { return c == 0 ? -nu / (1 - nu) * strain * x[0] : strain * x[1]; });
+  const auto u = body.displacements(
+      [&](const Point& x, int c) { return c == 0 ? -nu / (1 - nu) * strain * x[0] : strain * x[1]; });
   const NodalField forces = nodal_forces(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"), {}, 0.0);
   const double expected = 0.5 * young / (1 - nu * nu) * strain;
   for (int node = 0; node < 4; ++node) {
@@ -44,10 +45,11 @@ TEST_CASE("reactions are what the applied forces leave of the nodal forces", "[f
   const auto u = body.displacements([](const Point& x, int c) { return 0.1 * x[1 - c] * x[c]; });
   const Eigen::VectorXd internal = body.assembler->internal_forces(u);
   auto load = std::make_shared<Load>();
-  for (int dof = 4; dof < 8; ++dof) load->nodal_forces.push_back({body.dofs->node_of(dof), body.dofs->component_of(dof), internal[dof], {}});
+  for (int dof = 4; dof < 8; ++dof)
+    load->nodal_forces.push_back({body.dofs->node_of(dof), body.dofs->component_of(dof), internal[dof], {}});
   const FollowerForces none(body.model, *body.dofs, {});
-  const NodalField reactions =
-      nodal_reactions(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"), std::vector<AppliedLoad>{{load, {}}}, none, 0.0);
+  const NodalField reactions = nodal_reactions(*body.assembler, *body.dofs, to_field(u, *body.dofs, "DEPL_R"),
+                                               std::vector<AppliedLoad>{{load, {}}}, none, 0.0);
   CHECK(reactions.at(2, 0) == 0.0);
   CHECK(reactions.at(3, 1) == 0.0);
   CHECK(reactions.at(0, 1) == internal[1]);

@@ -35,7 +35,8 @@ TEST_CASE("a tensor keeps its invariants in other axes, and its missing componen
 }
 
 TEST_CASE("forces and strains of sections lie in axes of their own", "[fields]") {
-  const NodalField of_beam{"EPSI_R", {"EPXX", "GAXY", "KY"}, {1.0, 0.0, 0.0}}, of_body{"EPSI_R", {"EPXX", "EPYY"}, {1.0, 0.0}};
+  const NodalField of_beam{"EPSI_R", {"EPXX", "GAXY", "KY"}, {1.0, 0.0, 0.0}},
+      of_body{"EPSI_R", {"EPXX", "EPYY"}, {1.0, 0.0}};
   CHECK(has_own_axes(of_beam, "EPXX"));
   CHECK(has_own_axes(of_beam, "KY"));
   CHECK_FALSE(has_own_axes(of_body, "EPXX"));
@@ -48,18 +49,21 @@ TEST_CASE("a hoop stress stands in the third place of axes of revolution", "[fie
   const Mesh mesh = nodes_at({{2 * c, 2 * s, 7.0}});
   const NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {5 * s * s, 5 * c * c, 0.0, -5 * s * c}};
   const std::vector<int> nodes = {0};
-  const NodalField turned = in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), 3 * Eigen::Vector3d::UnitZ()));
+  const NodalField turned =
+      in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), 3 * Eigen::Vector3d::UnitZ()));
   CHECK(turned.at(0, turned.component("SIZZ")) == exactly(5.0));
   CHECK(turned.at(0, turned.component("SIXX")) == Approx(0.0).margin(1e-14));
   CHECK(turned.at(0, turned.component("SIYY")) == Approx(0.0).margin(1e-14));
 }
 
 TEST_CASE("the third axis of revolution turns as a screw along the axis does", "[fields]") {
-  // At the point (2, 0, 0) about Z the turn goes along Y: a shear of XY is one between r and the turn, of the same sign.
+  // At the point (2, 0, 0) about Z the turn goes along Y: a shear of XY is one between r and the turn, of the same
+  // sign.
   const Mesh mesh = nodes_at({{2, 0, 0}});
   const NodalField field{"SIEF_R", {"SIXX", "SIYY", "SIZZ", "SIXY"}, {0.0, 0.0, 0.0, 5.0}};
   const std::vector<int> nodes = {0};
-  const NodalField turned = in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  const NodalField turned =
+      in_axes(field, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
   CHECK(turned.at(0, turned.component("SIXZ")) == exactly(5.0));
 }
 
@@ -72,11 +76,14 @@ TEST_CASE("a node on the axis of revolution is named", "[fields]") {
 TEST_CASE("a node on the axis of revolution may take the axes of its nearest neighbour", "[fields]") {
   const Mesh mesh = nodes_at({{0, 0, 3}, {0, 1, 3}, {5, 0, 3}});
   const std::vector<int> nodes = {0, 1, 2};
-  const auto axes = with_axes_of_neighbours(mesh, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  const auto axes =
+      with_axes_of_neighbours(mesh, nodes, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
   CHECK(axes(0).row(0) == Eigen::RowVector3d::UnitY());
   CHECK(axes(2).row(0) == Eigen::RowVector3d::UnitX());
   const std::vector<int> alone = {0};
-  CHECK_THROWS_WITH(with_axes_of_neighbours(mesh, alone, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()))(0), Catch::Contains("N1"));
+  CHECK_THROWS_WITH(
+      with_axes_of_neighbours(mesh, alone, revolution_axes(mesh, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()))(0),
+      Catch::Contains("N1"));
 }
 
 TEST_CASE("a resultant's moment moves with its point as the force says", "[fields]") {

@@ -13,7 +13,10 @@ using namespace comma::solver;
 namespace {
 
 // A cell with uniaxial stress and one with pure shear, which a plane body describes without xz and yz.
-const ElementField stresses{"SIEF_R", Support::gauss_point, {"SIXX", "SIYY", "SIZZ", "SIXY"}, {0, 1, 1, 3},
+const ElementField stresses{"SIEF_R",
+                            Support::gauss_point,
+                            {"SIXX", "SIYY", "SIZZ", "SIXY"},
+                            {0, 1, 1, 3},
                             {12.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 5.0, absent, absent, absent, absent}};
 
 double at(const RowFunction& function, int cell, int point) {

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/strains.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -20,9 +20,7 @@ Eigen::VectorXd linear(const Body& body) {
   });
 }
 
-FieldInput input_of(const Body& body) {
-  return {body.model, body.materials, body.properties, body.assembler->state()};
-}
+FieldInput input_of(const Body& body) { return {body.model, body.materials, body.properties, body.assembler->state()}; }
 
 ElementField strain_of(const Body& body, const Eigen::VectorXd& u, StrainKind kind) {
   return strains(input_of(body), to_field(u, *body.dofs, "DEPL_R"), kind);

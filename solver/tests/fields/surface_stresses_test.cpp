@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/fields/surface_stresses.hpp"
+#include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -43,7 +43,8 @@ TEST_CASE("principal directions in a face take their signs from its first edge",
   // The first edge of the top goes along X: s is -X, and t = n x s is -Y.
   const Mesh mesh = cube();
   const auto skin_of = [&](double xx, double yy, double xy) {
-    ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 8, 8}, {}};
+    ElementField stress{
+        "SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 8, 8}, {}};
     for (int i = 0; i < 8; ++i) stress.values.insert(stress.values.end(), {xx, yy, 0, xy, 0, 0});
     return surface_stresses(mesh, stress, std::array{1});
   };
@@ -54,12 +55,15 @@ TEST_CASE("principal directions in a face take their signs from its first edge",
     CHECK(value(along_s, 1, "SIG_T1Y") > 0.0);  // away from t
     CHECK(value(along_s, 1, "SIG_T2X") * (shear < 0.0 ? -1.0 : 1.0) < 0.0);
     for (const ElementField* skin : {&along_t, &along_s}) {
-      const auto part = [&](const char* x, const char* y) { return Eigen::Vector2d(value(*skin, 1, x), value(*skin, 1, y)); };
+      const auto part = [&](const char* x, const char* y) {
+        return Eigen::Vector2d(value(*skin, 1, x), value(*skin, 1, y));
+      };
       const Eigen::Vector2d first = part("SIG_T1X", "SIG_T1Y"), second = part("SIG_T2X", "SIG_T2Y");
       CHECK(std::abs(first.dot(second)) < 1e-12 * first.norm() * second.norm());
       CHECK(first.norm() == exactly(std::abs(value(*skin, 1, "SIG_T1"))));
       // Both together are the stress again.
-      CHECK(first[0] * first[1] / value(*skin, 1, "SIG_T1") + second[0] * second[1] / value(*skin, 1, "SIG_T2") == Approx(shear).margin(1e-12));
+      CHECK(first[0] * first[1] / value(*skin, 1, "SIG_T1") + second[0] * second[1] / value(*skin, 1, "SIG_T2") ==
+            Approx(shear).margin(1e-12));
     }
   }
 }
@@ -97,7 +101,8 @@ TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
   const auto at = [&](int i) { return Eigen::Vector3d(mesh.nodes[face[i]].data()); };
   const Eigen::Vector3d area = 0.5 * (at(1) - at(0)).cross(at(2) - at(0)) + 2.0 / 3.0 * bump.cross(at(1) - at(0));
   const Eigen::Vector3d n = area.normalized();
-  ElementField stress{"SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 10, 10}, {}};
+  ElementField stress{
+      "SIEF_R", Support::element_node, {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"}, {0, 10, 10}, {}};
   for (int i = 0; i < 10; ++i) stress.values.insert(stress.values.end(), {3, -2, 5, 1, 4, -1});
   Eigen::Matrix3d tensor;
   tensor << 3, 1, 4, 1, -2, -1, 4, -1, 5;

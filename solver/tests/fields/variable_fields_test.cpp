@@ -16,7 +16,8 @@ CommandVariable constant(Parameter kind, const char* name, double value, double 
   CommandVariable variable;
   variable.variable = kind;
   variable.reference = reference;
-  variable.snapshots = {{0.0, std::make_shared<const Field>(NodalField{"TEMP_R", {name}, std::vector<double>(4, value)})}};
+  variable.snapshots = {
+      {0.0, std::make_shared<const Field>(NodalField{"TEMP_R", {name}, std::vector<double>(4, value)})}};
   return variable;
 }
 
@@ -30,7 +31,8 @@ TEST_CASE("command variables and their strains at Gauss points", "[fields]") {
   elasticity.hydration_shrinkage = 2e-4;
   concrete.elasticity = elasticity;
   Body body(single_cell(CellType::quad4), Formulation::plane_strain, std::make_shared<const Material>(concrete));
-  body.materials.variables = {constant(Parameter::temperature, "TEMP", 70.0, 20.0), constant(Parameter::drying, "SECH", 90.0, 100.0),
+  body.materials.variables = {constant(Parameter::temperature, "TEMP", 70.0, 20.0),
+                              constant(Parameter::drying, "SECH", 90.0, 100.0),
                               constant(Parameter::hydration, "HYDR", 0.5, std::nan(""))};
   body.assembler->set_time(0.0);
   const FieldInput input{body.model, body.materials, body.properties, body.assembler->state()};
@@ -55,7 +57,8 @@ TEST_CASE("a material strains by its own coefficients along its axes", "[fields]
   Body body(single_cell(CellType::quad4), Formulation::plane_strain, std::make_shared<const Material>(ply));
   body.materials.variables = {constant(Parameter::temperature, "TEMP", 120.0, 20.0)};
   body.assembler->set_time(0.0);
-  const ElementField strains = variable_strain_field({body.model, body.materials, body.properties, body.assembler->state()});
+  const ElementField strains =
+      variable_strain_field({body.model, body.materials, body.properties, body.assembler->state()});
   CHECK(strains.at(0, 0, 0) == exactly(1e-4));
   CHECK(strains.at(0, 0, 1) == exactly(2e-3));
   CHECK(strains.at(0, 0, 2) == exactly(3e-3));

@@ -10,8 +10,9 @@
 using namespace comma::solver;
 
 TEST_CASE("a law has as many names as variables", "[fields]") {
-  for (const Relation relation : {Relation::elastic, Relation::isotropic_linear, Relation::isotropic_traction, Relation::isotropic_power, Relation::isotropic_nonlinear,
-                                  Relation::kinematic_linear, Relation::mixed_linear, Relation::mixed_traction}) {
+  for (const Relation relation :
+       {Relation::elastic, Relation::isotropic_linear, Relation::isotropic_traction, Relation::isotropic_power,
+        Relation::isotropic_nonlinear, Relation::kinematic_linear, Relation::mixed_linear, Relation::mixed_traction}) {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::logarithmic, Kinematics::updated}) {
       const CellBehaviour behaviour{kinematics, relation};
       CAPTURE(static_cast<int>(relation), static_cast<int>(kinematics));
@@ -21,7 +22,8 @@ TEST_CASE("a law has as many names as variables", "[fields]") {
 }
 
 TEST_CASE("one name stands for other numbers in other cells", "[fields]") {
-  const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear}, {Kinematics::small, Relation::kinematic_linear}};
+  const BehaviourOfCells behaviours = {{Kinematics::small, Relation::isotropic_linear},
+                                       {Kinematics::small, Relation::kinematic_linear}};
   ElementField field{"VARI_R", Support::gauss_point, {"V1", "V2", "V3", "V4", "V5", "V6", "V7"}, {0, 1, 2}, {}};
   field.values = {0.25, 1, absent, absent, absent, absent, absent, 10, 20, 30, 40, 50, 60, 0};
   const auto named = std::get<ElementField>(by_variable_names(field, &behaviours));

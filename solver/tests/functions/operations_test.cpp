@@ -65,7 +65,8 @@ TEST_CASE("Simpson's rule integrates a parabola exactly at every other of uneven
   for (const double x : squares.x) squares.y.push_back(x * x);
   const TabulatedFunction area = simpson_integral(squares, 2.0);
   const double lost = 0.5 - 1.0 / 3.0;  // by the first trapezium
-  for (std::size_t i = 0; i < squares.x.size(); ++i) CHECK(area.y[i] == exactly(2.0 + std::pow(squares.x[i], 3) / 3.0 + (i % 2 == 1 ? lost : 0.0)));
+  for (std::size_t i = 0; i < squares.x.size(); ++i)
+    CHECK(area.y[i] == exactly(2.0 + std::pow(squares.x[i], 3) / 3.0 + (i % 2 == 1 ? lost : 0.0)));
 }
 
 TEST_CASE("central differences are exact for a parabola inside, one-sided ones for a line at its ends", "[functions]") {

@@ -22,7 +22,8 @@ double square_between(double time, Extension left, Extension right) {
 }  // namespace
 
 TEST_CASE("between two instants a value is linear, at each it is exact") {
-  for (const double time : instants) CHECK(square_between(time, Extension::excluded, Extension::excluded) == time * time);
+  for (const double time : instants)
+    CHECK(square_between(time, Extension::excluded, Extension::excluded) == time * time);
   CHECK(square_between(3.0, Extension::excluded, Extension::excluded) == exactly(10.0));
   CHECK(square_between(1.25, Extension::excluded, Extension::excluded) == exactly(1.75));
 }
@@ -53,5 +54,6 @@ TEST_CASE("a single instant is continued as a constant, where that is not exclud
     }
   }
   CHECK_NOTHROW(time_bracket(one, 3.0, Extension::excluded, Extension::excluded, "it"));
-  CHECK_THROWS_WITH(time_bracket(one, 3.1, Extension::constant, Extension::excluded, "it"), Catch::Contains("it is given at 3 alone"));
+  CHECK_THROWS_WITH(time_bracket(one, 3.1, Extension::constant, Extension::excluded, "it"),
+                    Catch::Contains("it is given at 3 alone"));
 }

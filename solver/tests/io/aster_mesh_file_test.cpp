@@ -4,8 +4,8 @@
 #include <cstring>
 #include <random>
 
-#include "solver/tests/mesh/reference_cells.hpp"
 #include "solver/error.hpp"
+#include "solver/tests/mesh/reference_cells.hpp"
 #include "temporary_file.hpp"
 
 using namespace comma::solver;

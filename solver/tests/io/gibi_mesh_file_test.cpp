@@ -13,8 +13,8 @@ using Group = std::vector<int>;
 
 namespace {
 
-// Two QUA8 side by side, in two objects that make up PLATE, their lower edge as SEG3 and two points as a mesh; an edge that
-// nothing refers to; the second face once more. The points stand in another order than their coordinates.
+// Two QUA8 side by side, in two objects that make up PLATE, their lower edge as SEG3 and two points as a mesh; an edge
+// that nothing refers to; the second face once more. The points stand in another order than their coordinates.
 const std::string plate = R"( ENREGISTREMENT DE TYPE   4
  NIVEAU  11 NIVEAU ERREUR   0 DIMENSION   2
  DENSITE 0.00000E+00
@@ -96,14 +96,16 @@ TEST_CASE("a hexahedron of Cast3M goes round its levels, then over its faces", "
     cell += fmt::format(" {}", i + 1);
     coordinates += fmt::format(" {} {} {} 0", points[i][0], points[i][1], points[i][2]);
   }
-  const std::string text = " ENREGISTREMENT DE TYPE   4\n NIVEAU  11 NIVEAU ERREUR   0 DIMENSION   3\n ENREGISTREMENT DE TYPE   2\n"
-                           " PILE NUMERO   1NBRE OBJETS NOMMES       1NBRE OBJETS       1\n BLOCK\n 1\n 33 0 0 27 1\n 0\n" + cell +
-                           "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  32NBRE OBJETS NOMMES       0NBRE OBJETS      27\n 27\n" + cell +
-                           "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  33NBRE OBJETS NOMMES       0NBRE OBJETS       1\n 108\n" + coordinates +
-                           "\n ENREGISTREMENT DE TYPE   5\n";
+  const std::string text =
+      " ENREGISTREMENT DE TYPE   4\n NIVEAU  11 NIVEAU ERREUR   0 DIMENSION   3\n ENREGISTREMENT DE TYPE   2\n"
+      " PILE NUMERO   1NBRE OBJETS NOMMES       1NBRE OBJETS       1\n BLOCK\n 1\n 33 0 0 27 1\n 0\n" +
+      cell + "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  32NBRE OBJETS NOMMES       0NBRE OBJETS      27\n 27\n" +
+      cell + "\n ENREGISTREMENT DE TYPE   2\n PILE NUMERO  33NBRE OBJETS NOMMES       0NBRE OBJETS       1\n 108\n" +
+      coordinates + "\n ENREGISTREMENT DE TYPE   5\n";
   const Mesh mesh = parse_gibi_mesh(text, "block.mgib");
   const auto expected = reference_points(CellType::hexa27);
-  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])] == expected[i]);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])] == expected[i]);
 }
 
 TEST_CASE("a damaged file of Cast3M is an error with its place", "[io]") {
@@ -118,9 +120,14 @@ TEST_CASE("a damaged file of Cast3M is an error with its place", "[io]") {
   };
   CHECK_THROWS_WITH(parse_gibi_mesh(with("10       0       1       8", "99       0       1       8"), "plate.mgib"),
                     Catch::Contains("plate.mgib:14:8") && Catch::Contains("type 99 are not known"));
-  CHECK_THROWS_WITH(parse_gibi_mesh(with("10       0       1       8", "10       0       1       7"), "plate.mgib"), Catch::Contains("has 8 nodes, not 7"));
-  CHECK_THROWS_WITH(parse_gibi_mesh(with("       2       3\n", "       2       9\n"), "plate.mgib"), Catch::Contains("not between 1 and 7"));
-  CHECK_THROWS_WITH(parse_gibi_mesh(with("      11      13      12", "      11      14      12"), "plate.mgib"), Catch::Contains("coordinates of point 12 are missing"));
-  CHECK_THROWS_WITH(parse_gibi_mesh(with("      1      10\n", "      1      14\n"), "plate.mgib"), Catch::Contains("no point 14"));
-  CHECK_THROWS_WITH(parse_gibi_mesh(with("DIMENSION   2", "DIMENSION   4"), "plate.mgib"), Catch::Contains("the dimension is 4"));
+  CHECK_THROWS_WITH(parse_gibi_mesh(with("10       0       1       8", "10       0       1       7"), "plate.mgib"),
+                    Catch::Contains("has 8 nodes, not 7"));
+  CHECK_THROWS_WITH(parse_gibi_mesh(with("       2       3\n", "       2       9\n"), "plate.mgib"),
+                    Catch::Contains("not between 1 and 7"));
+  CHECK_THROWS_WITH(parse_gibi_mesh(with("      11      13      12", "      11      14      12"), "plate.mgib"),
+                    Catch::Contains("coordinates of point 12 are missing"));
+  CHECK_THROWS_WITH(parse_gibi_mesh(with("      1      10\n", "      1      14\n"), "plate.mgib"),
+                    Catch::Contains("no point 14"));
+  CHECK_THROWS_WITH(parse_gibi_mesh(with("DIMENSION   2", "DIMENSION   4"), "plate.mgib"),
+                    Catch::Contains("the dimension is 4"));
 }

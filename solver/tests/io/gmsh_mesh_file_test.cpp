@@ -113,8 +113,9 @@ std::string single_cell(int number, CellType type, const std::vector<std::array<
     nodes += fmt::format("{} {} {} {}\n", i + 1, at[0], at[1], at[2]);
     names += fmt::format(" {}", i + 1);
   }
-  return fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} 2 1 1{}\n$EndElements\n", points.size(), nodes,
-                     number, names);
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n$Elements\n1\n1 {} 2 1 1{}\n$EndElements\n",
+      points.size(), nodes, number, names);
 }
 
 }  // namespace
@@ -138,10 +139,14 @@ TEST_CASE("the same mesh comes out of every version of the format", "[io]") {
 
 TEST_CASE("quadratic cells of Gmsh get Code_Aster's order of nodes", "[io]") {
   // The edges are Gmsh's own (reference manual, "Node ordering").
-  const std::string hexa = single_cell(17, CellType::hexa20, {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}});
+  const std::string hexa =
+      single_cell(17, CellType::hexa20,
+                  {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}});
   const std::string tetra = single_cell(11, CellType::tetra10, {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}});
-  const std::string penta = single_cell(18, CellType::penta15, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}});
-  const std::string pyram = single_cell(19, CellType::pyram13, {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}});
+  const std::string penta =
+      single_cell(18, CellType::penta15, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}});
+  const std::string pyram =
+      single_cell(19, CellType::pyram13, {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}});
   for (const std::string& text : {hexa, tetra, penta, pyram}) {
     const Mesh mesh = parse_gmsh_mesh(text, "cell.msh");
     CAPTURE(name_of(mesh.cell_types[0]));
@@ -157,12 +162,15 @@ TEST_CASE("quadratic cells of Gmsh get Code_Aster's order of nodes", "[io]") {
 TEST_CASE("nodes inside faces and cells of Gmsh belong to no cell", "[io]") {
   // The edges are Gmsh's own; where inner nodes lie plays no part.
   const std::vector<std::array<int, 2>> square = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
-  const std::vector<std::array<int, 2>> wedge = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}, {0, 4}, {0, 5}, {1, 5}};
-  std::vector<std::array<int, 2>> cube = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+  const std::vector<std::array<int, 2>> wedge = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5},
+                                                 {3, 4}, {3, 5}, {4, 5}, {0, 4}, {0, 5}, {1, 5}};
+  std::vector<std::array<int, 2>> cube = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
+                                          {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
   cube.resize(19, {0, 6});
-  const std::array<std::pair<std::string, CellType>, 3> cells = {{{single_cell(10, CellType::quad9, square), CellType::quad8},
-                                                                  {single_cell(13, CellType::penta18, wedge), CellType::penta15},
-                                                                  {single_cell(12, CellType::hexa27, cube), CellType::hexa20}}};
+  const std::array<std::pair<std::string, CellType>, 3> cells = {
+      {{single_cell(10, CellType::quad9, square), CellType::quad8},
+       {single_cell(13, CellType::penta18, wedge), CellType::penta15},
+       {single_cell(12, CellType::hexa27, cube), CellType::hexa20}}};
   for (const auto& [text, type] : cells) {
     const Mesh mesh = parse_gmsh_mesh(text, "cell.msh");
     REQUIRE(mesh.cell_types[0] == type);
@@ -186,11 +194,15 @@ TEST_CASE("a damaged Gmsh file is an error with its place", "[io]") {
       if (between_sections) CHECK(text.substr(0, length).find("$E") != std::string::npos);
     }
   }
-  const auto with = [](std::string text, const std::string& from, const std::string& to) { return text.replace(text.find(from), from.size(), to); };
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
   CHECK_THROWS_WITH(parse_gmsh_mesh(with(version_2, "2 2 2 10 1 5 6 8", "2 2 2 10 1 5 6 7"), "plate.msh"),
                     Catch::Contains("plate.msh:22:16: cell 2 has the node 7, which is not in the file"));
-  CHECK_THROWS_WITH(parse_gmsh_mesh(with(version_2, "9 0 1 0", "8 0 1 0"), "plate.msh"), Catch::Contains("node 8 stands twice"));
-  CHECK_THROWS_WITH(parse_gmsh_mesh(with(version_2, "1 1 0", "1 x 0"), "plate.msh"), Catch::Contains("a coordinate should stand here, not x"));
+  CHECK_THROWS_WITH(parse_gmsh_mesh(with(version_2, "9 0 1 0", "8 0 1 0"), "plate.msh"),
+                    Catch::Contains("node 8 stands twice"));
+  CHECK_THROWS_WITH(parse_gmsh_mesh(with(version_2, "1 1 0", "1 x 0"), "plate.msh"),
+                    Catch::Contains("a coordinate should stand here, not x"));
   CHECK(code_of(with(version_2, "2.2 0 8", "2.2 1 8")) == "unsupported");
   CHECK(code_of(with(version_2, "2.2 0 8", "3.0 0 8")) == "unsupported");
   CHECK(code_of(with(version_2, "2 2 2 10 1 5 6 8", "2 92 2 10 1 5 6 8")) == "unsupported-cell");

@@ -20,7 +20,8 @@ Mesh every_cell() {
     if (without_inner_nodes(known.type) != known.type) continue;
     std::vector<int> nodes(static_cast<std::size_t>(node_count(known.type)));
     std::iota(nodes.begin(), nodes.end(), mesh.node_count());
-    for (const int node : nodes) mesh.nodes.push_back({0.1 * node, 1.0 / (node + 1.0), static_cast<double>(node * node)});
+    for (const int node : nodes)
+      mesh.nodes.push_back({0.1 * node, 1.0 / (node + 1.0), static_cast<double>(node * node)});
     mesh.add_cell(known.type, nodes);
   }
   return mesh;
@@ -63,7 +64,8 @@ TEST_CASE("views of Gmsh hold the places that carry a value", "[io]") {
 
   const Field element = ElementField{"SIEF_R", Support::element_node, {"SIXX"}, {0, 0, 3}, {7, 8, 9}};
   const std::vector<GmshView> scalars = {{"S", 0.0, 0, &element, {0}}};
-  CHECK_THAT(format_gmsh(mesh, all_cells(mesh), scalars), Catch::Contains("$ElementNodeData\n1\n\"S\"\n1\n0\n3\n0\n1\n1\n2 3 7 8 9\n$EndElementNodeData\n"));
+  CHECK_THAT(format_gmsh(mesh, all_cells(mesh), scalars),
+             Catch::Contains("$ElementNodeData\n1\n\"S\"\n1\n0\n3\n0\n1\n1\n2 3 7 8 9\n$EndElementNodeData\n"));
 
   const Field gauss = ElementField{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 0, 1}, {7}};
   const std::vector<GmshView> refused = {{"S", 0.0, 0, &gauss, {0}}};

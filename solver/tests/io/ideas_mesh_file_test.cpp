@@ -54,11 +54,13 @@ EDGE lower
 std::string single(int descriptor, const std::vector<Point>& places) {
   std::string text = "    -1\n    15\n", nodes;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    text += fmt::format("{:10}{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n", i + 1, 0, 0, 11, places[i][0], places[i][1], places[i][2]);
+    text += fmt::format("{:10}{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n", i + 1, 0, 0, 11, places[i][0], places[i][1],
+                        places[i][2]);
     nodes += fmt::format("{:10}{}", i + 1, (i + 1) % 8 == 0 || i + 1 == places.size() ? "\n" : "");
   }
   const char* orientation = descriptor == 24 ? "         0         1         1\n" : "";
-  return text + fmt::format("    -1\n    -1\n  2412\n{:10}{:10}{:10}{:10}{:10}{:10}\n{}{}    -1\n", 1, descriptor, 1, 1, 7, places.size(), orientation, nodes);
+  return text + fmt::format("    -1\n    -1\n  2412\n{:10}{:10}{:10}{:10}{:10}{:10}\n{}{}    -1\n", 1, descriptor, 1, 1,
+                            7, places.size(), orientation, nodes);
 }
 
 Point between(const Point& a, const Point& b) { return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2}; }
@@ -89,7 +91,8 @@ TEST_CASE("a data set may end behind the last member of a group, on the same lin
   const std::string edge = "         8         1         0         0\n    -1\n";
   std::string text = square;
   text.replace(text.size() - edge.size(), edge.size(),
-               "         8         1         0         0    -1\n    -1\n  2467\n         3         0         0         0         0         0         0         1\nCORNER\n"
+               "         8         1         0         0    -1\n    -1\n  2467\n         3         0         0         "
+               "0         0         0         0         1\nCORNER\n"
                "         7         5         0         0    -1\n");
   const Mesh mesh = parse_ideas_mesh(text, "square.unv");
   CHECK(mesh.cell_group("EDGE") == Group{0});
@@ -97,7 +100,8 @@ TEST_CASE("a data set may end behind the last member of a group, on the same lin
 }
 
 TEST_CASE("middle nodes stand between corners in a universal file, layer by layer", "[io]") {
-  const Point a = {0, 0, 0}, b = {2, 0, 0}, c = {2, 3, 0}, d = {0, 3, 0}, e = {0, 0, 4}, f = {2, 0, 4}, g = {2, 3, 4}, h = {0, 3, 4};
+  const Point a = {0, 0, 0}, b = {2, 0, 0}, c = {2, 3, 0}, d = {0, 3, 0}, e = {0, 0, 4}, f = {2, 0, 4}, g = {2, 3, 4},
+              h = {0, 3, 4};
   std::vector<Point> line, tria, quad, tetra, penta, hexa;
   add_ring(line, {a, b}, false);
   add_ring(tria, {a, b, c});
@@ -110,18 +114,22 @@ TEST_CASE("middle nodes stand between corners in a universal file, layer by laye
   add_ring(hexa, {a, b, c, d});
   hexa.insert(hexa.end(), {between(a, e), between(b, f), between(c, g), between(d, h)});
   add_ring(hexa, {e, f, g, h});
-  const std::vector<std::tuple<int, CellType, std::vector<Point>>> cases = {{24, CellType::seg3, line},     {92, CellType::tria6, tria},    {45, CellType::quad8, quad},
-                                                                            {118, CellType::tetra10, tetra}, {113, CellType::penta15, penta}, {116, CellType::hexa20, hexa}};
+  const std::vector<std::tuple<int, CellType, std::vector<Point>>> cases = {
+      {24, CellType::seg3, line},      {92, CellType::tria6, tria},     {45, CellType::quad8, quad},
+      {118, CellType::tetra10, tetra}, {113, CellType::penta15, penta}, {116, CellType::hexa20, hexa}};
   for (const auto& [descriptor, type, places] : cases) {
     CAPTURE(name_of(type));
     const Mesh mesh = parse_ideas_mesh(single(descriptor, places), "cell.unv");
     REQUIRE(mesh.cell_types.front() == type);
     const auto nodes = mesh.cell(0);
-    const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])]; };
+    const auto at = [&](int local) {
+      return mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])];
+    };
     CHECK(at(0) == a);
     CHECK(at(1) == b);
     const auto edges = middle_edges(type);
-    for (std::size_t i = 0; i < edges.size(); ++i) CHECK(at(corner_count(type) + static_cast<int>(i)) == between(at(edges[i][0]), at(edges[i][1])));
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      CHECK(at(corner_count(type) + static_cast<int>(i)) == between(at(edges[i][0]), at(edges[i][1])));
   }
 }
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <random>
 
-#include "solver/tests/mesh/reference_cells.hpp"
 #include "solver/error.hpp"
 #include "solver/io/med_library.hpp"
 #include "solver/io/med_localization.hpp"
 #include "solver/tests/exactly.hpp"
+#include "solver/tests/mesh/reference_cells.hpp"
 #include "temporary_file.hpp"
 
 using namespace comma::solver;
@@ -145,7 +145,8 @@ TEST_CASE("a MED file of a later minor version is read as what it holds") {
   const TemporaryFile file;
   write_med_mesh(file.path(), small_mesh(), "MESH");
   const auto stamp = [&](const char* name, int version) {
-    const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), group = H5Gopen2(open, "INFOS_GENERALES", H5P_DEFAULT), number = H5Aopen(group, name, H5P_DEFAULT);
+    const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                group = H5Gopen2(open, "INFOS_GENERALES", H5P_DEFAULT), number = H5Aopen(group, name, H5P_DEFAULT);
     REQUIRE(H5Awrite(number, H5T_NATIVE_INT, &version) >= 0);
     H5Aclose(number);
     H5Gclose(group);
@@ -308,8 +309,9 @@ TEST_CASE("a file takes further steps, results and meshes, and keeps what it has
   CHECK(MEDnLocalization(med.id()) == 2);
   for (const int order : {1, 2}) {
     std::vector<double> values(5, -1.0);
-    REQUIRE(MEDfieldValueWithProfileRd(med.id(), "FIRST___DEPL", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE, MED_COMPACT_STMODE, order == 1 ? "PROFILE_1" : "PROFILE_2",
-                                       MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data())) >= 0);
+    REQUIRE(MEDfieldValueWithProfileRd(med.id(), "FIRST___DEPL", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE,
+                                       MED_COMPACT_STMODE, order == 1 ? "PROFILE_1" : "PROFILE_2", MED_FULL_INTERLACE,
+                                       MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data())) >= 0);
     CHECK(values == std::vector<double>(5, order));
   }
 }
@@ -321,7 +323,8 @@ TEST_CASE("a field has the components that any of its steps has") {
     ResultStep& step = result.steps.emplace_back();
     step.order = order;
     step.instant = order;
-    const std::vector<std::string> names = order == 0 ? std::vector<std::string>{"V1"} : std::vector<std::string>{"V2", "V1"};
+    const std::vector<std::string> names =
+        order == 0 ? std::vector<std::string>{"V1"} : std::vector<std::string>{"V2", "V1"};
     step.fields = {{"VARI_NOEU", NodalField{"VARI_R", names, std::vector<double>(6 * names.size(), 1.0 + order)}}};
   }
   const TemporaryFile file;
@@ -329,8 +332,9 @@ TEST_CASE("a field has the components that any of its steps has") {
   const MedFile med = MedFile::open_for_reading(file.path());
   std::vector<double> values(12, -1.0);
   const auto read = [&](int order) {
-    return MEDfieldValueWithProfileRd(med.id(), "RESU____VARI_NOEU", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE, MED_COMPACT_STMODE, MED_NO_PROFILE, MED_FULL_INTERLACE,
-                                      MED_ALL_CONSTITUENT, reinterpret_cast<unsigned char*>(values.data()));
+    return MEDfieldValueWithProfileRd(med.id(), "RESU____VARI_NOEU", order, MED_NO_IT, MED_NODE, MED_NO_GEOTYPE,
+                                      MED_COMPACT_STMODE, MED_NO_PROFILE, MED_FULL_INTERLACE, MED_ALL_CONSTITUENT,
+                                      reinterpret_cast<unsigned char*>(values.data()));
   };
   REQUIRE(read(0) >= 0);
   CHECK(values == std::vector<double>{1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0});

@@ -20,7 +20,8 @@ TEST_CASE("values at Gauss points are placed in a file where the element has the
       REQUIRE(scheme);
       for (std::size_t g = 0; g < points.size(); ++g) {
         CHECK(scheme->weights[g] == exactly(points[g].weight));
-        for (std::size_t axis = 0; axis < points[g].at.size(); ++axis) CHECK(scheme->points[g][axis] == Approx(points[g].at[axis]).margin(1e-15));
+        for (std::size_t axis = 0; axis < points[g].at.size(); ++axis)
+          CHECK(scheme->points[g][axis] == Approx(points[g].at[axis]).margin(1e-15));
       }
     }
   }

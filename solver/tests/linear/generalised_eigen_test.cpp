@@ -49,7 +49,8 @@ TEST_CASE("the smallest eigenvalues of a chain are those of the formula", "[line
 
 TEST_CASE("more eigenvalues may be asked for than iterations can find", "[linear]") {
   const SymmetricMatrix a = chain(130), b = signs(130, 0);
-  for (const int count : {124, 126, 129, 130, 500}) CHECK(smallest_eigenvalues({a, nullptr, b}, count).values.size() == static_cast<std::size_t>(std::min(count, 130)));
+  for (const int count : {124, 126, 129, 130, 500})
+    CHECK(smallest_eigenvalues({a, nullptr, b}, count).values.size() == static_cast<std::size_t>(std::min(count, 130)));
 }
 
 TEST_CASE("all eigenvalues of an interval are found, and none beyond", "[linear]") {
@@ -58,7 +59,8 @@ TEST_CASE("all eigenvalues of an interval are found, and none beyond", "[linear]
     const double first = 0.5 * (exact(9, n) + exact(10, n)), last = 0.5 * (exact(29, n) + exact(30, n));
     const EigenPairs pairs = eigenvalues_between({a, nullptr, b}, first, last);
     REQUIRE(pairs.values.size() == 20);
-    for (int k = 0; k < 20; ++k) CHECK(pairs.values[static_cast<std::size_t>(k)] == Approx(exact(k + 10, n)).epsilon(1e-8));
+    for (int k = 0; k < 20; ++k)
+      CHECK(pairs.values[static_cast<std::size_t>(k)] == Approx(exact(k + 10, n)).epsilon(1e-8));
   }
 }
 

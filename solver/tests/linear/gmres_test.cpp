@@ -49,9 +49,13 @@ TEST_CASE("Minimal residuals of a permutation stay until the last product, and a
 }
 
 TEST_CASE("Minimal residuals end where products give nothing new") {
-  const LinearMap projection = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x[0] * Eigen::VectorXd::Unit(3, 0)); };
-  const GmresSolution none = solve_gmres(projection, same, Eigen::Vector3d(1.0, 1.0, 0.0), {.tolerance = 1e-10, .most_products = 10});
+  const LinearMap projection = [](const Eigen::VectorXd& x) {
+    return Eigen::VectorXd(x[0] * Eigen::VectorXd::Unit(3, 0));
+  };
+  const GmresSolution none =
+      solve_gmres(projection, same, Eigen::Vector3d(1.0, 1.0, 0.0), {.tolerance = 1e-10, .most_products = 10});
   CHECK_FALSE(none.reached);
-  CHECK(solve_gmres(projection, same, Eigen::Vector3d(2.0, 0.0, 0.0), {.tolerance = 1e-10, .most_products = 10}).x == Eigen::Vector3d(2.0, 0.0, 0.0));
+  CHECK(solve_gmres(projection, same, Eigen::Vector3d(2.0, 0.0, 0.0), {.tolerance = 1e-10, .most_products = 10}).x ==
+        Eigen::Vector3d(2.0, 0.0, 0.0));
   CHECK(solve_gmres(projection, same, Eigen::Vector3d::Zero(), {.tolerance = 1e-10, .most_products = 10}).reached);
 }

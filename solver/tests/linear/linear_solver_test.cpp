@@ -105,15 +105,18 @@ TEST_CASE("a saddle point with a zero diagonal needs MUMPS, which is therefore c
 }
 
 TEST_CASE("without interchanges a saddle point may have no pivot where MUMPS has two") {
-  // The second pivot is all but lost to the first, and the third row, which would have made one with it, comes too late.
+  // The second pivot is all but lost to the first, and the third row, which would have made one with it, comes too
+  // late.
   const double left = std::ldexp(1.0, -32);
-  const Eigen::Matrix4d dense{{1.0, 1.0, 0.0, 0.0}, {1.0, 1.0 + left, 0.01, 0.0}, {0.0, 0.01, 0.0, 1.0}, {0.0, 0.0, 1.0, 1.0}};
+  const Eigen::Matrix4d dense{
+      {1.0, 1.0, 0.0, 0.0}, {1.0, 1.0 + left, 0.01, 0.0}, {0.0, 0.01, 0.0, 1.0}, {0.0, 0.0, 1.0, 1.0}};
   REQUIRE(choose_method(lower_triangle(dense)) == LinearMethod::mumps);
   for (const LinearMethod method : {LinearMethod::eigen_ldlt, LinearMethod::mumps}) {
     CAPTURE(name_of(method));
     auto solver = make_linear_solver(method, {});
     solver->analyse(lower_triangle(dense));
-    CHECK(solver->factorise(lower_triangle(dense)).verdict == (method == LinearMethod::mumps ? FactorVerdict::indefinite : FactorVerdict::singular));
+    CHECK(solver->factorise(lower_triangle(dense)).verdict ==
+          (method == LinearMethod::mumps ? FactorVerdict::indefinite : FactorVerdict::singular));
   }
 }
 

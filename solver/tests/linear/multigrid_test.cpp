@@ -21,7 +21,8 @@ struct Block {
 
   int node(int i, int j, int k) const { return i + (nx + 1) * (j + (ny + 1) * k); }
 
-  Block(int nx_, int ny_, int nz_, double poisson = 0.3, bool clamped = true, double height = 2.0) : nx(nx_), ny(ny_), nz(nz_) {
+  Block(int nx_, int ny_, int nz_, double poisson = 0.3, bool clamped = true, double height = 2.0)
+      : nx(nx_), ny(ny_), nz(nz_) {
     mesh->dimension = 3;
     for (int k = 0; k <= nz; ++k)
       for (int j = 0; j <= ny; ++j)
@@ -30,8 +31,9 @@ struct Block {
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)
-          mesh->add_cell(CellType::hexa8, std::vector<int>{node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
-                                                           node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+          mesh->add_cell(CellType::hexa8, std::vector<int>{node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+                                                           node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                                                           node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
     auto model = std::make_shared<Model>();
     model->mesh = mesh;
     model->formulations.assign(static_cast<std::size_t>(mesh->cell_count()), Formulation::solid);
@@ -130,7 +132,8 @@ TEST_CASE("multigrid in parts finds the same however the nodes are numbered") {
   const int stride = 1999;  // a prime: k -> stride * k takes every number once
   REQUIRE(count % stride != 0);
   for (int node = 0; node < count; ++node)
-    shuffled.places[static_cast<std::size_t>(static_cast<long>(node) * stride % count)] = system.options.solid->places[static_cast<std::size_t>(node)];
+    shuffled.places[static_cast<std::size_t>(static_cast<long>(node) * stride % count)] =
+        system.options.solid->places[static_cast<std::size_t>(node)];
   for (int& node : shuffled.nodes) node = static_cast<int>(static_cast<long>(node) * stride % count);
   LinearOptions options = system.options;
   options.solid = std::make_shared<const SolidUnknowns>(shuffled);
@@ -160,8 +163,11 @@ TEST_CASE("one solid of fully integrated cells qualifies for multigrid; a hinge,
   CHECK_FALSE(qualifies(reduced));
   // A cell that shares an edge with the block can turn about it.
   Block hinge(1, 1, 1);
-  for (const auto& point : {Point{2, 1, 0}, Point{2, 2, 0}, Point{1, 2, 0}, Point{2, 1, 2}, Point{2, 2, 2}, Point{1, 2, 2}}) hinge.mesh->nodes.push_back(point);
-  hinge.mesh->add_cell(CellType::hexa8, std::vector<int>{hinge.node(1, 1, 0), 8, 9, 10, hinge.node(1, 1, 1), 11, 12, 13});
+  for (const auto& point :
+       {Point{2, 1, 0}, Point{2, 2, 0}, Point{1, 2, 0}, Point{2, 1, 2}, Point{2, 2, 2}, Point{1, 2, 2}})
+    hinge.mesh->nodes.push_back(point);
+  hinge.mesh->add_cell(CellType::hexa8,
+                       std::vector<int>{hinge.node(1, 1, 0), 8, 9, 10, hinge.node(1, 1, 1), 11, 12, 13});
   model = std::make_shared<Model>(*hinge.problem.model);
   model->formulations.push_back(Formulation::solid);
   hinge.problem.model = model;
@@ -196,14 +202,16 @@ TEST_CASE("where multigrid does not converge the direct solver takes over") {
 TEST_CASE("a few elastic steps take multigrid as well, many a factor") {
   // Here multigrid fails, and the factor that takes over is a second one.
   const Block block(18, 18, 20, 0.49999999);
-  for (const auto& [instants, factorisations] : {std::pair(std::vector{0.0, 1.0}, 2), std::pair(std::vector{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, 1)}) {
+  for (const auto& [instants, factorisations] :
+       {std::pair(std::vector{0.0, 1.0}, 2), std::pair(std::vector{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, 1)}) {
     StepPlan plan;
     plan.instants = instants;
     Counters counters, direct;
     Result result;
     solve_static(block.problem, plan, {}, result, counters, {}, {});
     CHECK(counters.factorisations == factorisations);
-    CHECK(std::get<NodalField>(result.steps.back().fields.at("DEPL")).at(block.node(18, 18, 20), 0) == Approx(tip(block, LinearMethod::cholmod, direct)).epsilon(1e-6));
+    CHECK(std::get<NodalField>(result.steps.back().fields.at("DEPL")).at(block.node(18, 18, 20), 0) ==
+          Approx(tip(block, LinearMethod::cholmod, direct)).epsilon(1e-6));
   }
 }
 

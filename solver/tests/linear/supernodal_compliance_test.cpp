@@ -8,7 +8,8 @@ using namespace comma::solver;
 
 namespace {
 
-/// Two blocks of springs that do not touch, each n x n x n, held by springs to the ground that grow weaker from node to node.
+/// Two blocks of springs that do not touch, each n x n x n, held by springs to the ground that grow weaker from node to
+/// node.
 SymmetricMatrix two_blocks(int n) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto spring = [&](int a, int b, double k) {
@@ -37,7 +38,8 @@ TEST_CASE("The compliance out of a Cholesky factor is that of a solution for eac
   const auto solver = make_linear_solver(LinearMethod::cholmod, {});
   REQUIRE(solver->factorise(matrix).verdict == FactorVerdict::ok);
 
-  // Between the top of one block and the base of the other, one that touches a single block, and one that touches nothing.
+  // Between the top of one block and the base of the other, one that touches a single block, and one that touches
+  // nothing.
   std::vector<Eigen::Triplet<double>> entries;
   const int conditions = n * n + 2;
   for (int k = 0; k < n * n; ++k) {

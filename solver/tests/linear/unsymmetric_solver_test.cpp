@@ -134,7 +134,8 @@ TEST_CASE("what an unsymmetric matrix does not resist, its Gram matrix does not 
   Eigen::Matrix3d dense;
   dense << 4, 1, 4, -1, 3, -1, 2, 5, 2;
   const Parts parts = split(dense);
-  const Eigen::MatrixXd gram = Eigen::MatrixXd(gram_matrix(full_matrix(parts.symmetric, parts.skew))).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd gram =
+      Eigen::MatrixXd(gram_matrix(full_matrix(parts.symmetric, parts.skew))).selfadjointView<Eigen::Lower>();
   CHECK((gram - dense.transpose() * dense).norm() == 0.0);
   CHECK((gram * Eigen::Vector3d(1, 0, -1)).norm() == 0.0);
 }

@@ -48,9 +48,7 @@ struct Ring {
   std::vector<int> faces, rim;
 };
 
-double polygon(int sides) {
-  return 0.5 * sides * std::sin(2.0 * std::numbers::pi / sides);
-}
+double polygon(int sides) { return 0.5 * sides * std::sin(2.0 * std::numbers::pi / sides); }
 
 }  // namespace
 

@@ -48,7 +48,8 @@ TEST_CASE("elements with one value for all see the mean of the points that a fie
   const Mesh mesh = two_bars();
   CommandVariable variable;
   variable.reference = 0.0;
-  variable.snapshots = {{0.0, std::make_shared<const Field>(ElementField{"TEMP_R", Support::gauss_point, {"TEMP"}, {0, 2, 5}, {10, 30, 20.1, 20.1, 20.1}})}};
+  variable.snapshots = {{0.0, std::make_shared<const Field>(ElementField{
+                                  "TEMP_R", Support::gauss_point, {"TEMP"}, {0, 2, 5}, {10, 30, 20.1, 20.1, 20.1}})}};
   const std::vector variables = {variable};
   const VariableState state(mesh, variables, 0.0);
   const auto mean = [&](int cell) {

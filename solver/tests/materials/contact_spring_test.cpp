@@ -8,7 +8,9 @@ namespace {
 
 const ContactSpring spring{.normal = 10.0, .tangential = 4.0, .friction = 0.3};
 
-Eigen::Vector3d force_at(const Eigen::Vector3d& at, const Eigen::Vector2d& slip) { return respond(spring, at[0], at.tail<2>(), slip).force; }
+Eigen::Vector3d force_at(const Eigen::Vector3d& at, const Eigen::Vector2d& slip) {
+  return respond(spring, at[0], at.tail<2>(), slip).force;
+}
 
 }  // namespace
 
@@ -21,8 +23,11 @@ TEST_CASE("a contact spring keeps its shear within the cone of friction", "[mate
       CHECK(response.force[0] == spring.normal * gap);
       CHECK(response.force.tail<2>().norm() <= bound * (1 + 1e-12));
       // The force is the elastic one of what has not slipped, in any case.
-      CHECK((response.force.tail<2>() - spring.tangential * (Eigen::Vector2d(side, 0.3 * side) - response.slip)).norm() <= 1e-14);
-      if (response.status == ContactSpringStatus::slipping) CHECK(response.force.tail<2>().norm() == Approx(bound).margin(1e-14));
+      CHECK(
+          (response.force.tail<2>() - spring.tangential * (Eigen::Vector2d(side, 0.3 * side) - response.slip)).norm() <=
+          1e-14);
+      if (response.status == ContactSpringStatus::slipping)
+        CHECK(response.force.tail<2>().norm() == Approx(bound).margin(1e-14));
     }
   }
 }
@@ -36,7 +41,8 @@ TEST_CASE("an open contact spring pushes nothing and forgets where it stuck", "[
 
 TEST_CASE("the tangent of a contact spring is the derivative of its force", "[materials]") {
   constexpr double h = 1e-6;
-  for (const Eigen::Vector3d& at : {Eigen::Vector3d(-0.4, 0.2, -0.1), Eigen::Vector3d(-0.1, 0.5, 0.3), Eigen::Vector3d(0.2, 0.5, 0.3)}) {
+  for (const Eigen::Vector3d& at :
+       {Eigen::Vector3d(-0.4, 0.2, -0.1), Eigen::Vector3d(-0.1, 0.5, 0.3), Eigen::Vector3d(0.2, 0.5, 0.3)}) {
     const auto response = respond(spring, at[0], at.tail<2>(), {0.05, 0.0});
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(k);

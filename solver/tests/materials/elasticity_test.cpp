@@ -73,14 +73,19 @@ TEST_CASE("a plane body does without the moduli that it does not use", "[materia
   const Elasticity without_shears = flat;
   CHECK_THROWS_AS(solid_stiffness(CellMaterial{&without_shears}, MaterialPoint()), Error);
   const CellMaterial held{&without_shears, nullptr, AcrossPlane::held};
-  CHECK((plane_strain_stiffness(held, MaterialPoint()) - plane_strain_stiffness(CellMaterial{&whole}, MaterialPoint())).norm() < 1e-9);
+  CHECK((plane_strain_stiffness(held, MaterialPoint()) - plane_strain_stiffness(CellMaterial{&whole}, MaterialPoint()))
+            .norm() < 1e-9);
   flat.young[2] = 0.0;
   const Elasticity without_any = flat;
-  CHECK_THROWS_AS(plane_strain_stiffness(CellMaterial{&without_any, nullptr, AcrossPlane::held}, MaterialPoint()), Error);
+  CHECK_THROWS_AS(plane_strain_stiffness(CellMaterial{&without_any, nullptr, AcrossPlane::held}, MaterialPoint()),
+                  Error);
   const CellMaterial free{&without_any, nullptr, AcrossPlane::free};
-  CHECK((plane_stress_stiffness(free, MaterialPoint()) - plane_stress_stiffness(CellMaterial{&whole}, MaterialPoint())).norm() < 1e-9);
+  CHECK((plane_stress_stiffness(free, MaterialPoint()) - plane_stress_stiffness(CellMaterial{&whole}, MaterialPoint()))
+            .norm() < 1e-9);
   // Stresses in the plane strain the thickness by NU_LN and NU_TN all the same.
-  CHECK((solid_compliance(free, MaterialPoint()).topLeftCorner<3, 2>() - solid_compliance(CellMaterial{&whole}, MaterialPoint()).topLeftCorner<3, 2>()).norm() < 1e-15);
+  CHECK((solid_compliance(free, MaterialPoint()).topLeftCorner<3, 2>() -
+         solid_compliance(CellMaterial{&whole}, MaterialPoint()).topLeftCorner<3, 2>())
+            .norm() < 1e-15);
 }
 
 TEST_CASE("stiffness and compliance of turned axes are inverse, and the turned law is the turned stress",
@@ -144,8 +149,10 @@ TEST_CASE("constants that would give negative energy are refused", "[materials]"
                     Catch::Contains("negative strain energy"));
 }
 
-TEST_CASE("thermal strain vanishes at the reference, and is measured on the length where expansion was", "[materials]") {
-  // L(T) = L0 (1 + a (T - 20) + b (T - 20)^2): mean coefficients a + b (T - 20) from 20, and the strain from 100 on, on L0.
+TEST_CASE("thermal strain vanishes at the reference, and is measured on the length where expansion was",
+          "[materials]") {
+  // L(T) = L0 (1 + a (T - 20) + b (T - 20)^2): mean coefficients a + b (T - 20) from 20, and the strain from 100 on, on
+  // L0.
   const double a = 1e-5;
   const double b = 4e-9;
   const auto stretch = [&](double t) { return 1 + a * (t - 20) + b * (t - 20) * (t - 20); };
@@ -198,5 +205,6 @@ TEST_CASE("a strain that is known beforehand adds to what command variables caus
   const Elasticity turned = wood;
   const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   CHECK((inelastic_strain({&turned, &axes}, at) - expected).norm() <= 1e-18);
-  CHECK_THROWS_WITH(inelastic_axial_strain(std::get<IsotropicElasticity>(steel), at), Catch::Contains("known beforehand"));
+  CHECK_THROWS_WITH(inelastic_axial_strain(std::get<IsotropicElasticity>(steel), at),
+                    Catch::Contains("known beforehand"));
 }

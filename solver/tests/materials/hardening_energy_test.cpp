@@ -19,7 +19,9 @@ double by_quadrature(const HardeningCurve& curve, double p) {
   const double h = p / pieces;
   double sum = 0.0;
   for (int k = 0; k < pieces; ++k)
-    sum += h / 6.0 * (hardening(curve, k * h).first + 4.0 * hardening(curve, (k + 0.5) * h).first + hardening(curve, (k + 1) * h).first);
+    sum += h / 6.0 *
+           (hardening(curve, k * h).first + 4.0 * hardening(curve, (k + 0.5) * h).first +
+            hardening(curve, (k + 1) * h).first);
   return sum;
 }
 
@@ -29,9 +31,11 @@ TEST_CASE("the energy of the flow is the area under R(p)") {
   const PiecewiseCurve pieces{{{0.0, 100.0}, {0.01, 150.0}, {0.03, 160.0}}, 200.0, false};
   for (const double p : {0.004, 0.02, 0.05}) {
     CHECK(hardening_energy(pieces, p) == Approx(by_quadrature(pieces, p)).epsilon(1e-6));
-    CHECK(hardening_energy(PowerCurve{120.0, 300.0, 0.3}, p) == Approx(by_quadrature(PowerCurve{120.0, 300.0, 0.3}, p)).epsilon(1e-5));
+    CHECK(hardening_energy(PowerCurve{120.0, 300.0, 0.3}, p) ==
+          Approx(by_quadrature(PowerCurve{120.0, 300.0, 0.3}, p)).epsilon(1e-5));
     CHECK(hardening_energy(saturating, p) == Approx(by_quadrature(saturating, p)).epsilon(1e-8));
-    CHECK(hardening_energy(with_plateau(saturating, 0.0151), p) == Approx(by_quadrature(with_plateau(saturating, 0.0151), p)).epsilon(1e-6));
+    CHECK(hardening_energy(with_plateau(saturating, 0.0151), p) ==
+          Approx(by_quadrature(with_plateau(saturating, 0.0151), p)).epsilon(1e-6));
   }
   CHECK(hardening_energy(saturating, 0.0) == 0.0);
   CHECK(hardening_energy(NoYield{}, 0.1) == 0.0);

@@ -37,8 +37,10 @@ TEST_CASE("the stress of rubber is the derivative of its energy, and its tangent
     direction(k / 3, k % 3) = step;
     const Vector6d strain = strain_of(h + direction) - strain_of(h - direction);
     // Central differences err by step^2 times third derivatives, which the bulk modulus sets.
-    CHECK(energy(h + direction) - energy(h - direction) == Approx(response.stress.dot(strain)).margin(1e-7 * step * rubber.bulk));
-    const Vector6d change = hyperelastic_response(rubber, h + direction).stress - hyperelastic_response(rubber, h - direction).stress;
+    CHECK(energy(h + direction) - energy(h - direction) ==
+          Approx(response.stress.dot(strain)).margin(1e-7 * step * rubber.bulk));
+    const Vector6d change =
+        hyperelastic_response(rubber, h + direction).stress - hyperelastic_response(rubber, h - direction).stress;
     CHECK((change - response.tangent * strain).cwiseAbs().maxCoeff() < 1e-7 * step * 100.0 * rubber.bulk);
   }
 }
@@ -60,7 +62,8 @@ TEST_CASE("nearly incompressible rubber is pulled as Mooney and Rivlin have it")
   }
   const double nominal = stretch * at(side).stress[0];
   // 2 (C10 + C01 / stretch) (stretch - 1 / stretch^2), but for the last compressibility.
-  CHECK(nominal == Approx(2.0 * (stiff.c10 + stiff.c01 / stretch) * (stretch - 1.0 / (stretch * stretch))).epsilon(1e-5));
+  CHECK(nominal ==
+        Approx(2.0 * (stiff.c10 + stiff.c01 / stretch) * (stretch - 1.0 / (stretch * stretch))).epsilon(1e-5));
 }
 
 TEST_CASE("rubber at rest has the moduli of small strains") {
@@ -69,7 +72,9 @@ TEST_CASE("rubber at rest has the moduli of small strains") {
   CHECK((tangent - solid_stiffness(moduli)).cwiseAbs().maxCoeff() < 1e-13 * rubber.bulk);
 }
 
-TEST_CASE("rubber in plane stress: nothing acts across, pulled one way it is the bar of three dimensions, and the tangent is the stress's") {
+TEST_CASE(
+    "rubber in plane stress: nothing acts across, pulled one way it is the bar of three dimensions, and the tangent is "
+    "the stress's") {
   const PointLaw law({Kinematics::green_lagrange, Relation::hyperelastic}, true);
   PlasticPoint constants;
   constants.hyperelasticity = &rubber;
@@ -94,7 +99,8 @@ TEST_CASE("rubber in plane stress: nothing acts across, pulled one way it is the
       const Vector6d strain = strain_of(h + direction) - strain_of(h - direction);
       const Vector6d change = at(h + direction).stress - at(h - direction).stress;
       CHECK((change - response.tangent * strain).cwiseAbs().maxCoeff() < 1e-7 * step * 100.0 * rubber.bulk);
-      CHECK(hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h + direction)) - hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h - direction)) ==
+      CHECK(hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h + direction)) -
+                hyperelastic_energy(rubber, gradient_in_plane_stress(rubber, h - direction)) ==
             Approx(response.stress.dot(strain)).margin(1e-7 * step * rubber.bulk));
     }
   }
@@ -103,7 +109,8 @@ TEST_CASE("rubber in plane stress: nothing acts across, pulled one way it is the
   bar(1, 1) = 1.0 / std::sqrt(2.0) - 1.0;
   for (int iteration = 0; iteration < 30; ++iteration) {
     const PointResponse response = at(bar);
-    bar(1, 1) = std::sqrt((1.0 + bar(1, 1)) * (1.0 + bar(1, 1)) - 2.0 * response.stress[1] / response.tangent(1, 1)) - 1.0;
+    bar(1, 1) =
+        std::sqrt((1.0 + bar(1, 1)) * (1.0 + bar(1, 1)) - 2.0 * response.stress[1] / response.tangent(1, 1)) - 1.0;
   }
   // As thick as it is wide.
   CHECK(gradient_in_plane_stress(rubber, bar)(2, 2) == Approx(bar(1, 1)).epsilon(1e-12));

@@ -49,7 +49,9 @@ TEST_CASE("small strains do not drown in the rounding of 1") {
   CHECK(LogarithmicStrain(h).strain()[0] == Approx(1e-13).epsilon(1e-10));
 }
 
-TEST_CASE("the second stress does the work of T, and its tangent is its derivative, with equal and with different stretches") {
+TEST_CASE(
+    "the second stress does the work of T, and its tangent is its derivative, with equal and with different "
+    "stretches") {
   const PointLaw law({Kinematics::logarithmic, Relation::isotropic_linear}, false);
   const PlasticPoint constants = metal();
   const Vector6d nothing = Vector6d::Zero();
@@ -75,7 +77,8 @@ TEST_CASE("the second stress does the work of T, and its tangent is its derivati
     const Matrix3d towards = step * rough(1.0).transpose();
     const Eigen::Map<const Vector6d> t(response.variables.data() + 2);
     const double own = response.stress.dot(green(h + towards) - green(h - towards));
-    const double of_logarithm = t.dot(LogarithmicStrain(h + towards).strain() - LogarithmicStrain(h - towards).strain());
+    const double of_logarithm =
+        t.dot(LogarithmicStrain(h + towards).strain() - LogarithmicStrain(h - towards).strain());
     CHECK(own == Approx(of_logarithm).epsilon(1e-6).margin(1e-9));
   }
 }

@@ -20,10 +20,13 @@ TabulatedFunction tabulate(const std::vector<double>& temperatures, Coefficient&
 
 }  // namespace
 
-TEST_CASE("what a coefficient measured elsewhere has of a stretch up to the reference drops out, between its points too", "[materials]") {
+TEST_CASE(
+    "what a coefficient measured elsewhere has of a stretch up to the reference drops out, between its points too",
+    "[materials]") {
   // From -100 on, 5e-3 up to 20 and 1e-5 a degree after it: as 1e-5 from 20 on, although the table is a hyperbola.
   const double far = -100.0;
-  const TabulatedFunction measured = tabulate({0.0, 40.0, 200.0, 1000.0}, [&](double t) { return (5e-3 + 1e-5 * (t - 20.0)) / (t - far); });
+  const TabulatedFunction measured =
+      tabulate({0.0, 40.0, 200.0, 1000.0}, [&](double t) { return (5e-3 + 1e-5 * (t - 20.0)) / (t - far); });
   TabulatedFunction exact = measured;
   exact.x.insert(exact.x.begin() + 1, 20.0);
   exact.y.insert(exact.y.begin() + 1, 5e-3 / 120.0);
@@ -45,7 +48,8 @@ TEST_CASE("near the reference a mean coefficient is the limit, by the slopes on 
   CHECK(expansion_from(0.0, measured, 20.0, 1.0).y[0] == exactly(1e-5 - 4e-9 * 20.0));  // one side alone
 }
 
-TEST_CASE("mean coefficients follow the reference of the point, and miss a temperature that is not given", "[materials]") {
+TEST_CASE("mean coefficients follow the reference of the point, and miss a temperature that is not given",
+          "[materials]") {
   const TabulatedFunction measured = tabulate({0.0, 100.0, 200.0}, [](double t) { return 1e-5 + 4e-9 * t; });
   const Property expansion = mean_expansion(measured, 20.0, 1.0);
   MaterialPoint at;

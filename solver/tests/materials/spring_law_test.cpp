@@ -13,7 +13,9 @@ namespace spring_law_test {
 /// The centre of the elastic domain, as R5.03.17 has it.
 double centre(const HardeningSpring& law, double plastic) {
   const double straight = law.slope * plastic;
-  return law.power == 0.0 ? straight : straight / std::pow(1.0 + std::pow(std::abs(straight) / law.limit, law.power), 1.0 / law.power);
+  return law.power == 0.0
+             ? straight
+             : straight / std::pow(1.0 + std::pow(std::abs(straight) / law.limit, law.power), 1.0 / law.power);
 }
 
 TEST_CASE("a bilinear spring bends at its bound and is odd") {
@@ -25,7 +27,8 @@ TEST_CASE("a bilinear spring bends at its bound and is odd") {
 
 TEST_CASE("a spring that hardens lies on its yield surface, with the derivative of its force as tangent") {
   constexpr double stiffness = 20.0;
-  for (const HardeningSpring& law : {HardeningSpring{3.0, 1.5, 0.0, 0.0}, HardeningSpring{3.0, 1.5, 2.0, 4.0}, HardeningSpring{3.0, 50.0, 7.0, 0.3}, HardeningSpring{3.0, 0.0, 0.0, 0.0}}) {
+  for (const HardeningSpring& law : {HardeningSpring{3.0, 1.5, 0.0, 0.0}, HardeningSpring{3.0, 1.5, 2.0, 4.0},
+                                     HardeningSpring{3.0, 50.0, 7.0, 0.3}, HardeningSpring{3.0, 0.0, 0.0, 0.0}}) {
     for (const double start : {0.0, 0.4, -1.0}) {
       for (const double displacement : {-30.0, -1.0, 0.1, 0.7, 4.0}) {
         const SpringResponse response = hardening_response(law, stiffness, displacement, start);
@@ -36,7 +39,9 @@ TEST_CASE("a spring that hardens lies on its yield surface, with the derivative 
         CHECK(std::abs(apart) == Approx(law.yield).epsilon(1e-12));
         CHECK((response.plastic - start) * apart > 0.0);
         constexpr double h = 1e-6;
-        const double slope = (hardening_response(law, stiffness, displacement + h, start).force - hardening_response(law, stiffness, displacement - h, start).force) / (2.0 * h);
+        const double slope = (hardening_response(law, stiffness, displacement + h, start).force -
+                              hardening_response(law, stiffness, displacement - h, start).force) /
+                             (2.0 * h);
         CHECK(response.tangent == Approx(slope).epsilon(1e-6).margin(1e-7));
       }
     }

@@ -26,7 +26,13 @@ Plasticity metal() {
   curve.right = Extension::linear;
   plasticity.traction = TractionHardening{{}, {curve}, {}, {}};
   plasticity.power = PowerHardening{yield, 0.3, 4.0};
-  plasticity.nonlinear = NonlinearHardening{.initial = yield, .slope = 500.0, .first = 120.0, .first_rate = 30.0, .power_factor = 40.0, .power_offset = 1e-3, .power = 0.4};
+  plasticity.nonlinear = NonlinearHardening{.initial = yield,
+                                            .slope = 500.0,
+                                            .first = 120.0,
+                                            .first_rate = 30.0,
+                                            .power_factor = 40.0,
+                                            .power_offset = 1e-3,
+                                            .power = 0.4};
   return plasticity;
 }
 
@@ -36,11 +42,14 @@ PlasticPoint point_of(Relation relation) {
 
 PlasticResponse step(Relation relation, const PlasticState& state, const Vector6d& increment, bool in_plane = false) {
   const PlasticPoint point = point_of(relation);
-  return in_plane ? integrate_von_mises_in_plane(point, point, state, increment) : integrate_von_mises(point, point, state, increment);
+  return in_plane ? integrate_von_mises_in_plane(point, point, state, increment)
+                  : integrate_von_mises(point, point, state, increment);
 }
 
-constexpr Relation relations[] = {Relation::elastic, Relation::isotropic_linear, Relation::isotropic_traction, Relation::isotropic_power,
-                                  Relation::isotropic_nonlinear, Relation::kinematic_linear, Relation::mixed_linear, Relation::mixed_traction};
+constexpr Relation relations[] = {
+    Relation::elastic,         Relation::isotropic_linear,    Relation::isotropic_traction,
+    Relation::isotropic_power, Relation::isotropic_nonlinear, Relation::kinematic_linear,
+    Relation::mixed_linear,    Relation::mixed_traction};
 
 /// The strain increment along x under which only the stress xx is not zero.
 PlasticResponse pull(Relation relation, const PlasticState& state, double along) {
@@ -75,7 +84,9 @@ TEST_CASE("plastic tangents are the derivatives of the stress, in space and in p
         Vector6d ahead = increment, behind = increment;
         ahead[k] += h;
         behind[k] -= h;
-        const Vector6d column = (step(relation, state, ahead, in_plane).state.stress - step(relation, state, behind, in_plane).state.stress) / (2 * h);
+        const Vector6d column = (step(relation, state, ahead, in_plane).state.stress -
+                                 step(relation, state, behind, in_plane).state.stress) /
+                                (2 * h);
         // Rounding of the stresses (some 1e-13) over h, and the third derivative (young / strain^2) times h^2.
         CHECK((column - response.tangent.col(k)).cwiseAbs().maxCoeff() < 1e-6 * young);
       }
@@ -90,10 +101,12 @@ TEST_CASE("a bar follows its traction curve, and comes back elastically") {
     const PlasticResponse pulled = pull(relation, {}, strain);
     const double expected = yield + slope * (strain - yield / young);
     CHECK(pulled.state.stress[0] == exactly(expected));
-    // Isotropic hardening yields again at minus that stress; kinematic hardening twice the first yield stress lower; both when the
-    // surface, which has grown by what it has not moved, is crossed.
+    // Isotropic hardening yields again at minus that stress; kinematic hardening twice the first yield stress lower;
+    // both when the surface, which has grown by what it has not moved, is crossed.
     const double p = strain - expected / young;
-    const double moved = relation == Relation::isotropic_linear ? 0.0 : relation == Relation::kinematic_linear ? expected - yield : 1.5 * 9e3 * p;
+    const double moved = relation == Relation::isotropic_linear   ? 0.0
+                         : relation == Relation::kinematic_linear ? expected - yield
+                                                                  : 1.5 * 9e3 * p;
     const double radius = expected - moved;
     const double back = -2.0 * radius / young;
     CHECK_FALSE(pull(relation, pulled.state, 0.999 * back).state.flowing);
@@ -162,7 +175,7 @@ TEST_CASE("what flows by a stiffer modulus alone, the strain going back, has a t
   const PlasticResponse pulled = integrate_von_mises(before, now, state, -back);
   const double shear = 0.5 * (returning.tangent(0, 0) - returning.tangent(0, 1));
   CHECK(returning.tangent(3, 3) == exactly(shear));  // isotropic: no direction of flow
-  CHECK(shear < now.shear);                         // but softened by it
+  CHECK(shear < now.shear);                          // but softened by it
   CHECK(pulled.tangent(0, 0) < 0.7 * returning.tangent(0, 0));
 }
 
@@ -181,10 +194,13 @@ TEST_CASE("a step begins with what flowed flowing on, and with its expansion hel
   CHECK(change.tail<3>().norm() == 0.0);
   CHECK(change[0] == exactly(3e-3 * before.bulk - 12e-3 * now.bulk));
   CHECK(response.state.p == state.p);
-  // With the same moduli the tangent is that of a step in which nothing moves; of what did not flow it is the elastic one.
-  CHECK(begin_von_mises(before, before, state, cold, warm).tangent.isApprox(step(Relation::mixed_linear, state, Vector6d::Zero()).tangent));
+  // With the same moduli the tangent is that of a step in which nothing moves; of what did not flow it is the elastic
+  // one.
+  CHECK(begin_von_mises(before, before, state, cold, warm)
+            .tangent.isApprox(step(Relation::mixed_linear, state, Vector6d::Zero()).tangent));
   state.flowing = false;
-  CHECK(begin_von_mises(before, before, state, cold, warm).tangent.isApprox(step(Relation::elastic, {}, Vector6d::Zero()).tangent));
+  CHECK(begin_von_mises(before, before, state, cold, warm)
+            .tangent.isApprox(step(Relation::elastic, {}, Vector6d::Zero()).tangent));
   const PlasticState flat = step(Relation::mixed_linear, {}, size_of_flow(), true).state;
   const PlasticResponse in_plane = begin_von_mises_in_plane(before, now, flat, cold, warm);
   CHECK(in_plane.state.stress[2] == 0.0);
@@ -214,25 +230,32 @@ TEST_CASE("softening comes back along its slope however steep it is in a pull, u
 
 TEST_CASE("a material that lacks what the law needs, or whose curve is off the elastic line, says so") {
   const IsotropicElasticity elasticity{young, poisson};
-  CHECK_THROWS_WITH(plastic_point(elasticity, {}, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("ECRO_LINE"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, {}, Relation::isotropic_linear, MaterialPoint()),
+                    Catch::Contains("ECRO_LINE"));
   Plasticity plasticity = metal();
   plasticity.linear->slope = 2.0 * young;
-  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_linear, MaterialPoint()), Catch::Contains("slope"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_linear, MaterialPoint()),
+                    Catch::Contains("slope"));
   plasticity.traction->curves.front().x.front() *= 1.5;
-  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint()), Catch::Contains("elastic line"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint()),
+                    Catch::Contains("elastic line"));
   plasticity = metal();
   plasticity.linear->yield = -1.0;
   for (const Relation relation : {Relation::isotropic_linear, Relation::kinematic_linear})
-    CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, relation, MaterialPoint()), Catch::Contains("the yield stress is -1,"));
+    CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, relation, MaterialPoint()),
+                      Catch::Contains("the yield stress is -1,"));
   plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = -1.0, .power = 0.5};
-  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()), Catch::Contains("not a number"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()),
+                    Catch::Contains("not a number"));
   plasticity.nonlinear->power_offset = 0.0;
   CHECK_NOTHROW(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()));
   plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = 1e-9, .power = -0.5};
-  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()), Catch::Contains("steeper than the stress can follow"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()),
+                    Catch::Contains("steeper than the stress can follow"));
   plasticity = metal();
   plasticity.prager = -10.0 * young;
-  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::mixed_linear, MaterialPoint()), Catch::Contains("moves backwards"));
+  CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::mixed_linear, MaterialPoint()),
+                    Catch::Contains("moves backwards"));
   plasticity = metal();
   plasticity.traction->curves.front().right = Extension::excluded;
   const PlasticPoint ended = plastic_point(elasticity, plasticity, Relation::isotropic_traction, MaterialPoint());

@@ -44,11 +44,13 @@ Mesh pair_of_faces() {
 TEST_CASE("a converted reference cell is the reference cell of the new type", "[mesh]") {
   using enum CellType;
   const std::vector<std::tuple<CellType, Conversion, CellType>> cases = {
-      {seg2, Conversion::to_quadratic, seg3},       {tria3, Conversion::to_quadratic, tria6},   {quad4, Conversion::to_quadratic, quad8},
-      {tetra4, Conversion::to_quadratic, tetra10},  {pyram5, Conversion::to_quadratic, pyram13}, {penta6, Conversion::to_quadratic, penta15},
-      {hexa8, Conversion::to_quadratic, hexa20},    {hexa20, Conversion::hexa20_to_27, hexa27},  {penta15, Conversion::penta15_to_18, penta18},
-      {quad8, Conversion::quad8_to_9, quad9},       {quad8, Conversion::hexa20_to_27, quad9},    {hexa27, Conversion::to_linear, hexa8},
-      {penta18, Conversion::to_linear, penta6},     {tria7, Conversion::to_linear, tria3},
+      {seg2, Conversion::to_quadratic, seg3},        {tria3, Conversion::to_quadratic, tria6},
+      {quad4, Conversion::to_quadratic, quad8},      {tetra4, Conversion::to_quadratic, tetra10},
+      {pyram5, Conversion::to_quadratic, pyram13},   {penta6, Conversion::to_quadratic, penta15},
+      {hexa8, Conversion::to_quadratic, hexa20},     {hexa20, Conversion::hexa20_to_27, hexa27},
+      {penta15, Conversion::penta15_to_18, penta18}, {quad8, Conversion::quad8_to_9, quad9},
+      {quad8, Conversion::hexa20_to_27, quad9},      {hexa27, Conversion::to_linear, hexa8},
+      {penta18, Conversion::to_linear, penta6},      {tria7, Conversion::to_linear, tria3},
       {tria6, Conversion::tria6_to_7, tria7}};
   for (const auto& [from, conversion, to] : cases) {
     CAPTURE(name_of(from), name_of(to));

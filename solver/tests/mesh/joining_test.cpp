@@ -51,7 +51,8 @@ TEST_CASE("glued meshes share the nodes of the seam, whose cells go", "[mesh]") 
 TEST_CASE("what does not coincide cannot be glued", "[mesh]") {
   const Mesh first = square(0.0);
   const Mesh second = square(1.1);
-  CHECK_THROWS_WITH(glued(first, second, first.cell_group("RIGHT"), second.cell_group("LEFT")), Catch::Contains("node A of the second mesh"));
+  CHECK_THROWS_WITH(glued(first, second, first.cell_group("RIGHT"), second.cell_group("LEFT")),
+                    Catch::Contains("node A of the second mesh"));
 }
 
 }  // namespace joining_test

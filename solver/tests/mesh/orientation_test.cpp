@@ -156,9 +156,12 @@ TEST_CASE("a solid whose nodes run inside out gets its skin outside all the same
   CHECK(enclosed(mesh, skin).first == exactly(1.0));
 }
 
-TEST_CASE("a triangle that is turned exchanges its first corner and its third; the second corner stays where contact knows it") {
+TEST_CASE(
+    "a triangle that is turned exchanges its first corner and its third; the second corner stays where contact knows "
+    "it") {
   Mesh mesh;
-  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  mesh.nodes = {{0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, 0, 0},
+                {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
   mesh.add_cell(CellType::tetra10, std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   const int linear = mesh.add_cell(CellType::tria3, std::vector{1, 2, 0});
   const int quadratic = mesh.add_cell(CellType::tria6, std::vector{1, 2, 0, 5, 6, 4});
@@ -253,7 +256,8 @@ TEST_CASE("the segments of a line follow each other from the end that is asked f
   Mesh mesh;
   for (int i = 0; i < 5; ++i) mesh.nodes.push_back({1.0 * i, 0.3 * i * i, 0.0});
   std::vector<int> cells;
-  for (int i = 0; i < 4; ++i) cells.push_back(mesh.add_cell(CellType::seg2, i % 2 == 0 ? std::vector{i, i + 1} : std::vector{i + 1, i}));
+  for (int i = 0; i < 4; ++i)
+    cells.push_back(mesh.add_cell(CellType::seg2, i % 2 == 0 ? std::vector{i, i + 1} : std::vector{i + 1, i}));
   CHECK(unlike_neighbours(mesh, cells));
   CHECK(orient_lines(mesh, cells, OrientationSeed{4, {-1.0, 0.0, 0.0}}) == 2);
   CHECK_FALSE(unlike_neighbours(mesh, cells));

@@ -64,8 +64,13 @@ bool is_straight(const Mesh& mesh) {
     const auto edges = middle_edges(mesh.cell_types[cell]);
     for (std::size_t e = 0; e < edges.size(); ++e)
       for (int axis = 0; axis < 3; ++axis) {
-        const auto at = [&](int local) { return mesh.nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])][static_cast<std::size_t>(axis)]; };
-        if (std::abs(at(corner_count(mesh.cell_types[cell]) + static_cast<int>(e)) - 0.5 * (at(edges[e][0]) + at(edges[e][1]))) > 1e-14) return false;
+        const auto at = [&](int local) {
+          return mesh
+              .nodes[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])][static_cast<std::size_t>(axis)];
+        };
+        if (std::abs(at(corner_count(mesh.cell_types[cell]) + static_cast<int>(e)) -
+                     0.5 * (at(edges[e][0]) + at(edges[e][1]))) > 1e-14)
+          return false;
       }
   }
   return true;
@@ -125,7 +130,8 @@ TEST_CASE("Four quadrangles fill the one behind a slave line, around one below i
   const std::vector<Point> expected = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2.5, 1, 0}};
   for (const Point& at : expected) {
     CAPTURE(at[0], at[1]);
-    CHECK(std::ranges::any_of(mesh.nodes, [&](const Point& node) { return std::hypot(node[0] - at[0], node[1] - at[1]) < 1e-14; }));
+    CHECK(std::ranges::any_of(mesh.nodes,
+                              [&](const Point& node) { return std::hypot(node[0] - at[0], node[1] - at[1]) < 1e-14; }));
   }
   CHECK(volume(mesh) == Approx(signed_size(whole, 0)).epsilon(1e-14));
 }
@@ -161,7 +167,9 @@ TEST_CASE("The centre of a bent quadratic face and what leads to it lie on the s
     for (const Point& node : mesh.nodes) lowest = std::min(lowest, node[2]);
     int face = -1;
     for (int cell = 1; cell < mesh.cell_count(); ++cell)
-      if (std::ranges::all_of(mesh.cell(cell), [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)][2] == lowest; })) face = cell;
+      if (std::ranges::all_of(mesh.cell(cell),
+                              [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)][2] == lowest; }))
+        face = cell;
     REQUIRE(face > 0);
     for (Point& node : mesh.nodes)
       if (node[2] == lowest) node[2] += height(node[0], node[1]);

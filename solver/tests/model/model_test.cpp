@@ -17,8 +17,8 @@ Model sample_model() {
   mesh->add_cell(CellType::poi1, std::array{2});
   mesh->add_cell(CellType::poi1, std::array{3});
   return {mesh,
-          {Formulation::plane_strain, Formulation::plane_strain, Formulation::spring_2d, Formulation::spring_rotation_2d,
-           Formulation::plane_strain}};
+          {Formulation::plane_strain, Formulation::plane_strain, Formulation::spring_2d,
+           Formulation::spring_rotation_2d, Formulation::plane_strain}};
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ struct Cantilever {
       scene.impose({row.front()}, Component::dy, 0.0);
     }
     scene.impose({block.nodes[1].back()}, Component::dy, -5.0, true);
-    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::green_lagrange});
+    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(
+        static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::green_lagrange});
   }
 
   /// DX of the tip at the last instant.

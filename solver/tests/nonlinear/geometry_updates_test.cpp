@@ -66,7 +66,8 @@ TEST_CASE("A geometry that goes to and fro within what is tolerated is settled, 
     corner.contact.restless_tolerance = tolerated;
     GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
     bool settled = false;
-    for (int update = 0; update < 50 && !settled; ++update) settled = updates.settled(corner.at(1.0 + hop * (update % 2)), corner.at(1.0 + hop * (1 - update % 2)));
+    for (int update = 0; update < 50 && !settled; ++update)
+      settled = updates.settled(corner.at(1.0 + hop * (update % 2)), corner.at(1.0 + hop * (1 - update % 2)));
     CHECK(settled == ends);
     CHECK(updates.restless() == Approx(ends ? hop : 0.0).epsilon(2e-3));
   }
@@ -74,7 +75,8 @@ TEST_CASE("A geometry that goes to and fro within what is tolerated is settled, 
   corner.contact.restless_tolerance = 0.01;
   GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
   double hop = 1e-3;
-  for (int update = 0; update < 100; ++update, hop *= 0.92) REQUIRE_FALSE(updates.settled(corner.at(1.0), corner.at(1.0 + hop)));
+  for (int update = 0; update < 100; ++update, hop *= 0.92)
+    REQUIRE_FALSE(updates.settled(corner.at(1.0), corner.at(1.0 + hop)));
 }
 
 TEST_CASE("Updates that overshoot are relaxed, those that come to rest by themselves are not") {
@@ -103,7 +105,8 @@ TEST_CASE("Updates that come nearer to rest are accelerated where many digits ar
   MovingCorner corner;
   corner.contact.max_geometry_updates = 100;
   const Eigen::VectorXd start = corner.at(0.0);
-  const int x = corner.dofs.dof(corner.block.nodes[0][0], Component::dx), y = corner.dofs.dof(corner.block.nodes[0][0], Component::dy);
+  const int x = corner.dofs.dof(corner.block.nodes[0][0], Component::dx),
+            y = corner.dofs.dof(corner.block.nodes[0][0], Component::dy);
   const auto count_updates = [&](double tolerance) {
     corner.contact.geometry_tolerance = tolerance;
     GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
@@ -164,6 +167,7 @@ TEST_CASE("Updates that run out tell of facets that return in turn, or of a geom
       CHECK_FALSE(updates.settled(corner.at(before), corner.at(1.0 - before)));
       updates.note_cycle(facing(cycles ? update % 2 : update));
     }
-    CHECK_THROWS_WITH(updates.require_more(1.0), Catch::Contains(cycles ? "return in turn" : "did not settle within 4 updates"));
+    CHECK_THROWS_WITH(updates.require_more(1.0),
+                      Catch::Contains(cycles ? "return in turn" : "did not settle within 4 updates"));
   }
 }

@@ -19,8 +19,11 @@ struct Press {
   Scene::Block below, above;
 
   explicit Press(bool jointly, bool flows = true)
-      : below(scene.block("b", {0, 0}, {3, 1}, 6, 2, young, 0.0)), above(scene.block("a", {0, 1}, {3, 1}, 5, 2, 10 * young, 0.0)) {
-    const auto is_metal = [&](std::size_t cell) { return scene.mesh->cell_name(static_cast<int>(cell)).front() == 'b'; };
+      : below(scene.block("b", {0, 0}, {3, 1}, 6, 2, young, 0.0)),
+        above(scene.block("a", {0, 1}, {3, 1}, 5, 2, 10 * young, 0.0)) {
+    const auto is_metal = [&](std::size_t cell) {
+      return scene.mesh->cell_name(static_cast<int>(cell)).front() == 'b';
+    };
     auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
     BehaviourOfCells behaviours(materials->by_cell.size());
     for (std::size_t cell = 0; cell < behaviours.size(); ++cell) {
@@ -47,7 +50,8 @@ struct Press {
   }
 
   /// How deep the nodes along the contact have sunk in the end.
-  std::vector<double> solve(const std::vector<double>& instants, int most_iterations, int depth, double residual = 1e-11) {
+  std::vector<double> solve(const std::vector<double>& instants, int most_iterations, int depth,
+                            double residual = 1e-11) {
     StepPlan plan(instants);
     plan.cutting = StepCutting{};
     plan.cutting->depth = depth;
@@ -77,7 +81,9 @@ TEST_CASE("Statuses and geometry within the iterations on the bodies lead where 
   CHECK(joint.scene.counters.newton_iterations < settled.scene.counters.newton_iterations);
 }
 
-TEST_CASE("A step on whose way statuses swing to and fro is cut, and solved with contact settled in each iteration where it may not be") {
+TEST_CASE(
+    "A step on whose way statuses swing to and fro is cut, and solved with contact settled in each iteration where it "
+    "may not be") {
   const std::vector<double> instants = {0.0, 0.5, 1.0};
   Press settled(false), cut(true), whole(true);
   const std::vector<double> reference = settled.solve(instants, 20, 0);
@@ -102,7 +108,9 @@ TEST_CASE("Joint iterations of elastic bodies end where the geometry is at rest 
   CHECK(until_at_rest < 30);  // no step was begun again
 }
 
-TEST_CASE("A step of elastic bodies that joint iterations do not solve is not cut: contact is settled within each iteration") {
+TEST_CASE(
+    "A step of elastic bodies that joint iterations do not solve is not cut: contact is settled within each "
+    "iteration") {
   const std::vector<double> instants = {0.0, 0.5, 1.0};
   Press joint(true, false);
   check_same(joint.solve(instants, 2, 3), Press(false, false).solve(instants, 20, 0));

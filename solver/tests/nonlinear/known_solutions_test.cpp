@@ -52,7 +52,8 @@ TEST_CASE("The solution that was used longest ago is the first to be forgotten")
     Eigen::VectorXd load = Eigen::VectorXd::Unit(size, row);
     return known.take(load, row_sizes);
   };
-  for (int row = 0; row < 4; ++row) known.add(Eigen::VectorXd::Unit(size, row), matrix.llt().solve(Eigen::VectorXd::Unit(size, row)));
+  for (int row = 0; row < 4; ++row)
+    known.add(Eigen::VectorXd::Unit(size, row), matrix.llt().solve(Eigen::VectorXd::Unit(size, row)));
   REQUIRE(knows(0));
   known.add(Eigen::VectorXd::Unit(size, 4), matrix.llt().solve(Eigen::VectorXd::Unit(size, 4)));
   CHECK(knows(0));

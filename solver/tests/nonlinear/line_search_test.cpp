@@ -13,7 +13,10 @@ using comma::solver::testing::Scene;
 TEST_CASE("the line search leaves a full step that is good enough, and finds where work vanishes") {
   LineSearch options;
   int calls = 0;
-  CHECK(search_line(options, 1.0, [&](double rho) { ++calls; return 1.0 - rho + 0.05; }) == 1.0);
+  CHECK(search_line(options, 1.0, [&](double rho) {
+          ++calls;
+          return 1.0 - rho + 0.05;
+        }) == 1.0);
   CHECK(calls == 1);
   options.tolerance = 1e-8;
   options.max_iterations = 50;
@@ -33,15 +36,20 @@ TEST_CASE("the line search keeps to its bounds and comes back from where the law
     return 1.0 - 2.0 * at;
   });
   CHECK(rho == exactly(0.5));
-  CHECK_THROWS_WITH(search_line(options, 1.0, [](double) -> double { throw Error("integration-failure", "nowhere"); }), "nowhere");
+  CHECK_THROWS_WITH(search_line(options, 1.0, [](double) -> double { throw Error("integration-failure", "nowhere"); }),
+                    "nowhere");
 }
 
-TEST_CASE("while a line is searched, loads that follow stay as they were: the solution is the same, and the way to it longer") {
+TEST_CASE(
+    "while a line is searched, loads that follow stay as they were: the solution is the same, and the way to it "
+    "longer") {
   // A block is drawn by a traction that turns and grows with its upper side.
   const auto solve = [](std::optional<LineSearch> search) {
     Scene scene;
     const Scene::Block block = scene.block("b", {0, 0}, {3, 0.6}, 6, 2, 1000.0, 0.3);
-    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::green_lagrange, Relation::elastic});
+    scene.problem.behaviours =
+        std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()),
+                                                 CellBehaviour{Kinematics::green_lagrange, Relation::elastic});
     for (const Component component : {Component::dx, Component::dy}) scene.impose(block.nodes.front(), component, 0.0);
     auto traction = std::make_shared<Load>();
     for (const int cell : block.top) traction->pressures.push_back({cell, -600.0, 0.0, {}, {}});

@@ -136,7 +136,8 @@ TEST_CASE("linear statics takes no unilateral conditions", "[linear-statics]") {
   CHECK_THROWS_WITH(solve(plate.scene.problem, {0.0}), Catch::Contains("unilateral"));
 }
 
-TEST_CASE("linear statics without a test of pivots: loads that nothing bears are told by what is out of balance", "[linear-statics]") {
+TEST_CASE("linear statics without a test of pivots: loads that nothing bears are told by what is out of balance",
+          "[linear-statics]") {
   Scene scene;
   const auto block = scene.block("b", {0, 0}, {4, 2}, 4, 2, young, poisson);
   for (const auto& row : block.nodes) scene.impose({row.front()}, Component::dx, 0.0);
@@ -147,7 +148,8 @@ TEST_CASE("linear statics without a test of pivots: loads that nothing bears are
   CHECK_NOTHROW(solve_linear_static(scene.problem, std::array{0.0}, options, solved.result, solved.counters));
   CHECK(value(solved.result, 0, "SIEF_ELGA", 0, "SIXX") > 0.0);
   scene.force(block.nodes[1].back(), Component::dy, 1e6);
-  CHECK_THROWS_WITH(solve_linear_static(scene.problem, std::array{1.0}, options, solved.result, solved.counters), Catch::Contains("out of balance"));
+  CHECK_THROWS_WITH(solve_linear_static(scene.problem, std::array{1.0}, options, solved.result, solved.counters),
+                    Catch::Contains("out of balance"));
 }
 
 TEST_CASE("a stiffness that is not positive definite is counted", "[linear-statics]") {

@@ -100,13 +100,18 @@ class Stack {
             if (k == n - 1) add(name + "_TOP", CellType::seg2, {corner(1, 0, 1), corner(0, 0, 1)});
             continue;
           }
-          solid_cells(name, {corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0), corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)});
-          if (k == 0) face_cells(name + "_BOTTOM", {corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0)});
-          if (k == n - 1) face_cells(name + "_TOP", {corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)});
+          solid_cells(name, {corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0), corner(0, 0, 1),
+                             corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)});
+          if (k == 0)
+            face_cells(name + "_BOTTOM", {corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0)});
+          if (k == n - 1)
+            face_cells(name + "_TOP", {corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)});
         }
   }
 
-  void add(const std::string& group, CellType type, const std::vector<int>& nodes) { mesh_.cell_groups[group].push_back(mesh_.add_cell(type, nodes)); }
+  void add(const std::string& group, CellType type, const std::vector<int>& nodes) {
+    mesh_.cell_groups[group].push_back(mesh_.add_cell(type, nodes));
+  }
 
   /// The diagonal of a quadrangle from its first corner to its third: that of the tetrahedra.
   void face_cells(const std::string& group, const std::array<int, 4>& n) {
@@ -118,7 +123,8 @@ class Stack {
   /// Six tetrahedra around the diagonal of the cube (Kuhn).
   void solid_cells(const std::string& group, const std::array<int, 8>& n) {
     if (!is_simplex_) return add(group, CellType::hexa8, {n.begin(), n.end()});
-    for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3), std::pair(3, 7), std::pair(7, 4), std::pair(4, 5), std::pair(5, 1)})
+    for (const auto& [a, b] :
+         {std::pair(1, 2), std::pair(2, 3), std::pair(3, 7), std::pair(7, 4), std::pair(4, 5), std::pair(5, 1)})
       add(group, CellType::tetra4, {n[0], n[static_cast<std::size_t>(a)], n[static_cast<std::size_t>(b)], n[6]});
   }
 
@@ -169,7 +175,8 @@ void check_uniform(const Result& result, const char* vertical_stress) {
   }
   CHECK(count > 0);
   const auto& state = std::get<ElementField>(last.fields.at("CONT_ELEM"));
-  for (std::size_t i = static_cast<std::size_t>(state.component("COEFSURF")); i < state.values.size(); i += state.components.size())
+  for (std::size_t i = static_cast<std::size_t>(state.component("COEFSURF")); i < state.values.size();
+       i += state.components.size())
     CHECK(state.values[i] == Approx(1.0).epsilon(1e-10));
 }
 

@@ -34,7 +34,8 @@ struct Stack {
   Scene::Block lower, upper;
 
   Stack(int below, int above, double gap = 0.0)
-      : lower(scene.block("l", {0, 0}, {3, 1}, below, 2, 2e5, 0.0)), upper(scene.block("u", {0, 1 + gap}, {3, 1}, above, 2, 2e5, 0.0)) {
+      : lower(scene.block("l", {0, 0}, {3, 1}, below, 2, 2e5, 0.0)),
+        upper(scene.block("u", {0, 1 + gap}, {3, 1}, above, 2, 2e5, 0.0)) {
     for (const int node : lower.nodes.front()) scene.impose({node}, Component::dy, 0);
     scene.impose({lower.nodes[0][0]}, Component::dx, 0);
     scene.zone(lower.top, upper.bottom);
@@ -48,7 +49,8 @@ TEST_CASE("Mixed contact: uniform compression crosses matching meshes as a unifo
   Stack stack(4, 4);
   stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
   stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
-  for (const ContactRule rule : {ContactRule::automatic, ContactRule::gauss, ContactRule::simpson, ContactRule::newton_cotes}) {
+  for (const ContactRule rule :
+       {ContactRule::automatic, ContactRule::gauss, ContactRule::simpson, ContactRule::newton_cotes}) {
     stack.scene.problem.contact->zones.front().mixed.rule = rule;
     stack.scene.result = {};
     stack.scene.solve(1);
@@ -73,7 +75,8 @@ TEST_CASE("Mixed contact: the load that one side gives the other takes, on meshe
 TEST_CASE("Mixed contact holds a block that nothing else holds, and lets it go again") {
   Stack stack(4, 4, 0.1);
   stack.scene.impose({stack.upper.nodes[0][0], stack.upper.nodes[2][0]}, Component::dx, 0);
-  for (std::size_t i = 0; i < 5; ++i) stack.scene.force(stack.upper.nodes.back()[i], Component::dy, i == 0 || i == 4 ? -75 : -150);
+  for (std::size_t i = 0; i < 5; ++i)
+    stack.scene.force(stack.upper.nodes.back()[i], Component::dy, i == 0 || i == 4 ? -75 : -150);
   stack.scene.solve(1);
   for (const int node : stack.upper.nodes[0]) {
     CHECK(pressure(stack.scene, node) == Approx(200.0).epsilon(1e-8));
@@ -87,7 +90,9 @@ TEST_CASE("Mixed contact: a failure names what nothing but contact holds") {
     stack.scene.force(node, Component::dx, 10.0);
     stack.scene.force(node, Component::dy, -100.0);
   }
-  CHECK_THROWS_WITH(stack.scene.solve(1), Catch::Contains("but for contact nothing holds") && Catch::Contains("translation along X, translation along Y, rotation about Z"));
+  CHECK_THROWS_WITH(stack.scene.solve(1),
+                    Catch::Contains("but for contact nothing holds") &&
+                        Catch::Contains("translation along X, translation along Y, rotation about Z"));
 }
 
 TEST_CASE("Newton's method: a limit below rounding is told from a slow residual") {
@@ -98,7 +103,8 @@ TEST_CASE("Newton's method: a limit below rounding is told from a slow residual"
     last.absolute_residual = absolute;
     return std::vector{first, last};
   };
-  CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-15, 5e-6), {}, {}), Catch::Contains("more than rounding allows"));
+  CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-15, 5e-6), {}, {}),
+                    Catch::Contains("more than rounding allows"));
   CHECK_THROWS_WITH(throw_no_convergence(1.0, after(5e-5, 5e4), {}, {}), Catch::Contains("shrinks too slowly"));
   const auto iterations = [](double ratio) {
     std::vector<IterationReport> history(20);
@@ -116,7 +122,8 @@ TEST_CASE("Newton's method: a limit below rounding is told from a slow residual"
 
 TEST_CASE("Newton's method: iterations that go to and fro are told from slow ones") {
   std::vector<IterationReport> history(10);
-  for (std::size_t k = 0; k < history.size(); ++k) history[k].relative_residual = history[k].absolute_residual = k % 2 == 0 ? 0.12 : 0.086;
+  for (std::size_t k = 0; k < history.size(); ++k)
+    history[k].relative_residual = history[k].absolute_residual = k % 2 == 0 ? 0.12 : 0.086;
   CHECK_THROWS_WITH(throw_no_convergence(1.0, history, {}, {}), Catch::Contains("to and fro"));
   std::vector<IterationReport> resting = history;
   for (IterationReport& line : resting) line.absolute_residual = history.front().absolute_residual;
@@ -157,7 +164,8 @@ TEST_CASE("A penalty that lets points too deep is raised until they are not, and
     mixed.augmentation = 1e5;
     mixed.largest_depth = allowed;
     stack.scene.solve(2);
-    return stack.scene.displacement(stack.lower.nodes.back()[1], Component::dy) - stack.scene.displacement(stack.upper.nodes[0][1], Component::dy);
+    return stack.scene.displacement(stack.lower.nodes.back()[1], Component::dy) -
+           stack.scene.displacement(stack.upper.nodes[0][1], Component::dy);
   };
   // In series: strain (0.02 - depth) / 2, pressure 1e5 (0.02 - depth) = 1e5 depth.
   CHECK(depth(std::nullopt) == Approx(0.01).epsilon(1e-9));
@@ -246,7 +254,8 @@ TEST_CASE("With a penalty of friction what sticks creeps by its share of the lim
 }
 
 TEST_CASE("Between nodes the law of friction holds in the mean, of shares of its limit") {
-  // Nodes on a rigid floor, pressed alike, dragged less and less: the first slide, the last stick, and one face does both.
+  // Nodes on a rigid floor, pressed alike, dragged less and less: the first slide, the last stick, and one face does
+  // both.
   constexpr int faces = 3;
   Scene scene;
   const auto floor = scene.block("g", {-1, -1}, {8, 1}, 1, 1, 2e5, 0.0);
@@ -263,7 +272,8 @@ TEST_CASE("Between nodes the law of friction holds in the mean, of shares of its
   }
   for (int i = 0; i < faces; ++i) {
     const auto first = static_cast<std::size_t>(i);
-    slave.push_back(scene.cell("f" + std::to_string(i), CellType::seg2, {nodes[first + 1], nodes[first]}, Formulation::plane_strain));
+    slave.push_back(scene.cell("f" + std::to_string(i), CellType::seg2, {nodes[first + 1], nodes[first]},
+                               Formulation::plane_strain));
   }
   ContactZone& zone = scene.zone(floor.top, slave);
   zone.master_normal = NormalRule::fixed;
@@ -284,7 +294,8 @@ TEST_CASE("Between nodes the law of friction holds in the mean, of shares of its
       for (std::size_t i = 0; i < own.size(); ++i) {
         pressed += shape[i] * pressure(scene, own[i]);
         share += shape[i] * shear_share(scene, own[i]);
-        slip -= shape[i] * scene.displacement(own[i], Component::dx);  // along the tangent, the normal turned by a right angle
+        slip -= shape[i] *
+                scene.displacement(own[i], Component::dx);  // along the tangent, the normal turned by a right angle
       }
       const double trial = share + zone.mixed.friction_augmentation * slip;
       const double cut = std::clamp(trial, -1.0, 1.0);
@@ -316,7 +327,8 @@ TEST_CASE("A slave node that is held where it lies carries no pressure and does 
 }
 
 TEST_CASE("A load that is lost in the rounding of displacements is no balance") {
-  // Nothing but springs of 1e-15 of its stiffness hold the block: displacements are 1e15 times what the load strains, and no double tells.
+  // Nothing but springs of 1e-15 of its stiffness hold the block: displacements are 1e15 times what the load strains,
+  // and no double tells.
   Scene scene;
   const auto block = scene.block("b", {0, 0}, {1, 1}, 2, 2, 1e6, 0.0);
   scene.ground_spring("k", block.nodes[0][0], 1e-9, 1e-9);
@@ -364,7 +376,8 @@ TEST_CASE("Thickness on either side closes the gap by as much") {
     stack.scene.problem.contact->formulation = formulation;
     stack.scene.result = {};
     stack.scene.solve(1);
-    for (const int node : stack.upper.nodes[0]) CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
+    for (const int node : stack.upper.nodes[0])
+      CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
   }
 }
 
@@ -404,7 +417,8 @@ TEST_CASE("A guided surface pulls where free contact would open") {
 }
 
 TEST_CASE("Points of a guided surface close where the step has taken the bodies") {
-  // The upper block comes down tilted: its left end closes in the first step, the rest in the second. Any geometry is settled at once.
+  // The upper block comes down tilted: its left end closes in the first step, the rest in the second. Any geometry is
+  // settled at once.
   std::vector<int> pairings;
   for (const bool guided : {false, true}) {
     Stack stack(6, 6, 0.015);
@@ -413,7 +427,8 @@ TEST_CASE("Points of a guided surface close where the step has taken the bodies"
     scene.problem.contact->geometry_tolerance = 1e3;
     scene.impose({stack.upper.nodes.back()[0]}, Component::dx, 0);
     for (std::size_t column = 0; column <= 6; ++column)
-      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, -0.02 + 0.002 * static_cast<double>(column), true);
+      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, -0.02 + 0.002 * static_cast<double>(column),
+                   true);
     scene.solve(1);
     CHECK(scene.contact(stack.upper.nodes[0].front(), "CONT") == 2.0);
     CHECK(scene.contact(stack.upper.nodes[0].back(), "CONT") == 0.0);
@@ -436,7 +451,8 @@ TEST_CASE("Nodes paired with nodes transmit a uniform pressure on matching meshe
   stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
   stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
   stack.scene.solve(1);
-  for (const int node : stack.upper.nodes[0]) CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
+  for (const int node : stack.upper.nodes[0])
+    CHECK(stack.scene.displacement(node, Component::dy) == Approx(-0.01).epsilon(1e-9));
 }
 
 TEST_CASE("A long contact that slides takes few solutions a step, whatever the formulation") {
@@ -449,7 +465,8 @@ TEST_CASE("A long contact that slides takes few solutions a step, whatever the f
     scene.problem.contact->formulation = formulation;
     scene.impose(stack.upper.nodes.back(), Component::dx, 0.001, true);  // a tenth of a cell a step
     for (std::size_t column = 0; column <= above; ++column)
-      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, 0.01 - 0.02 * static_cast<double>(column) / above, true);
+      scene.impose({stack.upper.nodes.back()[column]}, Component::dy, 0.01 - 0.02 * static_cast<double>(column) / above,
+                   true);
     scene.solve(4);
     double sum = 0.0, deepest = 0.0, open = 0.0;
     for (const int node : stack.upper.nodes[0]) {
@@ -474,7 +491,8 @@ TEST_CASE("A long contact that slides takes few solutions a step, whatever the f
 }
 
 TEST_CASE("Between nodes the law of contact holds in the mean, with one augmentation for all points of a face") {
-  // Quadratic faces on springs above a rigid floor, loaded so that they touch in the middle alone. Each third point lies on a middle node.
+  // Quadratic faces on springs above a rigid floor, loaded so that they touch in the middle alone. Each third point
+  // lies on a middle node.
   Scene scene;
   const auto floor = scene.block("g", {-1, -1}, {8, 1}, 1, 1, 2e5, 0.0);
   for (const auto& row : floor.nodes) scene.impose(row, Component::dx, 0), scene.impose(row, Component::dy, 0);
@@ -489,7 +507,8 @@ TEST_CASE("Between nodes the law of contact holds in the mean, with one augmenta
   }
   for (int i = 0; i < faces; ++i) {
     const std::size_t first = 2 * static_cast<std::size_t>(i);
-    slave.push_back(scene.cell("f" + std::to_string(i), CellType::seg3, {nodes[first], nodes[first + 2], nodes[first + 1]}, Formulation::plane_strain));
+    slave.push_back(scene.cell("f" + std::to_string(i), CellType::seg3,
+                               {nodes[first], nodes[first + 2], nodes[first + 1]}, Formulation::plane_strain));
   }
   ContactZone& zone = scene.zone(floor.top, slave);
   zone.master_normal = NormalRule::fixed;  // heights are gaps

@@ -13,9 +13,12 @@ using comma::solver::testing::Scene;
 
 namespace {
 
-double intensity(const Scene& scene, std::size_t step) { return scene.result.steps[step].parameters.at("ETA_PILOTAGE"); }
+double intensity(const Scene& scene, std::size_t step) {
+  return scene.result.steps[step].parameters.at("ETA_PILOTAGE");
+}
 
-/// Two springs of 100 and 50 along x and y from a node to the ground. A force of (3, 4) on it is driven, one of (6, 0) stands still.
+/// Two springs of 100 and 50 along x and y from a node to the ground. A force of (3, 4) on it is driven, one of (6, 0)
+/// stands still.
 struct Springs {
   Scene scene;
   int node;
@@ -34,7 +37,8 @@ struct Springs {
   }
 };
 
-/// A bar of metal, pulled by a driven stress of 1; nu = 0 and the sides are free, so that it is pulled as a bar until it flows.
+/// A bar of metal, pulled by a driven stress of 1; nu = 0 and the sides are free, so that it is pulled as a bar until
+/// it flows.
 struct Metal {
   static constexpr double young = 1000.0;
   static constexpr double yield = 5.0;
@@ -51,11 +55,14 @@ struct Metal {
       material = std::make_shared<const Material>(metal);
     }
     scene.problem.materials = materials;
-    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::small, Relation::isotropic_linear});
+    scene.problem.behaviours =
+        std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()),
+                                                 CellBehaviour{Kinematics::small, Relation::isotropic_linear});
     scene.impose(block.nodes.front(), Component::dy, 0.0);
     scene.impose({block.nodes[0][0]}, Component::dx, 0.0);
     auto driven = std::make_shared<Load>();
-    for (const int node : block.nodes.back()) driven->nodal_forces.push_back({.node = node, .component = Component::dy, .value = 0.5, .function = {}});
+    for (const int node : block.nodes.back())
+      driven->nodal_forces.push_back({.node = node, .component = Component::dy, .value = 0.5, .function = {}});
     scene.problem.driven.push_back({driven, {}});
     options.path.emplace();
     options.relative_residual = 1e-8;
@@ -71,7 +78,8 @@ TEST_CASE("Path following: the intensity that moves one displacement by the leng
   for (const std::size_t step : {1u, 2u, 3u}) {
     const double x = 0.1 * static_cast<double>(step) * 50.0 / 4.0;
     CHECK(intensity(springs.scene, step) == Approx(x).epsilon(1e-12));
-    CHECK(springs.scene.displacement(springs.node, Component::dx, static_cast<int>(step)) == Approx((6.0 + 3.0 * x) / 100.0).epsilon(1e-12));
+    CHECK(springs.scene.displacement(springs.node, Component::dx, static_cast<int>(step)) ==
+          Approx((6.0 + 3.0 * x) / 100.0).epsilon(1e-12));
   }
   CHECK(springs.scene.counters.factorisations == 1);
 }
@@ -84,10 +92,13 @@ TEST_CASE("Path following by arc length: the increment of a node has the length 
   springs.options.path->scale = 5.0;
   springs.scene.solve(4, springs.options);
   for (const int step : {1, 2, 3, 4}) {
-    const double dx = springs.scene.displacement(springs.node, Component::dx, step) - springs.scene.displacement(springs.node, Component::dx, step - 1);
-    const double dy = springs.scene.displacement(springs.node, Component::dy, step) - springs.scene.displacement(springs.node, Component::dy, step - 1);
+    const double dx = springs.scene.displacement(springs.node, Component::dx, step) -
+                      springs.scene.displacement(springs.node, Component::dx, step - 1);
+    const double dy = springs.scene.displacement(springs.node, Component::dy, step) -
+                      springs.scene.displacement(springs.node, Component::dy, step - 1);
     CHECK(std::hypot(dx, dy) == Approx(0.2).epsilon(1e-12));
-    CHECK(intensity(springs.scene, static_cast<std::size_t>(step)) > intensity(springs.scene, static_cast<std::size_t>(step) - 1));
+    CHECK(intensity(springs.scene, static_cast<std::size_t>(step)) >
+          intensity(springs.scene, static_cast<std::size_t>(step) - 1));
   }
 }
 
@@ -166,9 +177,11 @@ TEST_CASE("Path following goes on where the load hardly does: plastic flow of a 
   metal.scene.solve(20, metal.options);
   CHECK(intensity(metal.scene, 1) == Approx(4.0).epsilon(1e-10));
   CHECK(metal.scene.displacement(metal.block.nodes[1][1], Component::dy) == Approx(0.08).epsilon(1e-9));
-  // Flow without a change of volume: the stress along z tends to half of that along y, which is 2 / sqrt(3) of the yield stress then.
+  // Flow without a change of volume: the stress along z tends to half of that along y, which is 2 / sqrt(3) of the
+  // yield stress then.
   const auto& variables = std::get<ElementField>(metal.scene.result.steps.back().fields.at("VARI_ELGA"));
-  const double now = Metal::yield + Metal::young * 0.1 / (Metal::young - 0.1) * variables.at(0, 0, variables.component("V1"));
+  const double now =
+      Metal::yield + Metal::young * 0.1 / (Metal::young - 0.1) * variables.at(0, 0, variables.component("V1"));
   CHECK(intensity(metal.scene, 20) == Approx(2.0 / std::sqrt(3.0) * now).epsilon(1e-4));
 }
 
@@ -191,8 +204,10 @@ TEST_CASE("Path following from rest into plastic flow: the smaller increment of 
   along.scene.solve(20, along.options);
   for (std::size_t step = 1; step <= 20; ++step) {
     const int now = static_cast<int>(step);
-    const double dx = along.scene.displacement(node, Component::dx, now) - along.scene.displacement(node, Component::dx, now - 1);
-    const double dy = along.scene.displacement(node, Component::dy, now) - along.scene.displacement(node, Component::dy, now - 1);
+    const double dx =
+        along.scene.displacement(node, Component::dx, now) - along.scene.displacement(node, Component::dx, now - 1);
+    const double dy =
+        along.scene.displacement(node, Component::dy, now) - along.scene.displacement(node, Component::dy, now - 1);
     CHECK(std::hypot(dx, dy) == Approx(0.004).epsilon(1e-9));
     CHECK(intensity(along.scene, step) > intensity(along.scene, step - 1));
   }

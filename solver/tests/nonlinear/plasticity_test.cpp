@@ -18,7 +18,8 @@ constexpr double young = 1000.0;
 constexpr double yield = 5.0;
 constexpr double slope = 100.0;
 
-/// A square of metal in plane strain (nu = 0, so that it is pulled as a bar) of four cells, whose top moves by `lift` times t.
+/// A square of metal in plane strain (nu = 0, so that it is pulled as a bar) of four cells, whose top moves by `lift`
+/// times t.
 struct Square {
   Scene scene;
   Scene::Block block;
@@ -33,7 +34,8 @@ struct Square {
       material = std::make_shared<const Material>(metal);
     }
     scene.problem.materials = materials;
-    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), behaviour);
+    scene.problem.behaviours =
+        std::make_shared<const BehaviourOfCells>(static_cast<std::size_t>(scene.mesh->cell_count()), behaviour);
     scene.impose(block.nodes.front(), Component::dy, 0.0);
     for (const auto& row : block.nodes) scene.impose({row.front()}, Component::dx, 0.0);
     scene.impose(block.nodes.back(), Component::dy, lift, true);
@@ -92,8 +94,11 @@ TEST_CASE("which stiffness the iterations take changes the way, not the solution
   CHECK(expected > yield);
 }
 
-TEST_CASE("residuals are measured against the forces of an expansion too, and steps of heat alone begin with what it held up") {
-  // Held between two walls and across the plane, free along x: pressed alike in two directions, it flows by half of p in each.
+TEST_CASE(
+    "residuals are measured against the forces of an expansion too, and steps of heat alone begin with what it held "
+    "up") {
+  // Held between two walls and across the plane, free along x: pressed alike in two directions, it flows by half of p
+  // in each.
   Square square(0.0);
   Scene& scene = square.scene;
   auto materials = std::make_shared<MaterialField>(*scene.problem.materials);
@@ -106,7 +111,8 @@ TEST_CASE("residuals are measured against the forces of an expansion too, and st
   CommandVariable heat;
   heat.reference = 0.0;
   for (const double t : {0.0, 4.0})
-    heat.snapshots.push_back({t, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), 5.0 * t)})});
+    heat.snapshots.push_back({t, std::make_shared<const Field>(NodalField{
+                                     "TEMP_R", {"TEMP"}, std::vector<double>(scene.mesh->nodes.size(), 5.0 * t)})});
   materials->variables = {heat};
   scene.problem.materials = materials;
   NewtonOptions options;
@@ -115,10 +121,12 @@ TEST_CASE("residuals are measured against the forces of an expansion too, and st
   scene.solve(4, options, [&](const IterationReport& report) { reports.push_back(report); });
   const double strain = 1e-3 * 20.0;
   const double hardness = young * slope / (young - slope);
-  CHECK(square.at_first_point("SIEF_ELGA", "SIYY", 4) == exactly(-(yield + 2.0 * hardness * strain) / (1.0 + 2.0 * hardness / young)));
+  CHECK(square.at_first_point("SIEF_ELGA", "SIYY", 4) ==
+        exactly(-(yield + 2.0 * hardness * strain) / (1.0 + 2.0 * hardness / young)));
   // A corner is pushed by half the width of a cell times E alpha T; what pushes inner nodes balances.
   for (const IterationReport& report : reports)
-    if (report.relative_residual > 0.0) CHECK(report.absolute_residual / report.relative_residual >= 0.99 * young * 1e-3 * 5.0 * report.instant * 0.25);
+    if (report.relative_residual > 0.0)
+      CHECK(report.absolute_residual / report.relative_residual >= 0.99 * young * 1e-3 * 5.0 * report.instant * 0.25);
   CHECK(scene.counters.newton_iterations <= 12);
 }
 
@@ -141,14 +149,17 @@ TEST_CASE("a step that is cut leaves nothing of its trial behind") {
   const std::size_t last = cut.scene.result.steps.size() - 1;
   REQUIRE(last > 0);
   Square small(0.05);
-  solve_static(small.scene.problem, StepPlan({0.0, cut.scene.result.steps[last].instant}), {}, small.scene.result, small.scene.counters);
-  CHECK(cut.at_first_point("SIEF_ELGA", "SIYY", last) == Approx(small.at_first_point("SIEF_ELGA", "SIYY", 1)).epsilon(1e-5));
+  solve_static(small.scene.problem, StepPlan({0.0, cut.scene.result.steps[last].instant}), {}, small.scene.result,
+               small.scene.counters);
+  CHECK(cut.at_first_point("SIEF_ELGA", "SIYY", last) ==
+        Approx(small.at_first_point("SIEF_ELGA", "SIYY", 1)).epsilon(1e-5));
 }
 
 TEST_CASE("a computation that goes on from an initial state arrives where one in a piece does") {
   NewtonOptions options;
   options.relative_residual = 1e-10;
-  for (const CellBehaviour behaviour : {CellBehaviour{Kinematics::small, Relation::kinematic_linear}, CellBehaviour{Kinematics::logarithmic, Relation::isotropic_linear},
+  for (const CellBehaviour behaviour : {CellBehaviour{Kinematics::small, Relation::kinematic_linear},
+                                        CellBehaviour{Kinematics::logarithmic, Relation::isotropic_linear},
                                         CellBehaviour{Kinematics::multiplicative, Relation::isotropic_linear}}) {
     Square whole(0.02, behaviour);
     whole.scene.solve(2, options);
@@ -162,7 +173,8 @@ TEST_CASE("a computation that goes on from an initial state arrives where one in
     solve_static(rest.scene.problem, StepPlan({1.0, 2.0}), options, rest.scene.result, rest.scene.counters);
     CHECK(rest.scene.result.steps.size() == 2);
     CHECK(rest.at_first_point("SIEF_ELGA", "SIYY", 1) == exactly(whole.at_first_point("SIEF_ELGA", "SIYY", 2)));
-    CHECK(rest.at_first_point("VARI_ELGA", "V1", 1) == Approx(whole.at_first_point("VARI_ELGA", "V1", 2)).margin(1e-12));
+    CHECK(rest.at_first_point("VARI_ELGA", "V1", 1) ==
+          Approx(whole.at_first_point("VARI_ELGA", "V1", 2)).margin(1e-12));
   }
 }
 
@@ -234,7 +246,8 @@ TEST_CASE("the verdict on mixed elements does not depend on the unit of stress")
     CAPTURE(unit);
     Scene scene;
     std::vector<int> nodes;
-    for (const auto& [x, y] : {std::pair{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.5, 0.0}, {2.0, 0.5}, {1.5, 1.0}, {1.0, 0.5}})
+    for (const auto& [x, y] :
+         {std::pair{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.5, 0.0}, {2.0, 0.5}, {1.5, 1.0}, {1.0, 0.5}})
       nodes.push_back(scene.node("N" + std::to_string(nodes.size()), x, y));
     scene.cell("ring", CellType::quad8, nodes, Formulation::axisymmetric_swelling);
     scene.impose({nodes[0], nodes[4], nodes[1]}, Component::dy, 0.0);
@@ -245,12 +258,15 @@ TEST_CASE("the verdict on mixed elements does not depend on the unit of stress")
     CommandVariable temperature;
     temperature.reference = 20.0;
     for (const double time : {0.0, 1.0})
-      temperature.snapshots.push_back({time, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(nodes.size(), 20.0 + heating * time)})});
+      temperature.snapshots.push_back(
+          {time, std::make_shared<const Field>(
+                     NodalField{"TEMP_R", {"TEMP"}, std::vector<double>(nodes.size(), 20.0 + heating * time)})});
     MaterialField materials;
     materials.by_cell = {std::make_shared<const Material>(material)};
     materials.variables = {temperature};
     scene.problem.materials = std::make_shared<const MaterialField>(materials);
-    scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(1, CellBehaviour{Kinematics::logarithmic, Relation::elastic});
+    scene.problem.behaviours =
+        std::make_shared<const BehaviourOfCells>(1, CellBehaviour{Kinematics::logarithmic, Relation::elastic});
     scene.solve(1);
     CHECK(scene.displacement(nodes[2], Component::dy) == Approx(std::expm1(expansion * heating)).epsilon(1e-6));
     CHECK(scene.displacement(nodes[2], Component::dx) == Approx(2.0 * std::expm1(expansion * heating)).epsilon(1e-6));

@@ -67,8 +67,8 @@ int Scene::ground_spring(const std::string& name, int at, const Eigen::Matrix2d&
   return index;
 }
 
-Scene::Block Scene::block(const std::string& name, std::array<double, 2> corner, std::array<double, 2> size, int nx, int ny,
-                          double young, double poisson) {
+Scene::Block Scene::block(const std::string& name, std::array<double, 2> corner, std::array<double, 2> size, int nx,
+                          int ny, double young, double poisson) {
   Block made;
   for (int j = 0; j <= ny; ++j) {
     std::vector<int> row;

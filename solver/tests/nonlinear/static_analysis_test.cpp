@@ -91,7 +91,8 @@ TEST_CASE("A spring that closes a gap: closed form") {
     scene.problem.unilateral[0].penalty = s;
     scene.solve(2);
     const double expected = (push + s * gap) / (k + s);
-    for (const int step : {1, 2}) CHECK(scene.displacement(left, Component::dx, step) == Approx(expected).epsilon(1e-13));
+    for (const int step : {1, 2})
+      CHECK(scene.displacement(left, Component::dx, step) == Approx(expected).epsilon(1e-13));
     CHECK(push - scene.internal_force(left, Component::dx) == Approx(s * (expected - gap)).epsilon(1e-12));
     // Without it the node would be 0.4 beyond.
     for (const double penalty : {s, 1e6 * s}) {
@@ -132,7 +133,8 @@ TEST_CASE("A bound that follows time lets go when it moves away") {
 }
 
 TEST_CASE("Contact of two blocks across a gap: closed form in series") {
-  // Bars of equal section (nu = 0): the upper one is pushed by 0.3 over a gap of 0.1; each takes half of the remaining 0.2.
+  // Bars of equal section (nu = 0): the upper one is pushed by 0.3 over a gap of 0.1; each takes half of the remaining
+  // 0.2.
   Scene scene;
   const auto lower = scene.block("l", {0, 0}, {1, 2}, 2, 2, 1000, 0);
   const auto upper = scene.block("u", {0, 2.1}, {1, 2}, 2, 2, 1000, 0);
@@ -141,7 +143,8 @@ TEST_CASE("Contact of two blocks across a gap: closed form in series") {
   scene.impose(upper.nodes[2], Component::dy, -0.1, true);
   scene.zone(lower.top, upper.bottom);
   scene.solve(3);
-  for (const int node : upper.nodes[0]) CHECK(scene.displacement(node, Component::dy, 1) == Approx(-0.1).epsilon(1e-12));
+  for (const int node : upper.nodes[0])
+    CHECK(scene.displacement(node, Component::dy, 1) == Approx(-0.1).epsilon(1e-12));
   for (const int node : lower.nodes[2]) CHECK(scene.displacement(node, Component::dy, 1) == Approx(0.0).margin(1e-13));
   for (const int node : lower.nodes[2]) CHECK(scene.displacement(node, Component::dy) == Approx(-0.1).epsilon(1e-12));
   for (const int node : upper.nodes[0]) CHECK(scene.contact(node, "JEU") == Approx(0.0).margin(1e-13));
@@ -161,7 +164,8 @@ TEST_CASE("Contact on meshes that do not match: the resultant is exact, the pres
   const double pressure = 1000 * 0.04 / 4.0;
   double support = 0.0;
   for (const int node : lower.nodes[0]) support += scene.internal_force(node, Component::dy);
-  // Action and reaction to rounding; node-to-facet contact is no patch test, so the pressure itself is some percent off.
+  // Action and reaction to rounding; node-to-facet contact is no patch test, so the pressure itself is some percent
+  // off.
   CHECK(sum(scene, upper.nodes[0], "RNY") == Approx(support).epsilon(1e-11));
   CHECK(support == Approx(6 * pressure).epsilon(0.05));
 }
@@ -184,7 +188,9 @@ TEST_CASE("Contact on meshes that match passes the patch test") {
   }
 }
 
-TEST_CASE("Iterations count on from one update of the geometry to the next in the discrete formulation, and begin again in the mixed one") {
+TEST_CASE(
+    "Iterations count on from one update of the geometry to the next in the discrete formulation, and begin again in "
+    "the mixed one") {
   for (const ContactFormulation formulation : {ContactFormulation::discrete, ContactFormulation::mixed}) {
     Scene scene;
     const auto lower = scene.block("l", {0, 0}, {6, 2}, 4, 2, 1000, 0.25);
@@ -250,7 +256,8 @@ TEST_CASE("The same condition written twice, and on a held node, changes nothing
   scene.ground_spring("q", held, 1, 1);
   scene.impose({held}, Component::dy, 0);
   scene.force(node, Component::dy, -10);
-  for (int copy = 0; copy < 3; ++copy) scene.bound({node, held}, Component::dy, -1.0 - copy, constant(0.02 * (1.0 + copy)));
+  for (int copy = 0; copy < 3; ++copy)
+    scene.bound({node, held}, Component::dy, -1.0 - copy, constant(0.02 * (1.0 + copy)));
   scene.solve(2);
   CHECK(scene.displacement(node, Component::dy) == Approx(-0.02).epsilon(1e-13));
 }

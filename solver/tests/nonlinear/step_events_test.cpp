@@ -42,7 +42,8 @@ struct Falling {
   Scene::Block lower, upper;
 
   explicit Falling(ContactFormulation formulation)
-      : lower(scene.block("l", {0, 0}, {3, 1}, 3, 1, 2e5, 0.0)), upper(scene.block("u", {0, 1.1}, {3, 1}, 3, 1, 2e5, 0.0)) {
+      : lower(scene.block("l", {0, 0}, {3, 1}, 3, 1, 2e5, 0.0)),
+        upper(scene.block("u", {0, 1.1}, {3, 1}, 3, 1, 2e5, 0.0)) {
     for (const int node : lower.nodes.front()) scene.impose({node}, Component::dy, 0);
     scene.impose({lower.nodes[0][0], upper.nodes[0][0]}, Component::dx, 0);
     scene.impose(upper.nodes.back(), Component::dy, -0.22, true);
@@ -70,7 +71,8 @@ TEST_CASE("residuals that grow twice, or beyond a limit, end a step where that i
   look_at_residuals(watch, history_of({1.0, 2.0}));
   look_at_residuals(watch, history_of({1.0, 2.0, 0.5}));
   look_at_residuals(watch, history_of({5.0, 1.0, 2.0}));
-  CHECK_THROWS_WITH(look_at_residuals(watch, history_of({1.0, 3.0, 2.0})), Catch::Contains("grows, from 1.000e+00 to 2.000e+00 in iteration 3"));
+  CHECK_THROWS_WITH(look_at_residuals(watch, history_of({1.0, 3.0, 2.0})),
+                    Catch::Contains("grows, from 1.000e+00 to 2.000e+00 in iteration 3"));
   watch.largest = 4.0;
   look_at_residuals(watch, history_of({4.0}));
   CHECK_THROWS_WITH(look_at_residuals(watch, history_of({4.1})), Catch::Contains("RESI_GLOB_MAXI = 4"));
@@ -138,12 +140,14 @@ TEST_CASE("a step whose residual is too large is cut by the rule of that event")
 TEST_CASE("where residuals shrink fast enough more iterations are allowed") {
   const StepPlan plan({0.0, 0.5, 1.0});
   int most = 0;
-  const double exact = Cantilever().solve(plan, 30, [&](const IterationReport& report) { most = std::max(most, report.iteration); });
+  const double exact =
+      Cantilever().solve(plan, 30, [&](const IterationReport& report) { most = std::max(most, report.iteration); });
   CHECK_THROWS_WITH(Cantilever().solve(plan, most - 1), Catch::Contains("no convergence"));
   StepPlan patient = plan;
   patient.further_iterations = 1.0;
   std::string told;
-  CHECK(Cantilever().solve(patient, most - 1, [&](const IterationReport& report) { told += report.event; }) == Approx(exact).epsilon(1e-12));
+  CHECK(Cantilever().solve(patient, most - 1, [&](const IterationReport& report) { told += report.event; }) ==
+        Approx(exact).epsilon(1e-12));
   CHECK_THAT(told, Catch::Contains("more iterations are allowed"));
 }
 

@@ -180,7 +180,8 @@ TEST_CASE("after a step that an instant of the list made shorter the planned len
   plan.adaptation->rules[0].increment = WatchedIncrement{"DEPL", "DX", {}, {}, 0.2};
   StepSequence sequence(plan);
   std::vector<double> reached;
-  // The field is t: steps of 0.2 are wanted. That from 0.4 ends at 0.5, half as long; its change is half of what is wanted, and the next is twice as long as planned.
+  // The field is t: steps of 0.2 are wanted. That from 0.4 ends at 0.5, half as long; its change is half of what is
+  // wanted, and the next is twice as long as planned.
   for (double now = 0.0; !sequence.finished();) {
     const double target = sequence.target();
     sequence.accept(1, std::array{target - now});
@@ -202,7 +203,9 @@ TEST_CASE("the change of a field is the largest over the places that are watched
   field.values[3] = -100.0;
   after.fields.emplace("DEPL", field);
   WatchedIncrement watched{"DEPL", "DX", {}, {}, 1.0};
-  const auto change = [&] { return largest_change(watched_values(watched, before, mesh), watched_values(watched, after, mesh)); };
+  const auto change = [&] {
+    return largest_change(watched_values(watched, before, mesh), watched_values(watched, after, mesh));
+  };
   CHECK(change() == 2.0);
   watched.nodes = {0, 1};
   CHECK(change() == 0.5);

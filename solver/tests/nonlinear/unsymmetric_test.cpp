@@ -92,7 +92,8 @@ TEST_CASE("conjugate gradients and contact refuse an unsymmetric stiffness", "[u
   Square square(swerving, swerving);
   LinearStaticOptions iterations;
   iterations.method = LinearMethod::conjugate_gradient;
-  CHECK_THAT(message_of(square, iterations), Catch::Contains("unsupported: conjugate gradients need a symmetric stiffness"));
+  CHECK_THAT(message_of(square, iterations),
+             Catch::Contains("unsupported: conjugate gradients need a symmetric stiffness"));
   square.scene.bound({square.block.nodes[2][0]}, dy, 1.0, [](const Point&, double) { return 0.0; });
   CHECK_THROWS_WITH(square.scene.solve(1), Catch::Contains("unilateral conditions need a symmetric stiffness"));
 }

@@ -13,7 +13,7 @@ namespace zzzz237_test {
 
 constexpr double young = 2e9;
 constexpr double poisson = 0.3;
-constexpr double exact_dx = 0.3 / 0.7 * 0.2 * 50.0;                        // 4.285714... m
+constexpr double exact_dx = 0.3 / 0.7 * 0.2 * 50.0;                       // 4.285714... m
 constexpr double exact_force = young / (1.0 - 0.09) * 0.2 * 100.0 / 2.0;  // 2.197802...e10 N
 
 struct Founding : Scene {

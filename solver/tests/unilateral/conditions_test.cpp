@@ -72,7 +72,8 @@ TEST_CASE("A row on held unknowns holds or is an error") {
   const DofMap dofs(two.model);
   const std::vector<AppliedLoad> loads = {{two.load, {}}};
   const Elimination elimination(*two.mesh, dofs, loads);
-  for (const double bound : {0.5, 0.6, 0.4}) {  // DY is held at 0.5; the bound is taken at t = 1, with coefficient 1 + 3
+  for (const double bound :
+       {0.5, 0.6, 0.4}) {  // DY is held at 0.5; the bound is taken at t = 1, with coefficient 1 + 3
     const std::vector<UnilateralCondition> conditions = {condition(1, Component::dy, 4.0 * bound)};
     const Inequalities full = unilateral_rows(conditions, *two.mesh, dofs, 1.0);
     const auto run = [&] {

@@ -16,7 +16,9 @@ struct Random {
   Random(int rows, unsigned seed) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> normal;
-    const auto sample = [&](int m, int n) { return Eigen::MatrixXd::NullaryExpr(m, n, [&] { return normal(generator); }).eval(); };
+    const auto sample = [&](int m, int n) {
+      return Eigen::MatrixXd::NullaryExpr(m, n, [&] { return normal(generator); }).eval();
+    };
     const Eigen::MatrixXd root = sample(rows, rows);
     compliance = root * root.transpose() / rows + 0.05 * Eigen::MatrixXd::Identity(rows, rows);
     problem.excess = sample(rows, 1);
@@ -24,7 +26,8 @@ struct Random {
   }
 
   ActiveSetSolution by_gradients(const ProjectedGradientOptions& options = {}) const {
-    return solve_projected_gradient([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return compliance * x; }, problem, options);
+    return solve_projected_gradient([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return compliance * x; },
+                                    problem, options);
   }
 };
 

@@ -59,12 +59,13 @@ TEST_CASE("Rows that change are served by the compliance of their unknowns witho
     return rows;
   };
   long solves = 0;
-  SchurComplement schur(random_rows().sparseView(),
-                        [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
-                          solves += rhs.cols();
-                          rhs = factor.solve(rhs).eval();
-                        },
-                        support);
+  SchurComplement schur(
+      random_rows().sparseView(),
+      [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
+        solves += rhs.cols();
+        rhs = factor.solve(rhs).eval();
+      },
+      support);
   std::vector<int> all(m);
   for (int i = 0; i < m; ++i) all[i] = i;
   schur.require(all);
@@ -87,8 +88,8 @@ TEST_CASE("Rows that change are served by the compliance of their unknowns witho
 
 namespace {
 
-/// K is diagonal, and so large that the compliance of its unknowns is not kept. Row r touches unknowns 3 r, 3 r + 1 and 3 r + 2, with
-/// weights that turn with `place`.
+/// K is diagonal, and so large that the compliance of its unknowns is not kept. Row r touches unknowns 3 r, 3 r + 1 and
+/// 3 r + 2, with weights that turn with `place`.
 struct LongBeam {
   static constexpr int rows = 400;
   static constexpr int unknowns = 3 * rows;
@@ -146,13 +147,15 @@ TEST_CASE("Of many unknowns, rows that turn keep the columns of those before the
   RowMatrix mixed = beam.matrix(after, 0.3);
   for (RowMatrix::InnerIterator it(mixed, 398); it; ++it) it.valueRef() = turned.coeff(398, it.col());
   const Eigen::MatrixXd expected = beam.compliance(mixed, mixed);
-  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
+  for (const int row : {0, 7, 397, 398})
+    CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
 
   schur.start_anew();
   REQUIRE(schur.is_exact());
   schur.require(numbers(0, 399));
   const Eigen::MatrixXd anew = beam.compliance(turned, turned);
-  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - anew.col(row)).norm() < 1e-14 * anew.col(row).norm());
+  for (const int row : {0, 7, 397, 398})
+    CHECK((schur.column(row) - anew.col(row)).norm() < 1e-14 * anew.col(row).norm());
 }
 
 TEST_CASE("Many columns come from the whole where there is a way to it") {
@@ -180,7 +183,8 @@ TEST_CASE("Rows that come to a whole of columns get theirs, and products take al
   schur.replace_rows(rows, after, Eigen::VectorXd::Constant(399, 0.5));
   CHECK(beam.solves == 1);
   const Eigen::MatrixXd expected = beam.compliance(rows, rows) + 0.5 * Eigen::MatrixXd::Identity(399, 399);
-  for (const int row : {0, 7, 397, 398}) CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
+  for (const int row : {0, 7, 397, 398})
+    CHECK((schur.column(row) - expected.col(row)).norm() < 1e-14 * expected.col(row).norm());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(399, -1.0, 1.0);
   CHECK((schur.times(x) - expected * x).norm() < 1e-14 * x.norm());
   CHECK((schur.times_roughly(x) - expected * x).norm() < 1e-5 * x.norm());
@@ -204,12 +208,13 @@ TEST_CASE("Of many rows on few unknowns S is its factors: one solve an unknown, 
   };
   long solves = 0;
   Eigen::MatrixXd rows = random_rows(m);
-  SchurComplement schur(rows.sparseView(),
-                        [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
-                          solves += rhs.cols();
-                          rhs = factor.solve(rhs).eval();
-                        },
-                        support);
+  SchurComplement schur(
+      rows.sparseView(),
+      [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
+        solves += rhs.cols();
+        rhs = factor.solve(rhs).eval();
+      },
+      support);
   const Eigen::VectorXd softness = Eigen::VectorXd::LinSpaced(m, 0.0, 1.0);
   schur.soften(softness);
 
@@ -222,7 +227,8 @@ TEST_CASE("Of many rows on few unknowns S is its factors: one solve an unknown, 
     CHECK((schur.column(8) - expected.col(8)).norm() < 1e-10 * expected.norm());
     const std::vector<int> some = {9, 2, 400};
     const Eigen::MatrixXd forces = Eigen::MatrixXd::NullaryExpr(3, 2, draw);
-    CHECK((schur.responses(some, forces.sparseView()) - expected(some, some) * forces).norm() < 1e-10 * expected.norm() * forces.norm());
+    CHECK((schur.responses(some, forces.sparseView()) - expected(some, some) * forces).norm() <
+          1e-10 * expected.norm() * forces.norm());
     CHECK(schur.is_exact());
   };
   check(softness);

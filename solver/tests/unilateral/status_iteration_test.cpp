@@ -12,7 +12,8 @@ struct Held {
 };
 
 /// u with K u = f - A^T lambda, A u <= b.
-Held hold(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& force, const Eigen::MatrixXd& rows, const Eigen::VectorXd& bounds, std::vector<int> guess) {
+Held hold(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& force, const Eigen::MatrixXd& rows,
+          const Eigen::VectorXd& bounds, std::vector<int> guess) {
   const Eigen::PartialPivLU<Eigen::MatrixXd> factor(stiffness);
   SchurComplement schur(rows.sparseView(), [&](Eigen::Ref<Eigen::MatrixXd> rhs) { rhs = factor.solve(rhs).eval(); });
   const Eigen::VectorXd free = factor.solve(force);
