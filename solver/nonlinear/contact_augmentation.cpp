@@ -41,24 +41,24 @@ void MixedContact::add_natural_augmentation() {
   const auto is_shared = [&](const CondensedPoint& point) {
     return shared[static_cast<std::size_t>(point.nodes[0])] != 0;
   };
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || point.node_count == 0) continue;
     if (is_shared(point)) {
-      double& softest = least[static_cast<std::size_t>(points_[p].zone)];
+      double& softest = least[static_cast<std::size_t>(points()[p].zone)];
       softest = std::min(softest, resistance_at(p));
-    } else if (points_[p].node >= 0) {
+    } else if (points()[p].node >= 0) {
       point.stiffness = stiffness_at(p);
       if (!point.law.penalised) point.law.augmentation = point.stiffness;
       if (!point.law.friction_penalised) point.law.friction_augmentation = point.stiffness;
     }
   }
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || point.node_count == 0 || !is_shared(point)) continue;
-    const double lowest = least_augmentation * least[static_cast<std::size_t>(points_[p].zone)];
+    const double lowest = least_augmentation * least[static_cast<std::size_t>(points()[p].zone)];
     const double present =
-        std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points_[p].zone)]), lowest);
+        std::max(augmentation_of(definition_.zones[static_cast<std::size_t>(points()[p].zone)]), lowest);
     if (!point.law.penalised) point.law.augmentation = present;
     if (!point.law.friction_penalised) point.law.friction_augmentation = present;
   }
@@ -102,7 +102,7 @@ double MixedContact::resistance_at(std::size_t p) const {
   const CondensedPoint& point = problem_.points[p];
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
   double compliance = 0.0;
-  for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+  for (RowMatrix::InnerIterator it(rows_.reduced(), point.first_row); it; ++it)
     if (sizes[it.col()] > 0.0) compliance += it.value() * it.value() / sizes[it.col()];
   return compliance > 0.0 ? 1.0 / (compliance * std::abs(point.weight)) : 0.0;
 }
@@ -112,7 +112,7 @@ double MixedContact::stiffness_at(std::size_t p) const {
   const CondensedPoint& point = problem_.points[p];
   const Eigen::VectorXd& sizes = tangent_.row_sizes();
   double stiffness = 0.0;
-  for (RowMatrix::InnerIterator it(reduced_rows_, point.first_row); it; ++it)
+  for (RowMatrix::InnerIterator it(rows_.reduced(), point.first_row); it; ++it)
     stiffness = std::max(stiffness, std::abs(it.value()) * sizes[it.col()]);
   return stiffness / std::abs(point.weight);
 }

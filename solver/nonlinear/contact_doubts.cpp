@@ -22,7 +22,7 @@ constexpr double overlap_share = 1e-9;
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   if (rubs_by_shears_) note_unshared_friction(doubts);
   if (augmentation_share_ < 1.0) note_lowered_augmentation(doubts);
-  if (rows_.rows() == 0) return;
+  if (rows_.full().rows() == 0) return;
   note_coarse_faces(u, doubts);
   note_friction_between_nodes(doubts);
   const auto is_penalised = [](const ContactZone& zone) {
@@ -40,28 +40,28 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
 }
 
 Eigen::VectorXd MixedContact::forces_of(int zone, Eigen::VectorXd forces) const {
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    if (points_[p].zone != zone && problem_.points[p].rows > 0)
+  for (std::size_t p = 0; p < points().size(); ++p)
+    if (points()[p].zone != zone && problem_.points[p].rows > 0)
       forces.segment(problem_.points[p].first_row, problem_.points[p].rows).setZero();
   return forces;
 }
 
 void MixedContact::note_loose_bodies(ContactDoubts& doubts) const {
-  if (tangent_.springs().empty() || reduced_rows_.rows() == 0) return;
+  if (tangent_.springs().empty() || rows_.reduced().rows() == 0) return;
   std::vector<Eigen::Triplet<double>> entries;
   int count = 0;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p)) continue;
     const int held = point.law.friction > 0.0 ? point.rows : 1;  // the limit of what slides goes with the pressure
     for (int c = 0; c < held; ++c, ++count) {
       const int row = point.first_row + c;
-      const double size = std::sqrt(reduced_rows_.row(row).squaredNorm());
-      for (RowMatrix::InnerIterator it(reduced_rows_, row); it && size > 0.0; ++it)
+      const double size = std::sqrt(rows_.reduced().row(row).squaredNorm());
+      for (RowMatrix::InnerIterator it(rows_.reduced(), row); it && size > 0.0; ++it)
         entries.emplace_back(count, static_cast<int>(it.col()), it.value() / size);
     }
   }
-  RowMatrix rows(count, reduced_rows_.cols());
+  RowMatrix rows(count, rows_.reduced().cols());
   rows.setFromTriplets(entries.begin(), entries.end());
   doubts.note_loose(tangent_.unheld_beside(&rows));
 }
@@ -77,9 +77,9 @@ Eigen::VectorXd MixedContact::shears() const {
 /// Where the present loads and the rest of the contact forces would take the points if these did not hold them.
 Eigen::VectorXd MixedContact::jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u) {
   if (!schur_) {
-    Eigen::MatrixXd push = reduced_rows_.transpose() * contact_forces;
+    Eigen::MatrixXd push = rows_.reduced().transpose() * contact_forces;
     tangent_.solve_once(push);
-    return jumps(u) - reduced_rows_ * push;
+    return jumps(u) - rows_.reduced() * push;
   }
   return jumps(u) - pushed_by(contact_forces);
 }
@@ -100,8 +100,8 @@ std::vector<double> MixedContact::pushed_back() {
     const Eigen::VectorXd own = forces_of(zone, forces_);
     if (own.isZero(0.0)) continue;
     const Eigen::VectorXd pushed = result.size() > 1 ? pushed_by(own) : pushed_by_all;
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-      if (points_[p].zone != zone || problem_.points[p].rows == 0) continue;
+    for (std::size_t p = 0; p < points().size(); ++p) {
+      if (points()[p].zone != zone || problem_.points[p].rows == 0) continue;
       const auto rows = Eigen::seqN(problem_.points[p].first_row, problem_.points[p].rows);
       double& most = result[static_cast<std::size_t>(zone)];
       most = std::max({most, largest_component(pushed(rows)), largest_component(pushed_by_all(rows))});
@@ -131,13 +131,13 @@ void MixedContact::note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& do
   if (std::ranges::none_of(problem_.points, counts)) return;
   const Eigen::VectorXd now = jumps(u);
   std::vector<double> overlap(definition_.zones.size(), 0.0), area = overlap;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     if (!counts(problem_.points[p])) continue;
     const double depth = -now[problem_.points[p].first_row];
-    if (depth <= overlap_share * extent(mesh_, points_[p].cell)) continue;
-    const auto zone = static_cast<std::size_t>(points_[p].zone);
-    overlap[zone] += points_[p].weight * depth;
-    area[zone] += points_[p].weight;
+    if (depth <= overlap_share * extent(mesh_, points()[p].cell)) continue;
+    const auto zone = static_cast<std::size_t>(points()[p].zone);
+    overlap[zone] += points()[p].weight * depth;
+    area[zone] += points()[p].weight;
   }
   if (std::ranges::all_of(area, [](double each) { return each == 0.0; })) return;
   const std::vector<double> pushed = pushed_back();
@@ -159,10 +159,10 @@ void MixedContact::note_friction_between_nodes(ContactDoubts& doubts) const {
     double limit_of_all = 0.0, shear_of_all = 0.0;  ///< with points on nodes, which share multipliers with them
   };
   std::vector<Friction> zones(definition_.zones.size());
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows < 2 || state_.statuses[p] == ContactStatus::open) continue;
-    Friction& zone = zones[static_cast<std::size_t>(points_[p].zone)];
+    Friction& zone = zones[static_cast<std::size_t>(points()[p].zone)];
     const double own_limit = point.law.friction * std::abs(forces_[point.first_row]);
     const double shear = forces_.segment(point.first_row + 1, point.rows - 1).norm();
     zone.limit_of_all += own_limit;
@@ -187,9 +187,9 @@ void MixedContact::note_depth(int zone, const Eigen::VectorXd& now, const Eigen:
   const ContactZone& definition = definition_.zones[static_cast<std::size_t>(zone)];
   double depth = 0.0;
   double reach = 0.0;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (points_[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p))
+    if (points()[p].zone != zone || point.rows == 0 || state_.statuses[p] == ContactStatus::open || is_free_of_force(p))
       continue;
     depth = std::max(depth, -now[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
@@ -214,8 +214,8 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
   double creep = 0.0;
   double reach = 0.0;
   double limit = 0.0;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    if (points_[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking)
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    if (points()[p].zone != zone || problem_.points[p].rows < 2 || state_.statuses[p] != ContactStatus::sticking)
       continue;
     const CondensedPoint& point = problem_.points[p];
     creep = std::max(creep, slip_of(point, now));
@@ -234,21 +234,21 @@ void MixedContact::note_creep(int zone, const Eigen::VectorXd& u, const Eigen::V
 }
 
 void MixedContact::note_unshared_friction(ContactDoubts& doubts) const {
-  for (std::size_t p = 0; p < points_.size(); ++p)
+  for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows > 1 && problem_.points[p].share_augmentation > 0.0)
-      doubts.note({.kind = DoubtKind::unshared_friction, .zone = points_[p].zone});
+      doubts.note({.kind = DoubtKind::unshared_friction, .zone = points()[p].zone});
 }
 
 void MixedContact::note_lowered_augmentation(ContactDoubts& doubts) const {
   const std::vector<char> shared = shared_multipliers();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    const double given = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.augmentation;
+    const double given = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.augmentation;
     if (point.rows == 0 || point.law.penalised || !shared[static_cast<std::size_t>(point.nodes[0])] ||
         !(point.law.augmentation < given))
       continue;
     doubts.note({.kind = DoubtKind::lowered_augmentation,
-                 .zone = points_[p].zone,
+                 .zone = points()[p].zone,
                  .share = given / point.law.augmentation,
                  .penalty = given,
                  .wanted = point.law.augmentation});
@@ -256,15 +256,15 @@ void MixedContact::note_lowered_augmentation(ContactDoubts& doubts) const {
 }
 
 void MixedContact::note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const {
-  for (const std::size_t p : blocked_) {
+  for (const std::size_t p : rows_.blocked()) {
     const double depth = -now[problem_.points[p].first_row];
-    const double size = extent(mesh_, points_[p].cell);
+    const double size = extent(mesh_, points()[p].cell);
     if (depth <= overlap_share * size) continue;
     doubts.note({.kind = DoubtKind::held_overlap,
-                 .zone = points_[p].zone,
+                 .zone = points()[p].zone,
                  .share = depth / size,
                  .length = depth,
-                 .cell = points_[p].cell});
+                 .cell = points()[p].cell});
   }
 }
 

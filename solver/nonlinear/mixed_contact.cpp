@@ -5,18 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "solver/contact/extent.hpp"
-#include "solver/contact/patch_points.hpp"
-#include "solver/contact_law/dead_directions.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
-#include "solver/mesh/place.hpp"
-#include "solver/mesh/slave_cut.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
@@ -29,42 +24,11 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// The squares of the normals of faces, summed over their areas; zero for lines.
-Vector3d spread_of_faces(const Mesh& mesh, const std::vector<int>& cells) {
-  Vector3d spread = Vector3d::Zero();
-  for (const int cell : cells) {
-    const auto nodes = mesh.cell(cell);
-    if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 2) continue;
-    const bool is_triangle = corner_count(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3;
-    const Vector3d normal =
-        (place(mesh, nodes[2]) - place(mesh, nodes[0]))
-            .cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
-    if (normal.norm() > 0.0) spread += normal.cwiseAbs2() / normal.norm();
-  }
-  return spread;
-}
-
-/// The axis, or another one where it is the normal itself.
-Vector3d axis_beside(const Vector3d& normal, const Vector3d& axis) {
-  if (axis.cross(normal).norm() > empty_row_tolerance) return axis;
-  return {axis[2], axis[0], axis[1]};
-}
-
 /// A gap below this share of the face's size counts as closed at the start (CONTACT_INIT='INTERPENETRE').
 constexpr double touching = 1e-6;
 /// Imposed displacements may overlap by this share of the face's size.
 constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
-
-ContactLaw law_of(const ContactZone& zone) {
-  ContactLaw law;
-  law.augmentation = zone.mixed.augmentation;
-  law.penalised = zone.mixed.penalised;
-  law.friction = zone.mixed.friction;
-  law.friction_penalised = zone.mixed.friction_penalised;
-  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_penalty : zone.mixed.augmentation;
-  return law;
-}
 
 bool has_friction(const ContactDefinition& definition) {
   return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
@@ -76,40 +40,18 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
                            const Elimination& elimination, TangentSystem& tangent, Counters& counters,
                            std::vector<int> support)
     : definition_(definition),
-      model_(model),
       mesh_(*model.mesh),
       dofs_(dofs),
       elimination_(elimination),
       tangent_(tangent),
       counters_(counters),
       support_(std::move(support)),
+      rows_(definition, model, dofs, elimination),
       penalties_(definition.zones.size()),
       reference_(Eigen::VectorXd::Zero(dofs.size())) {
-  number_multipliers();
-}
-
-void MixedContact::number_multipliers() {
-  bool is_solid = false;
-  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
-    const ContactZone& each = definition_.zones[zone];
-    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
-    if (each.mixed.local_average) {
-      number_patches(static_cast<int>(zone));
-      continue;
-    }
-    const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
-    const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(),
-                                               each.mixed.frictionless_nodes.end());
-    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
-      if (!excluded.contains(node) &&
-          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(problem_.smooth.size()))
-              .second)
-        problem_.smooth.push_back(!(each.mixed.friction > 0.0) ||
-                                  (frictionless.contains(node) && !each.mixed.frictionless_direction));
-  }
-  dimension_ = is_solid ? 3 : 2;
-  problem_.node_count = static_cast<int>(problem_.smooth.size());
-  problem_.components = has_friction(definition_) ? dimension_ : 1;
+  problem_.smooth = rows_.smooth();
+  problem_.node_count = static_cast<int>(rows_.smooth().size());
+  problem_.components = has_friction(definition_) ? rows_.dimension() : 1;
   problem_.max_iterations = most_condensed_iterations;
   problem_.memory = &memory_;
   problem_.near_inverse = &near_inverse_;
@@ -119,139 +61,19 @@ void MixedContact::number_multipliers() {
   rates_ = start_ = state_.multipliers;
 }
 
-/// One a patch, at all nodes inside it.
-void MixedContact::number_patches(int zone) {
-  for (const int patch : patches_of(definition_.zones[static_cast<std::size_t>(zone)], mesh_)) {
-    for (const int node : inner_nodes(mesh_, mesh_.slave_patches[static_cast<std::size_t>(patch)]))
-      multiplier_numbers_.emplace(Key(zone, node), static_cast<int>(problem_.smooth.size()));
-    problem_.smooth.push_back(1);
-  }
-}
-
 void MixedContact::pair(Positions positions, double time, double margin) {
-  FacedFacets before{{}, margin};
-  if (margin > 0.0)
-    for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
-  points_ = contact_points(definition_, model_, positions, time, before);
+  rows_.face(positions, time, margin);
   ++counters_.pairings;
-  if (zone_directions_.empty()) choose_directions(positions, time);
-  build_rows();
+  problem_.points = rows_.build(reference_);
+  for (std::size_t p = 0; p < problem_.points.size(); ++p) apply_penalties(points()[p].zone, problem_.points[p]);
+  share_friction();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
   hold_back_points();
-  for (std::size_t p = 0; p < points_.size(); ++p)
+  for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
-  forces_ = multiplier_forces(problem_, state_, rows_.rows());  // any would do for the next correction to start from
-}
-
-CondensedPoint MixedContact::condensed(const ContactPoint& point) const {
-  const ContactZone& zone = definition_.zones[static_cast<std::size_t>(point.zone)];
-  CondensedPoint result;
-  result.weight = point.weight;
-  result.law = law_of(zone);
-  apply_penalties(point.zone, result);
-  result.bilateral = zone.mixed.bilateral;
-  const auto excluded = excluded_direction(zone.mixed, point, mesh_);
-  if (excluded &&
-      (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
-    result.law.friction = 0.0;
-  if (result.law.friction > 0.0) result.components = dimension_ == 2 || excluded ? 2 : 3;
-  const auto nodes = mesh_.cell(point.cell);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (point.node >= 0 && nodes[i] != point.node) continue;
-    const auto number = multiplier_numbers_.find(Key(point.zone, nodes[i]));
-    if (number == multiplier_numbers_.end()) continue;
-    result.nodes[static_cast<std::size_t>(result.node_count)] = number->second;
-    result.shape[static_cast<std::size_t>(result.node_count++)] = point.node >= 0 ? 1.0 : point.shape[i];
-  }
-  return result;
-}
-
-void MixedContact::add_row(int row, const ContactPoint& point, const Vector3d& direction,
-                           std::vector<Eigen::Triplet<double>>& entries) const {
-  const auto add = [&](int node, const Vector3d& share) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (share[axis] == 0.0) continue;
-      const int dof = dofs_.dof(node, translation_components[axis]);
-      if (dof < 0)
-        throw Error(
-            "unknown-dof",
-            fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node),
-                        name_of(translation_components[axis])),
-            "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
-      entries.emplace_back(row, dof, share[axis]);
-    }
-  };
-  if (!point.shares.empty()) {
-    for (const GapShare& share : point.shares) add(share.node, share.coefficient);
-    return;
-  }
-  const auto slave = mesh_.cell(point.cell);
-  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i] * direction);
-  const auto master = mesh_.cell(point.facet);
-  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
-}
-
-/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at
-/// the nodes of a face then speak of the same directions, whatever state a computation begins with.
-void MixedContact::choose_directions(Positions positions, double time) {
-  if (dimension_ == 2) {
-    zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
-    return;
-  }
-  const std::vector<Vector3d> initial = places(mesh_);
-  const bool has_moved = !std::ranges::equal(positions, initial);
-  std::vector<ContactPoint> others;
-  try {
-    if (has_moved) others = contact_points(definition_, model_, initial, time, {});
-  } catch (const Error&) {
-    others.clear();  // surfaces that face each other only now
-  }
-  std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
-  for (const ContactPoint& point : others.empty() ? points_ : others)
-    spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
-  for (std::size_t zone = 0; zone < spread.size(); ++zone) {
-    if (spread[zone].isZero(0.0)) spread[zone] = spread_of_faces(mesh_, definition_.zones[zone].slave_cells);
-    const Vector3d& each = spread[zone];
-    Index axis = 0;
-    each.minCoeff(&axis);
-    zone_directions_.push_back(Vector3d::Unit(axis));
-  }
-}
-
-MixedContact::Directions MixedContact::directions(const ContactPoint& point) const {
-  const Vector3d& normal = point.normal;
-  if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
-  const Vector3d excluded =
-      excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_)
-          .value_or(Vector3d::Zero());
-  const Vector3d second =
-      excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
-  const Vector3d along = second - normal.dot(second) * normal;
-  if (!(along.norm() > empty_row_tolerance * second.norm()))
-    throw Error(
-        "degenerate-facet",
-        fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
-        "give a direction along the surface (DIRE_EXCL_FROT)");
-  return {normal, along.normalized().cross(normal), along.normalized()};
-}
-
-/// The gap between the initial places of the nodes.
-double MixedContact::initial_gap(const ContactPoint& point) const {
-  const auto initial = [&](int node) {
-    return Vector3d(mesh_.nodes[node][0], mesh_.nodes[node][1], mesh_.nodes[node][2]);
-  };
-  if (!point.shares.empty()) {
-    double gap = -point.offset;
-    for (const GapShare& share : point.shares) gap += share.coefficient.dot(initial(share.node));
-    return gap;
-  }
-  Vector3d apart = Vector3d::Zero();
-  const auto slave = mesh_.cell(point.cell);
-  for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * initial(slave[i]);
-  const auto master = mesh_.cell(point.facet);
-  for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * initial(master[i]);
-  return point.normal.dot(apart) - point.thickness;
+  forces_ = multiplier_forces(problem_, state_,
+                              rows_.full().rows());  // any would do for the next correction to start from
 }
 
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
@@ -260,43 +82,7 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   augmentation_share_ = 1.0;
   problem_.expected = state_.multipliers + duration * rates_;
   start_ = state_.multipliers;
-  if (rows_.rows() > 0) count_slips();
-}
-
-/// From where the step began.
-void MixedContact::count_slips() {
-  const Eigen::VectorXd before = rows_ * reference_;
-  for (const CondensedPoint& point : problem_.points)
-    for (int c = 1; c < point.components && point.first_row >= 0; ++c)
-      base_[point.first_row + c] = -before[point.first_row + c];
-}
-
-/// Jumps are base + R u: the gap along the normal, the slips since the step began along the tangents.
-void MixedContact::build_rows() {
-  problem_.points.clear();
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> base;
-  for (const ContactPoint& point : points_) {
-    CondensedPoint each = condensed(point);
-    if (point.status == PairingStatus::paired) {
-      each.first_row = static_cast<int>(base.size());
-      each.rows = each.components;
-      const Directions along = directions(point);
-      for (int c = 0; c < each.rows; ++c)
-        add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
-      base.push_back(initial_gap(point));
-      base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
-    }
-    problem_.points.push_back(each);
-  }
-  rows_.resize(static_cast<Index>(base.size()), dofs_.size());
-  rows_.setFromTriplets(entries.begin(), entries.end());
-  base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
-  count_slips();
-  reduced_rows_ = rows_ * RowMatrix(elimination_.transformation());
-  settle_blocked_points();
-  find_dead_directions(reduced_rows_, problem_.points);
-  share_friction();
+  rows_.count_slips(problem_.points, reference_);
 }
 
 /// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier
@@ -304,10 +90,10 @@ void MixedContact::build_rows() {
 void MixedContact::share_friction() {
   if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
   const std::vector<char> shared = shared_multipliers();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (!(point.law.friction > 0.0) || point.node_count == 0) continue;
-    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
+    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
     if (mixed.friction_penalised)
       point.share_augmentation = point.law.friction_augmentation;
     else if (shared[static_cast<std::size_t>(point.nodes[0])])
@@ -328,7 +114,7 @@ int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
   const Eigen::VectorXd now = jumps(u);
   int changes = 0;
   forces_.setZero();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
     const Vector3d pressure = multiplier_at(problem_, state_, point);
@@ -355,7 +141,7 @@ void MixedContact::hold_back_points() {
   const bool waits =
       step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
   step_begins_ = false;
-  for (std::size_t p = 0; p < points_.size() && waits; ++p) {
+  for (std::size_t p = 0; p < points().size() && waits; ++p) {
     CondensedPoint& point = problem_.points[p];
     if (!point.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
     point.rows = 0;
@@ -367,31 +153,18 @@ bool MixedContact::leaves_overlap(const Eigen::VectorXd& u) const {
   if (held_back_.empty()) return false;
   const Eigen::VectorXd now = jumps(u);
   return std::ranges::any_of(held_back_, [&](std::size_t p) {
-    return now[problem_.points[p].first_row] < -overlap_tolerance * extent(mesh_, points_[p].cell);
+    return now[problem_.points[p].first_row] < -overlap_tolerance * extent(mesh_, points()[p].cell);
   });
 }
 
-/// A point between nodes that are held is open or closed whatever the pressure, which then is anything: it gets none.
-void MixedContact::settle_blocked_points() {
-  blocked_.clear();
-  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
-    CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0) continue;
-    if (largest_entry(reduced_rows_, point.first_row) > empty_row_tolerance * largest_entry(rows_, point.first_row))
-      continue;
-    point.rows = 0;
-    blocked_.push_back(p);
-  }
-}
-
 void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
-  for (const std::size_t p : blocked_) {
+  for (const std::size_t p : rows_.blocked()) {
     const double gap = jumps[problem_.points[p].first_row];
-    if (definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed.penalised) continue;
-    if (gap >= -overlap_tolerance * extent(mesh_, points_[p].cell)) continue;
+    if (definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.penalised) continue;
+    if (gap >= -overlap_tolerance * extent(mesh_, points()[p].cell)) continue;
     throw Error("contradictory-conditions",
                 fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}",
-                            mesh_.cell_name(points_[p].cell), mesh_.cell_name(points_[p].facet), -gap),
+                            mesh_.cell_name(points()[p].cell), mesh_.cell_name(points()[p].facet), -gap),
                 "free the nodes along the normal, or take them out of the contact (SANS_GROUP_NO)");
   }
 }
@@ -416,8 +189,8 @@ std::shared_ptr<const ContactMemory> MixedContact::memory() const {
       std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
   if (!is_bilateral && !penalties_.are_raised()) return nullptr;
   std::vector<ZoneMemory> zones = zone_definitions();
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    zones[static_cast<std::size_t>(points_[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
+  for (std::size_t p = 0; p < points().size(); ++p)
+    zones[static_cast<std::size_t>(points()[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
   return std::make_shared<const ContactMemory>(ContactMemory{std::move(zones), penalties_});
 }
 
@@ -432,28 +205,28 @@ void MixedContact::begin_at(const Eigen::VectorXd& u, std::shared_ptr<const Cont
 
 /// Which of the points, zone by zone, the computation before left closed where they cannot open again.
 std::vector<char> MixedContact::held_points() {
-  std::vector<char> held(points_.size(), 0);
+  std::vector<char> held(points().size(), 0);
   const auto memory = std::exchange(resumed_, nullptr);
   if (!memory) return held;
-  std::vector<std::vector<std::size_t>> points(definition_.zones.size());
-  for (std::size_t p = 0; p < points_.size(); ++p) points[static_cast<std::size_t>(points_[p].zone)].push_back(p);
-  for (std::size_t zone = 0; zone < std::min(points.size(), memory->zones.size()); ++zone) {
+  std::vector<std::vector<std::size_t>> of_zones(definition_.zones.size());
+  for (std::size_t p = 0; p < points().size(); ++p) of_zones[static_cast<std::size_t>(points()[p].zone)].push_back(p);
+  for (std::size_t zone = 0; zone < std::min(of_zones.size(), memory->zones.size()); ++zone) {
     const ZoneMemory& before = memory->zones[zone];
-    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != points[zone].size())
+    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != of_zones[zone].size())
       continue;
-    for (std::size_t k = 0; k < points[zone].size(); ++k) held[points[zone][k]] = before.closed[k];
+    for (std::size_t k = 0; k < of_zones[zone].size(); ++k) held[of_zones[zone][k]] = before.closed[k];
   }
   return held;
 }
 
 void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
-  state_.statuses.assign(points_.size(), ContactStatus::open);
+  state_.statuses.assign(points().size(), ContactStatus::open);
   const std::vector<char> held = held_points();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) continue;
-    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points_[p].zone)].mixed;
-    const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points_[p].cell);
+    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
+    const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points()[p].cell);
     if (held[p] != 0 || zone.initial == InitialContact::all ||
         (zone.initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
@@ -463,13 +236,13 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
 /// A body that contact alone holds needs some to begin with.
 void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     if (state_.statuses[p] != ContactStatus::open) return;
     if (problem_.points[p].rows > 0) nearest = std::min(nearest, jumps[problem_.points[p].first_row]);
   }
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
-    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points_[p].cell))
+    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points()[p].cell))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
   }
 }
@@ -480,11 +253,11 @@ Vector3d MixedContact::multiplier(int number) const {
   return value;
 }
 
-Eigen::VectorXd MixedContact::forces() const { return reduced_rows_.transpose() * forces_; }
+Eigen::VectorXd MixedContact::forces() const { return rows_.reduced().transpose() * forces_; }
 
 /// Points come in the same order at every pairing.
 std::vector<int> MixedContact::row_keys() const {
-  std::vector<int> keys(static_cast<std::size_t>(rows_.rows()));
+  std::vector<int> keys(static_cast<std::size_t>(rows_.full().rows()));
   for (std::size_t p = 0; p < problem_.points.size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     for (int c = 0; c < point.components && point.first_row >= 0; ++c)
@@ -497,10 +270,10 @@ std::vector<int> MixedContact::row_keys() const {
 void MixedContact::update_schur() {
   const auto& springs = tangent_.springs();
   std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < reduced_rows_.outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(reduced_rows_, row); it; ++it)
+  for (int row = 0; row < rows_.reduced().outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(rows_.reduced(), row); it; ++it)
       entries.emplace_back(row, static_cast<int>(it.col()), it.value());
-  int next = static_cast<int>(reduced_rows_.rows());
+  int next = static_cast<int>(rows_.reduced().rows());
   std::vector<int> keys = row_keys();
   problem_.springs.clear();
   for (const auto& [unknown, stiffness] : springs) {
@@ -558,8 +331,8 @@ void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::Vector
 double MixedContact::displacement_of_surfaces(const Eigen::VectorXd& u) const {
   const Eigen::VectorXd magnitudes = tangent_.magnitudes(u);
   double largest = 0.0;
-  for (int row = 0; row < rows_.outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(rows_, row); it; ++it) largest = std::max(largest, magnitudes[it.col()]);
+  for (int row = 0; row < rows_.full().outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(rows_.full(), row); it; ++it) largest = std::max(largest, magnitudes[it.col()]);
   return largest;
 }
 
@@ -571,7 +344,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const Eigen::VectorXd free = jumps(u);
   problem_.displacement = displacement_of_surfaces(u);
   check_blocked_points(free);
-  const Index point_rows = rows_.rows();
+  const Index point_rows = rows_.full().rows();
   problem_.held = forces;
   problem_.free.resize(schur_->size());
   problem_.free.head(point_rows) = free;
@@ -615,8 +388,8 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
   const Eigen::VectorXd now = jumps(u);
   const std::size_t zones = definition_.zones.size();
   Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0), std::vector<double>(zones, 1.0)};
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const auto zone = static_cast<std::size_t>(points_[p].zone);
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const auto zone = static_cast<std::size_t>(points()[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || is_free_of_force(p)) continue;
@@ -624,13 +397,13 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
                                   mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
     excess.softness[zone] =
-        std::max(excess.softness[zone], (points_[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
+        std::max(excess.softness[zone], (points()[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
     if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
       excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
   }
   if (!penalties_.raise(excess)) return false;
-  for (std::size_t p = 0; p < points_.size(); ++p) apply_penalties(points_[p].zone, problem_.points[p]);
+  for (std::size_t p = 0; p < points().size(); ++p) apply_penalties(points()[p].zone, problem_.points[p]);
   return true;
 }
 
@@ -656,7 +429,7 @@ int MixedContact::closed_count() const {
 double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) const {
   const Eigen::VectorXd now = jumps(u);
   double deepest = 0.0;
-  for (std::size_t p = 0; p < points_.size(); ++p)
+  for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows > 0 && !is_free_of_force(p) && (problem_.points[p].law.penalised || !of_penalties))
       deepest = std::max(deepest, -now[problem_.points[p].first_row]);
   return deepest;

@@ -18,6 +18,7 @@
 #include "solver/contact/doubts.hpp"
 #include "solver/contact_law/condensed_contact.hpp"
 #include "solver/contact_law/contact_memory.hpp"
+#include "solver/contact_law/contact_rows.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
@@ -87,7 +88,7 @@ class MixedContact {
   void limit_depth(double depth, double most_stiffening) { penalties_.limit_depth(depth, most_stiffening); }
   /// The largest depth of a point at u (a length), or of one that has a penalty.
   double penetration(const Eigen::VectorXd& u, bool of_penalties = false) const;
-  const std::vector<ContactPoint>& points() const { return points_; }
+  const std::vector<ContactPoint>& points() const { return rows_.points(); }
 
   /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth), or points that
   /// stick slip by more (MixedZone::largest_slip); whether there were any. Throws Error `no-convergence` where that
@@ -114,22 +115,13 @@ class MixedContact {
   NodalField contact_state(const Eigen::VectorXd& u, Positions positions, double instant) const;
 
  private:
-  using Key = std::pair<int, int>;  ///< zone, node
-  /// Normal, then the tangents along which friction acts.
-  using Directions = std::array<Eigen::Vector3d, 3>;
+  using Key = ContactRows::Key;
 
-  void number_multipliers();
-  void number_patches(int zone);
-  double initial_gap(const ContactPoint& point) const;
-  void build_rows();
   void start_statuses(const Eigen::VectorXd& jumps);
   std::vector<ZoneMemory> zone_definitions() const;
   std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
-  CondensedPoint condensed(const ContactPoint& point) const;
   void apply_penalties(int zone, CondensedPoint& point) const;
-  void choose_directions(Positions positions, double time);
-  Directions directions(const ContactPoint& point) const;
   std::vector<char> shared_multipliers() const;
   void share_friction();
   void add_natural_augmentation();
@@ -139,10 +131,6 @@ class MixedContact {
   double stiffness_at(std::size_t p) const;
   double resistance_at(std::size_t p) const;
   Eigen::Vector3d multiplier(int number) const;
-  void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction,
-               std::vector<Eigen::Triplet<double>>& entries) const;
-  void count_slips();
-  void settle_blocked_points();
   bool is_faced_again() const;
   void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
@@ -162,7 +150,7 @@ class MixedContact {
   void note_lowered_augmentation(ContactDoubts& doubts) const;
   /// Whether the overlap of the point says nothing of its penalty: next to no force belongs to it.
   bool is_free_of_force(std::size_t point) const {
-    return points_[point].bears_nothing && problem_.points[point].law.penalised;
+    return points()[point].bears_nothing && problem_.points[point].law.penalised;
   }
   void show_pressures_on_axis(const std::function<double*(int)>& place) const;
   void add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const;
@@ -178,10 +166,9 @@ class MixedContact {
   void begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
-  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + rows_ * u; }
+  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return rows_.jumps(u); }
 
   const ContactDefinition& definition_;
-  const Model& model_;
   const Mesh& mesh_;
   const DofMap& dofs_;
   const Elimination& elimination_;
@@ -189,12 +176,9 @@ class MixedContact {
   Counters& counters_;
   const std::vector<int> support_;
 
-  std::map<Key, int> multiplier_numbers_;
-  int dimension_ = 3;
+  ContactRows rows_;
   RaisedPenalties penalties_;
   std::shared_ptr<const ContactMemory> resumed_;  ///< null once statuses have started from it
-  std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
-  std::vector<ContactPoint> points_;
   ActiveSetMemory memory_;
   NearInverse near_inverse_;
   InterpolatedSolver interpolated_solver_;
@@ -207,9 +191,6 @@ class MixedContact {
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   std::tuple<CondensedState, RaisedPenalties, bool> remembered_;
   std::size_t spring_count_ = 0;
-  RowMatrix rows_;          ///< R, over all degrees of freedom
-  RowMatrix reduced_rows_;  ///< A
-  Eigen::VectorXd base_;
   Eigen::VectorXd forces_;  ///< on the rows
   Eigen::VectorXd reference_;
   Eigen::VectorXd faced_at_;  ///< u where `linearise` faced the points; at first the beginning of the step
@@ -218,7 +199,6 @@ class MixedContact {
   Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
   bool step_begins_ = false;            ///< and no point has been faced in it
   std::vector<std::size_t> held_back_;  ///< points that may not close yet
-  std::vector<std::size_t> blocked_;    ///< points that the conditions on displacements settle
   std::unique_ptr<SchurComplement> schur_;
 };
 

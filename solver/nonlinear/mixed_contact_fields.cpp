@@ -40,7 +40,7 @@ void add_contact(const NodeContact& contact, NodeContact& sum) {
 void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displacements) const {
   if (definition_.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
-  const int added_components = definition_.has_friction ? dimension_ : problem_.components;
+  const int added_components = definition_.has_friction ? rows_.dimension() : problem_.components;
   const auto added = static_cast<std::size_t>(added_components);
   const std::size_t before = displacements.components.size();
   const std::size_t all = before + added;
@@ -55,8 +55,8 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
     if (zone.mixed.local_average) continue;
     for (const int node : mesh_.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
   }
-  for (const auto& [key, number] : multiplier_numbers_) std::fill_n(place(key.second), added, 0.0);
-  for (const auto& [key, number] : multiplier_numbers_) {
+  for (const auto& [key, number] : rows_.multiplier_numbers()) std::fill_n(place(key.second), added, 0.0);
+  for (const auto& [key, number] : rows_.multiplier_numbers()) {
     const Vector3d value = multiplier(number);
     const double limit = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
     place(key.second)[0] -= value[0];
@@ -71,8 +71,8 @@ void MixedContact::add_multipliers(const Eigen::VectorXd& u, NodalField& displac
 /// parabola about the axis, a + b r^2, through the other two nodes. With a penalty nothing keeps the node from a little
 /// gap between two that are pressed.
 void MixedContact::show_pressures_on_axis(const std::function<double*(int)>& place) const {
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const ContactPoint& point = points()[p];
     if (!point.bears_nothing) continue;
     const auto nodes = mesh_.cell(point.cell);
     const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
@@ -89,12 +89,12 @@ void MixedContact::add_idle_multipliers(const Eigen::VectorXd& u, const std::fun
   if (std::ranges::none_of(problem_.points, [](const CondensedPoint& point) { return point.idle_friction > 0.0; }))
     return;
   const Eigen::VectorXd now = jumps(u);
-  for (std::size_t p = 0; p < points_.size(); ++p) {
+  for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     const double limit = point.idle_friction * (point.rows > 0 ? forces_[point.first_row] : 0.0);
-    if (points_[p].node < 0 || !(limit > 0.0)) continue;
+    if (points()[p].node < 0 || !(limit > 0.0)) continue;
     const Eigen::VectorXd shear = shear_rows(p, now);
-    for (Eigen::Index c = 0; c < shear.size(); ++c) place(points_[p].node)[c + 1] += shear[c] / limit;
+    for (Eigen::Index c = 0; c < shear.size(); ++c) place(points()[p].node)[c + 1] += shear[c] / limit;
   }
 }
 
@@ -102,8 +102,8 @@ NodalField MixedContact::contact_state(const Eigen::VectorXd& u, Positions posit
   const Eigen::VectorXd now = jumps(u);
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const ContactPoint& point = points()[p];
     const CondensedPoint& condensed = problem_.points[p];
     if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
     NodeContact contact;
@@ -163,7 +163,7 @@ Vector3d MixedContact::shear_force(std::size_t p, const Eigen::VectorXd& jumps) 
   Vector3d force = Vector3d::Zero();
   if (problem_.points[p].rows < 2) return force;
   const Eigen::VectorXd rows = shear_rows(p, jumps);
-  const Directions along = directions(points_[p]);
+  const ContactRows::Directions along = rows_.directions(points()[p]);
   for (Eigen::Index c = 0; c < rows.size(); ++c) force += rows[c] * along[static_cast<std::size_t>(c + 1)];
   return force;
 }
@@ -174,8 +174,8 @@ void MixedContact::add_forces_between_nodes(const Eigen::VectorXd& jumps, std::m
                                             std::vector<NodeContact>& contacts) const {
   std::set<int> zones_with_nodes;
   for (const auto& [key, _] : by_node) zones_with_nodes.insert(key.first);
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const ContactPoint& point = points()[p];
     if (point.node >= 0 || point.area > 0.0 || problem_.points[p].first_row < 0 ||
         !zones_with_nodes.contains(point.zone))
       continue;
@@ -217,8 +217,8 @@ std::optional<ElementField> MixedContact::patch_state(const Eigen::VectorXd& u) 
     return std::nullopt;
   const Eigen::VectorXd now = jumps(u);
   std::map<int, PatchContact> by_node;  // a node inside tells the patch
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const ContactPoint& point = points_[p];
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const ContactPoint& point = points()[p];
     if (!(point.area > 0.0)) continue;
     PatchContact& contact = by_node[point.node];
     contact.covered = point.weight / point.area;

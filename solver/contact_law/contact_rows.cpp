@@ -1,0 +1,252 @@
+#include "solver/contact_law/contact_rows.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "solver/contact/patch_points.hpp"
+#include "solver/contact_law/dead_directions.hpp"
+#include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
+#include "solver/mesh/slave_cut.hpp"
+#include "solver/unilateral/conditions.hpp"
+
+namespace comma::solver {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// The squares of the normals of faces, summed over their areas; zero for lines.
+Vector3d spread_of_faces(const Mesh& mesh, const std::vector<int>& cells) {
+  Vector3d spread = Vector3d::Zero();
+  for (const int cell : cells) {
+    const auto nodes = mesh.cell(cell);
+    if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 2) continue;
+    const bool is_triangle = corner_count(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3;
+    const Vector3d normal =
+        (place(mesh, nodes[2]) - place(mesh, nodes[0]))
+            .cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
+    if (normal.norm() > 0.0) spread += normal.cwiseAbs2() / normal.norm();
+  }
+  return spread;
+}
+
+/// The axis, or another one where it is the normal itself.
+Vector3d axis_beside(const Vector3d& normal, const Vector3d& axis) {
+  if (axis.cross(normal).norm() > empty_row_tolerance) return axis;
+  return {axis[2], axis[0], axis[1]};
+}
+
+ContactLaw law_of(const ContactZone& zone) {
+  ContactLaw law;
+  law.augmentation = zone.mixed.augmentation;
+  law.penalised = zone.mixed.penalised;
+  law.friction = zone.mixed.friction;
+  law.friction_penalised = zone.mixed.friction_penalised;
+  law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_penalty : zone.mixed.augmentation;
+  return law;
+}
+
+}  // namespace
+
+ContactRows::ContactRows(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
+                         const Elimination& elimination)
+    : definition_(definition), model_(model), mesh_(*model.mesh), dofs_(dofs), elimination_(elimination) {
+  number_multipliers();
+}
+
+void ContactRows::number_multipliers() {
+  bool is_solid = false;
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
+    const ContactZone& each = definition_.zones[zone];
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
+    if (each.mixed.local_average) {
+      number_patches(static_cast<int>(zone));
+      continue;
+    }
+    const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
+    const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(),
+                                               each.mixed.frictionless_nodes.end());
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells))
+      if (!excluded.contains(node) &&
+          multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(smooth_.size())).second)
+        smooth_.push_back(!(each.mixed.friction > 0.0) ||
+                          (frictionless.contains(node) && !each.mixed.frictionless_direction));
+  }
+  dimension_ = is_solid ? 3 : 2;
+}
+
+/// One a patch, at all nodes inside it.
+void ContactRows::number_patches(int zone) {
+  for (const int patch : patches_of(definition_.zones[static_cast<std::size_t>(zone)], mesh_)) {
+    for (const int node : inner_nodes(mesh_, mesh_.slave_patches[static_cast<std::size_t>(patch)]))
+      multiplier_numbers_.emplace(Key(zone, node), static_cast<int>(smooth_.size()));
+    smooth_.push_back(1);
+  }
+}
+
+CondensedPoint ContactRows::condensed(const ContactPoint& point) const {
+  const ContactZone& zone = definition_.zones[static_cast<std::size_t>(point.zone)];
+  CondensedPoint result;
+  result.weight = point.weight;
+  result.law = law_of(zone);
+  result.bilateral = zone.mixed.bilateral;
+  const auto excluded = excluded_direction(zone.mixed, point, mesh_);
+  if (excluded &&
+      (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
+    result.law.friction = 0.0;
+  if (result.law.friction > 0.0) result.components = dimension_ == 2 || excluded ? 2 : 3;
+  const auto nodes = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (point.node >= 0 && nodes[i] != point.node) continue;
+    const auto number = multiplier_numbers_.find(Key(point.zone, nodes[i]));
+    if (number == multiplier_numbers_.end()) continue;
+    result.nodes[static_cast<std::size_t>(result.node_count)] = number->second;
+    result.shape[static_cast<std::size_t>(result.node_count++)] = point.node >= 0 ? 1.0 : point.shape[i];
+  }
+  return result;
+}
+
+void ContactRows::face(Positions positions, double time, double margin) {
+  FacedFacets before{{}, margin};
+  if (margin > 0.0)
+    for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
+  points_ = contact_points(definition_, model_, positions, time, before);
+  if (zone_directions_.empty()) choose_directions(positions, time);
+}
+
+void ContactRows::add_row(int row, const ContactPoint& point, const Vector3d& direction,
+                          std::vector<Eigen::Triplet<double>>& entries) const {
+  const auto add = [&](int node, const Vector3d& share) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (share[axis] == 0.0) continue;
+      const int dof = dofs_.dof(node, translation_components[axis]);
+      if (dof < 0)
+        throw Error(
+            "unknown-dof",
+            fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node),
+                        name_of(translation_components[axis])),
+            "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
+      entries.emplace_back(row, dof, share[axis]);
+    }
+  };
+  if (!point.shares.empty()) {
+    for (const GapShare& share : point.shares) add(share.node, share.coefficient);
+    return;
+  }
+  const auto slave = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i] * direction);
+  const auto master = mesh_.cell(point.facet);
+  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
+}
+
+/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at
+/// the nodes of a face then speak of the same directions, whatever state a computation begins with.
+void ContactRows::choose_directions(Positions positions, double time) {
+  if (dimension_ == 2) {
+    zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
+    return;
+  }
+  const std::vector<Vector3d> initial = places(mesh_);
+  const bool has_moved = !std::ranges::equal(positions, initial);
+  std::vector<ContactPoint> others;
+  try {
+    if (has_moved) others = contact_points(definition_, model_, initial, time, {});
+  } catch (const Error&) {
+    others.clear();  // surfaces that face each other only now
+  }
+  std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
+  for (const ContactPoint& point : others.empty() ? points_ : others)
+    spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
+  for (std::size_t zone = 0; zone < spread.size(); ++zone) {
+    if (spread[zone].isZero(0.0)) spread[zone] = spread_of_faces(mesh_, definition_.zones[zone].slave_cells);
+    const Vector3d& each = spread[zone];
+    Index axis = 0;
+    each.minCoeff(&axis);
+    zone_directions_.push_back(Vector3d::Unit(axis));
+  }
+}
+
+ContactRows::Directions ContactRows::directions(const ContactPoint& point) const {
+  const Vector3d& normal = point.normal;
+  if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
+  const Vector3d excluded =
+      excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_)
+          .value_or(Vector3d::Zero());
+  const Vector3d second =
+      excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
+  const Vector3d along = second - normal.dot(second) * normal;
+  if (!(along.norm() > empty_row_tolerance * second.norm()))
+    throw Error(
+        "degenerate-facet",
+        fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
+        "give a direction along the surface (DIRE_EXCL_FROT)");
+  return {normal, along.normalized().cross(normal), along.normalized()};
+}
+
+/// The gap between the initial places of the nodes.
+double ContactRows::initial_gap(const ContactPoint& point) const {
+  if (!point.shares.empty()) {
+    double gap = -point.offset;
+    for (const GapShare& share : point.shares) gap += share.coefficient.dot(place(mesh_, share.node));
+    return gap;
+  }
+  Vector3d apart = Vector3d::Zero();
+  const auto slave = mesh_.cell(point.cell);
+  for (std::size_t i = 0; i < slave.size(); ++i) apart += point.shape[i] * place(mesh_, slave[i]);
+  const auto master = mesh_.cell(point.facet);
+  for (std::size_t i = 0; i < master.size(); ++i) apart -= point.master_shape[i] * place(mesh_, master[i]);
+  return point.normal.dot(apart) - point.thickness;
+}
+
+void ContactRows::count_slips(const std::vector<CondensedPoint>& points, const Eigen::VectorXd& reference) {
+  if (full_.rows() == 0) return;
+  const Eigen::VectorXd before = full_ * reference;
+  for (const CondensedPoint& point : points)
+    for (int c = 1; c < point.components && point.first_row >= 0; ++c)
+      base_[point.first_row + c] = -before[point.first_row + c];
+}
+
+std::vector<CondensedPoint> ContactRows::build(const Eigen::VectorXd& reference) {
+  std::vector<CondensedPoint> points;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> base;
+  for (const ContactPoint& point : points_) {
+    CondensedPoint each = condensed(point);
+    if (point.status == PairingStatus::paired) {
+      each.first_row = static_cast<int>(base.size());
+      each.rows = each.components;
+      const Directions along = directions(point);
+      for (int c = 0; c < each.rows; ++c)
+        add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
+      base.push_back(initial_gap(point));
+      base.resize(base.size() + static_cast<std::size_t>(each.rows - 1), 0.0);
+    }
+    points.push_back(each);
+  }
+  full_.resize(static_cast<Index>(base.size()), dofs_.size());
+  full_.setFromTriplets(entries.begin(), entries.end());
+  base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
+  count_slips(points, reference);
+  reduced_ = full_ * RowMatrix(elimination_.transformation());
+  settle_blocked(points);
+  find_dead_directions(reduced_, points);
+  return points;
+}
+
+/// A point between nodes that are held is open or closed whatever the pressure, which then is anything: it gets none.
+void ContactRows::settle_blocked(std::vector<CondensedPoint>& points) {
+  blocked_.clear();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    CondensedPoint& point = points[p];
+    if (point.rows == 0) continue;
+    if (largest_entry(reduced_, point.first_row) > empty_row_tolerance * largest_entry(full_, point.first_row))
+      continue;
+    point.rows = 0;
+    blocked_.push_back(p);
+  }
+}
+
+}  // namespace comma::solver

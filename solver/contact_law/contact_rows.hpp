@@ -1,0 +1,81 @@
+// From points that face each other to the rows on which the law of contact is solved.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/constraints/elimination.hpp"
+#include "solver/contact/contact_points.hpp"
+#include "solver/contact_law/condensed_problem.hpp"
+#include "solver/model/model.hpp"
+
+namespace comma::solver {
+
+/// Jumps at the points are base + R u: the gap along the normal, then the slips since the step began along the tangents
+/// (lengths). Multipliers live at the slave nodes of each zone, under local average contact on its patches.
+class ContactRows {
+ public:
+  using Key = std::pair<int, int>;  ///< zone, node
+  /// Normal, then the tangents along which friction acts.
+  using Directions = std::array<Eigen::Vector3d, 3>;
+
+  /// Keeps references to its arguments.
+  ContactRows(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
+              const Elimination& elimination);
+
+  /// Which multiplier belongs to a node of a zone.
+  const std::map<Key, int>& multiplier_numbers() const { return multiplier_numbers_; }
+  /// One a multiplier: whether its shear vanishes by itself.
+  const std::vector<char>& smooth() const { return smooth_; }
+  /// Of the space in which the surfaces move: 2 or 3.
+  int dimension() const { return dimension_; }
+
+  /// Faces the points anew. `positions`: where the nodes are now; `margin`: see FacedFacets.
+  void face(Positions positions, double time, double margin);
+  const std::vector<ContactPoint>& points() const { return points_; }
+
+  /// The points for the law, with rows, penalties as the user gives them; slips are counted from `reference`. Those
+  /// that the conditions on displacements settle have no row that counts, and are `blocked` then. Throws Error
+  /// `unknown-dof`, `degenerate-facet`.
+  std::vector<CondensedPoint> build(const Eigen::VectorXd& reference);
+  const std::vector<std::size_t>& blocked() const { return blocked_; }
+  /// Counts slips from other displacements on.
+  void count_slips(const std::vector<CondensedPoint>& points, const Eigen::VectorXd& reference);
+
+  const RowMatrix& full() const { return full_; }        ///< R, over all degrees of freedom
+  const RowMatrix& reduced() const { return reduced_; }  ///< A = R T
+  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + full_ * u; }
+  Directions directions(const ContactPoint& point) const;
+
+ private:
+  void number_multipliers();
+  void number_patches(int zone);
+  void choose_directions(Positions positions, double time);
+  CondensedPoint condensed(const ContactPoint& point) const;
+  double initial_gap(const ContactPoint& point) const;
+  void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction,
+               std::vector<Eigen::Triplet<double>>& entries) const;
+  void settle_blocked(std::vector<CondensedPoint>& points);
+
+  const ContactDefinition& definition_;
+  const Model& model_;
+  const Mesh& mesh_;
+  const DofMap& dofs_;
+  const Elimination& elimination_;
+
+  std::map<Key, int> multiplier_numbers_;
+  std::vector<char> smooth_;
+  int dimension_ = 3;
+  std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
+  std::vector<ContactPoint> points_;
+  std::vector<std::size_t> blocked_;
+  RowMatrix full_;
+  RowMatrix reduced_;
+  Eigen::VectorXd base_;
+};
+
+}  // namespace comma::solver
