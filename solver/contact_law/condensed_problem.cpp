@@ -19,6 +19,17 @@ double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
 }
 
+std::vector<char> shared_multipliers(const CondensedProblem& problem) {
+  std::vector<char> shared(static_cast<std::size_t>(problem.node_count), 0), taken = shared;
+  for (const CondensedPoint& point : problem.points)
+    for (int i = 0; i < point.node_count; ++i) {
+      const auto node = static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)]);
+      if (point.node_count > 1 || taken[node]) shared[node] = 1;
+      if (point.rows > 0) taken[node] = 1;
+    }
+  return shared;
+}
+
 Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Index rows) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows);
   for (std::size_t p = 0; p < problem.points.size(); ++p) {

@@ -100,6 +100,10 @@ Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedSt
 /// How far a point slips where the rows have these jumps; 0 without friction.
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);
 
+/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law
+/// holds in the mean alone, and the augmentation is in the solution. One a multiplier.
+std::vector<char> shared_multipliers(const CondensedProblem& problem);
+
 /// What the multipliers alone put on the rows (`rows` of them) of closed points.
 Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const CondensedState& state, Eigen::Index rows);
 

@@ -201,6 +201,11 @@ double ContactRows::initial_gap(const ContactPoint& point) const {
   return point.normal.dot(apart) - point.thickness;
 }
 
+Eigen::VectorXd ContactRows::jumps(const Eigen::VectorXd& u) const {
+  if (full_.rows() == 0) return {};
+  return base_ + full_ * u;
+}
+
 void ContactRows::count_slips(const std::vector<CondensedPoint>& points, const Eigen::VectorXd& reference) {
   if (full_.rows() == 0) return;
   const Eigen::VectorXd before = full_ * reference;

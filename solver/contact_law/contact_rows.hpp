@@ -46,9 +46,9 @@ class ContactRows {
   /// Counts slips from other displacements on.
   void count_slips(const std::vector<CondensedPoint>& points, const Eigen::VectorXd& reference);
 
-  const RowMatrix& full() const { return full_; }        ///< R, over all degrees of freedom
-  const RowMatrix& reduced() const { return reduced_; }  ///< A = R T
-  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const { return base_ + full_ * u; }
+  const RowMatrix& full() const { return full_; }         ///< R, over all degrees of freedom
+  const RowMatrix& reduced() const { return reduced_; }   ///< A = R T
+  Eigen::VectorXd jumps(const Eigen::VectorXd& u) const;  ///< none before points are faced
   Directions directions(const ContactPoint& point) const;
 
  private:
@@ -77,5 +77,10 @@ class ContactRows {
   RowMatrix reduced_;
   Eigen::VectorXd base_;
 };
+
+/// Whether the overlap of a point says nothing of its penalty: next to no force belongs to it.
+inline bool is_free_of_force(const ContactPoint& point, const CondensedPoint& condensed) {
+  return point.bears_nothing && condensed.law.penalised;
+}
 
 }  // namespace comma::solver

@@ -16,25 +16,12 @@ constexpr double softer_augmentation = 1e-2;
 
 }  // namespace
 
-/// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law
-/// holds in the mean alone, and the augmentation is in the solution.
-std::vector<char> MixedContact::shared_multipliers() const {
-  std::vector<char> shared(static_cast<std::size_t>(problem_.node_count), 0), taken = shared;
-  for (const CondensedPoint& point : problem_.points)
-    for (int i = 0; i < point.node_count; ++i) {
-      const auto node = static_cast<std::size_t>(point.nodes[static_cast<std::size_t>(i)]);
-      if (point.node_count > 1 || taken[node]) shared[node] = 1;
-      if (point.rows > 0) taken[node] = 1;
-    }
-  return shared;
-}
-
 /// Where all points that share a multiplier lie on its node the solution does not depend on the augmentation; one as
 /// stiff as the bodies suits any unit of length. Where points lie between nodes it does, but the softer the less: one
 /// too soft beside the bodies is raised to where the solution hardly changes, and pressures no longer lose their digits
 /// in it.
 void MixedContact::add_natural_augmentation() {
-  const std::vector<char> shared = shared_multipliers();
+  const std::vector<char> shared = shared_multipliers(problem_);
   std::vector<double> least(definition_.zones.size(),
                             std::numeric_limits<double>::infinity());  // of points that share multipliers: one a zone,
                                                                        // in which points weigh by it

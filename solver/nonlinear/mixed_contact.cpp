@@ -13,6 +13,7 @@
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/model/deformed_places.hpp"
+#include "solver/nonlinear/contact_doubts.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
 #include "solver/unilateral/conditions.hpp"
@@ -26,8 +27,6 @@ using Eigen::Vector3d;
 
 /// A gap below this share of the face's size counts as closed at the start (CONTACT_INIT='INTERPENETRE').
 constexpr double touching = 1e-6;
-/// Imposed displacements may overlap by this share of the face's size.
-constexpr double overlap_tolerance = 1e-9;
 constexpr int most_condensed_iterations = 60;
 
 bool has_friction(const ContactDefinition& definition) {
@@ -89,7 +88,7 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
 /// lie on its node, and no penalty lets them creep, the solution is that of shears, which need no scale.
 void MixedContact::share_friction() {
   if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
-  const std::vector<char> shared = shared_multipliers();
+  const std::vector<char> shared = shared_multipliers(problem_);
   for (std::size_t p = 0; p < points().size(); ++p) {
     CondensedPoint& point = problem_.points[p];
     if (!(point.law.friction > 0.0) || point.node_count == 0) continue;
@@ -247,12 +246,6 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
 }
 
-Vector3d MixedContact::multiplier(int number) const {
-  Vector3d value = Vector3d::Zero();
-  value.head(problem_.components) = state_.multipliers.segment(number * problem_.components, problem_.components);
-  return value;
-}
-
 Eigen::VectorXd MixedContact::forces() const { return rows_.reduced().transpose() * forces_; }
 
 /// Points come in the same order at every pairing.
@@ -392,7 +385,7 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const auto zone = static_cast<std::size_t>(points()[p].zone);
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || is_free_of_force(p)) continue;
+    if (point.rows == 0 || is_free_of_force(points()[p], problem_.points[p])) continue;
     const std::optional<double> deepest = penalties_.allowed_depth(mixed);
     const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
                                   mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
@@ -430,9 +423,43 @@ double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) co
   const Eigen::VectorXd now = jumps(u);
   double deepest = 0.0;
   for (std::size_t p = 0; p < points().size(); ++p)
-    if (problem_.points[p].rows > 0 && !is_free_of_force(p) && (problem_.points[p].law.penalised || !of_penalties))
+    if (problem_.points[p].rows > 0 && !is_free_of_force(points()[p], problem_.points[p]) &&
+        (problem_.points[p].law.penalised || !of_penalties))
       deepest = std::max(deepest, -now[problem_.points[p].first_row]);
   return deepest;
+}
+
+SolvedContact MixedContact::solved(const Eigen::VectorXd& u) const {
+  return {definition_, mesh_, dofs_, rows_, problem_, state_, forces_, u, jumps(u)};
+}
+
+void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
+  const ContactResponse response{[this](const Eigen::VectorXd& forces) { return pushed_by(forces); },
+                                 [this, &u] { return pushed_back(u); }, penalties_, rubs_by_shears_,
+                                 augmentation_share_ < 1.0};
+  comma::solver::note_doubts(solved(u), response, doubts);
+}
+
+void MixedContact::note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const {
+  if (tangent_.springs().empty() || rows_.reduced().rows() == 0) return;
+  const RowMatrix held = closed_rows(solved(u));
+  doubts.note_loose(tangent_.unheld_beside(&held));
+}
+
+std::vector<double> MixedContact::pushed_back(const Eigen::VectorXd& u) {
+  if (!schur_) return std::vector<double>(definition_.zones.size(), 0.0);
+  return comma::solver::pushed_back(solved(u), [this](const Eigen::VectorXd& forces) { return pushed_by(forces); });
+}
+
+Eigen::VectorXd MixedContact::pushed_by(const Eigen::VectorXd& contact_forces) {
+  if (!schur_) {
+    Eigen::MatrixXd push = rows_.reduced().transpose() * contact_forces;
+    tangent_.solve_once(push);
+    return rows_.reduced() * push;
+  }
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
+  forces.head(contact_forces.size()) = contact_forces;
+  return schur_->times(forces).head(contact_forces.size());
 }
 
 }  // namespace comma::solver

@@ -1,25 +1,19 @@
 // The mixed formulation of contact (R5.03.52) within Newton's iterations: points, multipliers, forces.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "solver/constraints/elimination.hpp"
-#include "solver/contact/contact_field.hpp"
-#include "solver/contact/contact_points.hpp"
 #include "solver/contact/doubts.hpp"
 #include "solver/contact_law/condensed_contact.hpp"
 #include "solver/contact_law/contact_memory.hpp"
 #include "solver/contact_law/contact_rows.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/nonlinear/solved_contact.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 #include "solver/unilateral/schur_complement.hpp"
@@ -95,34 +89,22 @@ class MixedContact {
   /// does not help.
   bool stiffen_penalties(const Eigen::VectorXd& u);
 
-  /// Of a step that has converged at u: how far penalties, and faces too coarse for what they touch, let the bodies
-  /// into each other. Costs a solve where there are penalties.
+  /// Of a step that has converged at u (see contact_doubts.hpp). Costs a solve where there are penalties.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
   /// Of the last step: motions of bodies that nothing holds, not even the points that are closed.
-  void note_loose_bodies(ContactDoubts& doubts) const;
-  /// How far contact forces, all or those of the zone alone, move its points, at most, zone by zone (lengths); 0 of
-  /// zones that have none.
-  std::vector<double> pushed_back();
+  void note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const;
+  /// See contact_doubts.hpp; 0 where no force has been computed.
+  std::vector<double> pushed_back(const Eigen::VectorXd& u);
 
-  /// CONT_ELEM at u (see contact_field.hpp); nothing without zones of local average contact.
-  std::optional<ElementField> patch_state(const Eigen::VectorXd& u) const;
-
-  /// Of the mixed formulation alone: adds LAGS_C (minus the pressure) to a field of displacements, zero where contact
-  /// is open, absent but at slave nodes (under local average contact at those inside patches); with friction LAGS_F1,
-  /// LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
-  void add_multipliers(const Eigen::VectorXd& u, NodalField& displacements) const;
-  /// CONT_NOEU (see contact_field.hpp) at u.
-  NodalField contact_state(const Eigen::VectorXd& u, Positions positions, double instant) const;
+  /// At u, for those who make fields and alarms of it; keeps references to this and to u.
+  SolvedContact solved(const Eigen::VectorXd& u) const;
 
  private:
-  using Key = ContactRows::Key;
-
   void start_statuses(const Eigen::VectorXd& jumps);
   std::vector<ZoneMemory> zone_definitions() const;
   std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
   void apply_penalties(int zone, CondensedPoint& point) const;
-  std::vector<char> shared_multipliers() const;
   void share_friction();
   void add_natural_augmentation();
   double augmentation_of(const ContactZone& zone) const;
@@ -130,39 +112,13 @@ class MixedContact {
   CondensedSolution solve_law();
   double stiffness_at(std::size_t p) const;
   double resistance_at(std::size_t p) const;
-  Eigen::Vector3d multiplier(int number) const;
   bool is_faced_again() const;
   void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
   void update_schur();
-  Eigen::VectorXd shears() const;
-  Eigen::VectorXd jumps_without(const Eigen::VectorXd& contact_forces, const Eigen::VectorXd& u);
   double displacement_of_surfaces(const Eigen::VectorXd& u) const;
-  double motion_of(int zone, const Eigen::VectorXd& u) const;
   Eigen::VectorXd pushed_by(const Eigen::VectorXd& contact_forces);
-  /// The forces without those of other zones.
-  Eigen::VectorXd forces_of(int zone, Eigen::VectorXd forces) const;
-  void note_depth(int zone, const Eigen::VectorXd& now, const Eigen::VectorXd& without, ContactDoubts& doubts) const;
-  void note_creep(int zone, const Eigen::VectorXd& u, const Eigen::VectorXd& now, const Eigen::VectorXd& without,
-                  ContactDoubts& doubts) const;
-  void note_unshared_friction(ContactDoubts& doubts) const;
-  void note_lowered_augmentation(ContactDoubts& doubts) const;
-  /// Whether the overlap of the point says nothing of its penalty: next to no force belongs to it.
-  bool is_free_of_force(std::size_t point) const {
-    return points()[point].bears_nothing && problem_.points[point].law.penalised;
-  }
-  void show_pressures_on_axis(const std::function<double*(int)>& place) const;
-  void add_idle_multipliers(const Eigen::VectorXd& u, const std::function<double*(int)>& place) const;
-  double share_of_limit(const CondensedPoint& point, double slip, double limit) const;
-  Eigen::VectorXd shear_rows(std::size_t p, const Eigen::VectorXd& jumps) const;
-  Eigen::Vector3d shear_force(std::size_t p, const Eigen::VectorXd& jumps) const;
-  void add_forces_between_nodes(const Eigen::VectorXd& jumps, std::map<Key, std::size_t>& by_node,
-                                std::vector<NodeContact>& contacts) const;
-  void add_nodes_without_contact(Positions positions, double instant, std::vector<NodeContact>& contacts) const;
-  void note_held_overlaps(const Eigen::VectorXd& now, ContactDoubts& doubts) const;
-  void note_coarse_faces(const Eigen::VectorXd& u, ContactDoubts& doubts);
-  void note_friction_between_nodes(ContactDoubts& doubts) const;
   void begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
                                Eigen::VectorXd& corrected);
@@ -186,8 +142,8 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
-  double augmentation_share_ =
-      1.0;  ///< of what is given, between nodes: lowered in a step where nothing else leads to a solution
+  /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
+  double augmentation_share_ = 1.0;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   std::tuple<CondensedState, RaisedPenalties, bool> remembered_;
   std::size_t spring_count_ = 0;

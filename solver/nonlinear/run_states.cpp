@@ -8,6 +8,7 @@
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/nonlinear/known_displacements.hpp"
+#include "solver/nonlinear/mixed_contact_fields.hpp"
 #include "solver/nonlinear/static_run.hpp"
 
 namespace comma::solver {
@@ -164,12 +165,12 @@ void StaticRun::add_internal_variables(ResultStep& step) const {
 
 void StaticRun::add_patch_state(ResultStep& step) const {
   if (!mixed_) return;
-  if (auto state = mixed_->patch_state(now_.state.u)) step.fields.emplace("CONT_ELEM", *std::move(state));
+  if (auto state = patch_state(mixed_->solved(now_.state.u))) step.fields.emplace("CONT_ELEM", *std::move(state));
 }
 
 NodalField StaticRun::displacements() const {
   NodalField field = to_field(now_.state.u, dofs_, "DEPL_R");
-  if (mixed_) mixed_->add_multipliers(now_.state.u, field);
+  if (mixed_) add_multipliers(mixed_->solved(now_.state.u), field);
   return field;
 }
 
@@ -200,7 +201,7 @@ void StaticRun::append(ResultStep step) {
 }
 
 NodalField StaticRun::contact_state(double instant) const {
-  if (mixed_) return mixed_->contact_state(now_.state.u, positions(), instant);
+  if (mixed_) return comma::solver::contact_state(mixed_->solved(now_.state.u), positions(), instant);
   const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
   std::vector<double> gaps(now_.conditions.pairs.size(), absent);
   for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {

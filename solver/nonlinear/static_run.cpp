@@ -93,7 +93,7 @@ void StaticRun::run(const StepPlan& plan) {
                               instant),
                   "with reuse= the steps up to there are kept; ACTION='CONTINUE' goes on");
   }
-  if (mixed_) mixed_->note_loose_bodies(doubts_);
+  if (mixed_) mixed_->note_loose_bodies(now_.state.u, doubts_);
   if (surface_doubts_) surface_doubts_->conclude(doubts_);
 }
 
@@ -139,8 +139,9 @@ void StaticRun::note_doubts_about_surfaces(double instant) {
   if (!problem_.contact || path_ || !now_.paired) return;
   if (!surface_doubts_) surface_doubts_.emplace(*problem_.contact, mesh_);
   const std::vector<Vector3d> now = positions();
-  SurfaceState state{instant, now, mixed_ ? mixed_->pushed_back() : newton_.pushed_back(problem_.contact->zones.size()),
-                     {},      {},  {}};
+  SurfaceState state{
+      instant, now, mixed_ ? mixed_->pushed_back(now_.state.u) : newton_.pushed_back(problem_.contact->zones.size()),
+      {},      {},  {}};
   if (problem_.contact->geometry_update != GeometryUpdate::automatic)
     state.pairs = [&] { return pairs_solved_with(instant); };
   if (std::ranges::any_of(problem_.contact->zones, [](const ContactZone& zone) { return zone.mixed.local_average; })) {
