@@ -10,6 +10,7 @@
 
 #include "commands/functions/functions.hpp"
 #include "commands/loads/load_building.hpp"
+#include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/constraints/directions.hpp"
@@ -215,12 +216,47 @@ void add_rigid_body(const Keywords& keywords, const LoadedModel& target, solver:
   append(load.relations, std::move(relations));
 }
 
-// LIAISON_ELEM, 3D_POU and 2D_POU.
+// The thickness of the plate at an edge: what COQUE gives to the edge itself, else to the plates that it bounds.
+double thickness_at(int edge, const PropertiesConcept& properties, const Keywords& keywords, const solver::Mesh& mesh) {
+  if (const auto own = properties.named_plates.find(edge); own != properties.named_plates.end())
+    return own->second.thickness;
+  const auto nodes = mesh.cell(edge);
+  std::optional<double> found;
+  for (const auto& [cell, plate] : properties.properties->plates) {
+    const auto around = mesh.cell(cell);
+    const bool bounds = std::ranges::all_of(
+        nodes, [&](int node) { return std::find(around.begin(), around.end(), node) != around.end(); });
+    if (!bounds) continue;
+    if (found && *found != plate.thickness)
+      throw DiagnosticError(
+          "ambiguous-thickness",
+          fmt::format("LIAISON_ELEM: edge {} bounds plates of different thickness", mesh.cell_name(edge)),
+          keywords.span, "name the edge in AFFE_CARA_ELEM/COQUE too");
+    found = plate.thickness;
+  }
+  if (found) return *found;
+  throw DiagnosticError("missing-properties",
+                        fmt::format("LIAISON_ELEM: edge {} bounds no plate that CARA_ELEM knows", mesh.cell_name(edge)),
+                        keywords.span_of("CARA_ELEM"), "COQUE of AFFE_CARA_ELEM gives its thickness");
+}
+
+solver::SectionLink plate_link(const Keywords& keywords, const LoadedModel& target, const std::vector<int>& section,
+                               int node, const solver::Origin& origin) {
+  const auto& properties = keywords.data<PropertiesConcept>("CARA_ELEM");
+  std::vector<solver::PlateEdge> edges;
+  for (const int cell : section) edges.push_back({cell, thickness_at(cell, properties, keywords, target.mesh)});
+  return solver::plate_section_link(target.mesh, edges, Eigen::Vector3d(point_of(keywords, "AXE_POUTRE").data()), node,
+                                    origin);
+}
+
+// LIAISON_ELEM: 3D_POU, 2D_POU and COQ_POU.
 Relations beam_on_section(const Keywords& keywords, const LoadedModel& target, const solver::Origin& origin) {
   const auto section = needed(selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_1", "MAILLE_1"}), keywords,
                               "cell of the section");
   const int node = single_node(keywords, "NOEUD_2", "GROUP_NO_2", target.mesh);
-  solver::SectionLink link = solver::section_link(target.mesh, section, node, origin);
+  solver::SectionLink link = keywords.text("OPTION") == "COQ_POU"
+                                 ? plate_link(keywords, target, section, node, origin)
+                                 : solver::section_link(target.mesh, section, node, origin);
   // U4.44.01, LIAISON_ELEM: the beam must end at the centroid of the section.
   constexpr double allowed_offset = 0.05;
   if (keywords.text("VERIF_EXCENT") == "OUI" && link.offset > allowed_offset * link.size) {

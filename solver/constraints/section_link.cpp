@@ -13,12 +13,15 @@ namespace {
 
 /// Coefficients this small, of about one, are rounding.
 constexpr double negligible_in_section = 1e-14;
+/// An edge that is nearer to the axis of the beam than this (the sine of the angle) lies along it.
+constexpr double least_angle = 1e-6;
 
-/// For each node: the integrals over the section of its shape function N and of N GM, where the section has unit
-/// measure.
+/// For each node: the integrals over the section of its shape function N, of N GM, and of N z^2 (1 - n n^T) through the
+/// thickness of a plate, where the section has unit measure.
 struct NodeIntegrals {
   double share = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
 };
 
 struct SectionIntegrals {
@@ -27,43 +30,78 @@ struct SectionIntegrals {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< rotation -> integral of GM x (rotation x GM)
 };
 
-/// Calls visit(cell, sample, point, measure) at each integration point.
-template <class F>
-void for_each_point(const Mesh& mesh, std::span<const int> section, F&& visit) {
+/// An integration point: what part of the section it stands for, and a plate's mean of z^2 (1 - n n^T) there.
+struct SectionPoint {
+  int cell = -1;
+  Eigen::VectorXd shape;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double measure = 0.0;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+};
+
+void require_dimension(const Mesh& mesh, int cell, int expected) {
+  if (dimension(mesh.cell_types[cell]) == expected) return;
+  throw Error("not-a-skin", fmt::format("cell {}, a {}, is no {} of a section", mesh.cell_name(cell),
+                                        name_of(mesh.cell_types[cell]), expected == 2 ? "face" : "edge"));
+}
+
+std::vector<SectionPoint> points_of(const Mesh& mesh, std::span<const int> section) {
+  std::vector<SectionPoint> points;
   CellSamples samples;
   const int expected = mesh.dimension - 1;
   for (const int cell : section) {
-    if (dimension(mesh.cell_types[cell]) != expected) {
-      throw Error("not-a-skin", fmt::format("cell {}, a {}, is no {} of a section", mesh.cell_name(cell),
-                                            name_of(mesh.cell_types[cell]), expected == 2 ? "face" : "edge"));
-    }
+    require_dimension(mesh, cell, expected);
     for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::skin)) {
       const CellPoint point = locate(mesh, cell, sample);
-      visit(cell, sample, point.at, sample.weight * point.measure(expected));
+      points.push_back({cell, sample.values, point.at, sample.weight * point.measure(expected)});
     }
   }
+  return points;
 }
 
-SectionIntegrals integrate(const Mesh& mesh, std::span<const int> section) {
+std::vector<SectionPoint> points_of(const Mesh& mesh, std::span<const PlateEdge> section, const Eigen::Vector3d& axis) {
+  std::vector<SectionPoint> points;
+  CellSamples samples;
+  for (const auto& [cell, thickness] : section) {
+    require_dimension(mesh, cell, 1);
+    for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::skin)) {
+      const CellPoint point = locate(mesh, cell, sample);
+      const Eigen::Vector3d tangent = point.tangents.col(0);
+      const Eigen::Vector3d normal = tangent.cross(axis);
+      if (!(normal.norm() > least_angle * tangent.norm() * axis.norm()))
+        throw Error("parallel-directions",
+                    fmt::format("edge {} of the plate lies along the axis of the beam", mesh.cell_name(cell)),
+                    "give the axis of the beam, which the edge crosses");
+      const Eigen::Vector3d n = normal.normalized();
+      points.push_back({cell, sample.values, point.at, thickness * sample.weight * point.measure(1),
+                        thickness * thickness / 12.0 * (Eigen::Matrix3d::Identity() - n * n.transpose())});
+    }
+  }
+  return points;
+}
+
+SectionIntegrals integrate(const Mesh& mesh, const std::vector<SectionPoint>& points) {
   SectionIntegrals result;
   double measure = 0.0;
-  for_each_point(mesh, section, [&](int, const CellSample&, const Eigen::Vector3d& at, double weight) {
-    measure += weight;
-    result.centroid += weight * at;
-  });
+  for (const SectionPoint& point : points) {
+    measure += point.measure;
+    result.centroid += point.measure * point.at;
+  }
   result.centroid /= measure;
-  for_each_point(mesh, section, [&](int cell, const CellSample& sample, const Eigen::Vector3d& at, double weight) {
-    const Eigen::Vector3d lever = at - result.centroid;
+  for (const SectionPoint& point : points) {
+    const double weight = point.measure / measure;
+    const Eigen::Vector3d lever = point.at - result.centroid;
     result.inertia +=
-        weight / measure * (lever.squaredNorm() * Eigen::Matrix3d::Identity() - lever * lever.transpose());
-    const auto nodes = mesh.cell(cell);
+        weight * (lever.squaredNorm() * Eigen::Matrix3d::Identity() - lever * lever.transpose() + point.turn);
+    const auto nodes = mesh.cell(point.cell);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       NodeIntegrals& node = result.nodes[nodes[a]];
-      const double share = weight / measure * sample.values[static_cast<Eigen::Index>(a)];
+      const double share = weight * point.shape[static_cast<Eigen::Index>(a)];
       node.share += share;
       node.moment += share * lever;
+      node.turn += share * point.turn;
     }
-  });
+  }
   return result;
 }
 
@@ -89,14 +127,12 @@ LinearRelation mean_rotation(const SectionIntegrals& section, int beam_node, int
   for (const auto& [node, integrals] : section.nodes) {
     add_term(relation, node, k, -integrals.moment[j] / (size * size));
     add_term(relation, node, j, integrals.moment[k] / (size * size));
+    for (int c = 0; c < 3; ++c) add_term(relation, node, 3 + c, -integrals.turn(axis, c) / (size * size));
   }
   return relation;
 }
 
-}  // namespace
-
-SectionLink section_link(const Mesh& mesh, std::span<const int> section, int beam_node, const Origin& origin) {
-  const SectionIntegrals integrals = integrate(mesh, section);
+SectionLink link_of(const SectionIntegrals& integrals, const Mesh& mesh, int beam_node, const Origin& origin) {
   SectionLink link;
   link.centroid = integrals.centroid;
   link.offset = (Eigen::Vector3d(mesh.nodes[beam_node].data()) - integrals.centroid).norm();
@@ -108,6 +144,17 @@ SectionLink section_link(const Mesh& mesh, std::span<const int> section, int bea
     link.relations.push_back(mean_rotation(integrals, beam_node, axis, first_turn, link.size, origin));
   }
   return link;
+}
+
+}  // namespace
+
+SectionLink section_link(const Mesh& mesh, std::span<const int> section, int beam_node, const Origin& origin) {
+  return link_of(integrate(mesh, points_of(mesh, section)), mesh, beam_node, origin);
+}
+
+SectionLink plate_section_link(const Mesh& mesh, std::span<const PlateEdge> section, const Eigen::Vector3d& axis,
+                               int beam_node, const Origin& origin) {
+  return link_of(integrate(mesh, points_of(mesh, section, axis)), mesh, beam_node, origin);
 }
 
 }  // namespace comma::solver

@@ -1,4 +1,4 @@
-// A beam's end joined to the section where a solid or plane body takes over (R3.03.03).
+// A beam's end joined to the section where a solid, a plane body (R3.03.03) or a plate (R3.03.06) takes over.
 #pragma once
 
 #include <span>
@@ -25,5 +25,17 @@ struct SectionLink {
 /// of the beam without hindering the section to warp. Throws Error `not-a-skin` for a cell that is no face in space (or
 /// no edge in the plane).
 SectionLink section_link(const Mesh& mesh, std::span<const int> section, int beam_node, const Origin& origin);
+
+/// The edge of a plate in space as a section: what lies within half the thickness of it along the normal of the plate.
+struct PlateEdge {
+  int cell = -1;           ///< an edge
+  double thickness = 0.0;  ///< of the plate there (a length)
+};
+
+/// The same where a plate ends at the beam: displacements vary through the thickness by the rotations of its nodes,
+/// u + z rotation x n. `axis`: of the beam; the normal n of the plate is at right angles to it and to the edge. Throws
+/// Error `not-a-skin` for a cell that is no edge, `parallel-directions` for one along the axis.
+SectionLink plate_section_link(const Mesh& mesh, std::span<const PlateEdge> section, const Eigen::Vector3d& axis,
+                               int beam_node, const Origin& origin);
 
 }  // namespace comma::solver

@@ -99,4 +99,38 @@ TEST_CASE("an edge in the plane joins a beam's node by three relations") {
   CHECK_THROWS_WITH(section_link(mesh, std::vector{2}, 5, origin), Catch::Contains("M3"));
 }
 
+TEST_CASE("an L of plates that moves rigidly takes the beam's node along") {
+  // The beam lies along Z; nodes of plates turn with the section.
+  Mesh mesh;
+  mesh.dimension = 3;
+  mesh.nodes = {{0, 0, 1}, {2, 0, 1}, {0, 1, 1}, {0.5, 0.5, 1}};
+  mesh.add_cell(CellType::seg2, std::vector{0, 1});
+  mesh.add_cell(CellType::seg2, std::vector{0, 2});
+  const std::vector<PlateEdge> edges = {{0, 0.1}, {1, 0.3}};
+  const SectionLink link = plate_section_link(mesh, edges, Eigen::Vector3d(0, 0, 2), 3, origin);
+  REQUIRE(link.relations.size() == 6);
+  const Eigen::Vector3d centroid(0.2 / 0.5, 0.15 / 0.5, 1.0);  // of areas 0.2 and 0.3
+  CHECK((link.centroid - centroid).norm() < 1e-14);
+  const Eigen::Vector3d translation(0.3, -0.2, 0.9), rotation(0.5, 0.7, -0.4);
+  for (const auto& relation : link.relations) {
+    double sum = 0.0;
+    for (const auto& term : relation.terms) {
+      const int c = static_cast<int>(term.component);
+      // The beam's node has the motion of the centroid, wherever it lies.
+      const Eigen::Vector3d at = term.node == 3 ? centroid : Eigen::Vector3d(mesh.nodes[term.node].data());
+      sum += term.coefficient * (c < 3 ? (translation + rotation.cross(at))[c] : rotation[c - 3]);
+    }
+    CHECK(std::abs(sum) < 1e-14);
+  }
+}
+
+TEST_CASE("an edge of a plate along the beam is no section of it") {
+  Mesh mesh;
+  mesh.dimension = 3;
+  mesh.nodes = {{0, 0, 0}, {0, 0, 1}};
+  mesh.add_cell(CellType::seg2, std::vector{0, 1});
+  CHECK_THROWS_WITH(plate_section_link(mesh, std::vector<PlateEdge>{{0, 0.1}}, Eigen::Vector3d::UnitZ(), 0, origin),
+                    Catch::Contains("lies along the axis of the beam"));
+}
+
 }  // namespace section_link_test
