@@ -38,12 +38,12 @@ const char* modelisation(bool plane, bool rotations) {
 struct Characteristic {
   explicit Characteristic(const std::string& word)
       : name(word),
-        stiffness(word.front() == 'K'),
-        rotations(word.starts_with("K_TR") || word.starts_with("M_TR")),
+        quantity(word.front()),
+        rotations(word.substr(1).starts_with("_TR")),
         diagonal(word.find("_D_") != std::string::npos),
         segment(word.back() == 'L') {}
   std::string name;
-  bool stiffness;
+  char quantity;  ///< K: stiffness, M: mass, A: damping
   bool rotations;
   bool diagonal;
   bool segment;
@@ -110,11 +110,13 @@ void assign(const Keywords& assignment, const Characteristic& wanted, const solv
   const Formulation formulation = model.formulations[cell];
   const auto values = assignment.reals("VALE");
   const bool all_terms = assignment.text("SYME") == "NON";
-  if (wanted.stiffness) {
+  if (wanted.quantity != 'M') {
     const auto make = wanted.diagonal ? solver::diagonal_stiffness
                       : all_terms     ? solver::unsymmetric_stiffness
                                       : solver::symmetric_stiffness;
-    properties.discrete[cell] = make(mesh, cell, formulation, values, frame, orientation);
+    // A damping matrix has as many terms; it is checked, and does nothing in statics.
+    solver::DiscreteStiffness matrix = make(mesh, cell, formulation, values, frame, orientation);
+    if (wanted.quantity == 'K') properties.discrete[cell] = std::move(matrix);
   } else if (wanted.diagonal) {
     properties.masses[cell] = solver::rigid_mass(
         mesh, cell, formulation, inertia_of(assignment, wanted, is_plane(formulation)), frame, orientation);
@@ -122,7 +124,7 @@ void assign(const Keywords& assignment, const Characteristic& wanted, const solv
     const auto make = all_terms ? solver::unsymmetric_mass : solver::symmetric_mass;
     properties.masses[cell] = make(mesh, cell, formulation, values, frame, orientation);
   }
-  if (wanted.stiffness) return;
+  if (wanted.quantity == 'K') return;
   // What is not given is zero (U4.42.01).
   const std::vector<double> none(static_cast<std::size_t>(solver::discrete_components(formulation)), 0.0);
   properties.discrete.try_emplace(cell, solver::diagonal_stiffness(mesh, cell, formulation, none, frame, orientation));
