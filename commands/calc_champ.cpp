@@ -32,7 +32,6 @@ std::vector<std::string> wanted_fields(const Call& call) {
 }
 
 // --- fields of one's own
-// ----------------------------------------------------------------------------------------------------
 
 // UT01_ELGA for NUME_CHAM_RESU=1 and a field at Gauss points.
 std::string own_name(const Keywords& occurrence) {

@@ -126,8 +126,8 @@ struct FieldConcept : ConceptData {
   std::shared_ptr<const solver::Model> model;
   /// Of a field of functions (TYPE_CHAM='..._F'): its values are then indices into this list.
   std::vector<std::shared_ptr<const FunctionConcept>> functions;
-  std::shared_ptr<const solver::BehaviourOfCells> behaviours =
-      {};  ///< of a result from which the field was taken: they name internal variables
+  /// Of a result from which the field was taken: they name internal variables.
+  std::shared_ptr<const solver::BehaviourOfCells> behaviours = {};
   /// The multipliers of relations that stand beside displacements taken of a result, computed when asked for; null
   /// where there are none.
   std::shared_ptr<const MultiplierSum> multipliers = {};

@@ -60,8 +60,8 @@ struct Context {
   std::vector<Verdict> verdicts = {};
   solver::Counters counters = {};
   bool only_checks = false;  ///< nothing will be solved
-  std::set<std::string> written =
-      {};  ///< outputs that this run has opened: the first writing replaces, later ones append
+  /// Outputs that this run has opened: the first writing replaces, later ones append.
+  std::set<std::string> written = {};
   std::set<int> released_units = {};                               ///< IMPR_RESU begins anew what these held
   std::map<std::string, std::vector<WrittenMesh>> med_files = {};  ///< outputs of the format MED, likewise
 

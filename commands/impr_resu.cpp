@@ -39,7 +39,6 @@ struct PrintedPart {
 };
 
 // --- the part that the keywords choose
-// --------------------------------------------------------------------------------------
 
 // Only the components of NOM_CMP that the field has; false if it has none of them.
 bool choose_components(const Keywords& print, solver::Field& field) {
@@ -249,7 +248,6 @@ void check_same_mesh(const std::vector<PrintedPart>& parts, std::size_t i, const
 }
 
 // --- MED
-// --------------------------------------------------------------------------------------------------------------------
 
 // The names that the file gives to the fields: those of NOM_CHAM_MED, or the one of the result with that of the field.
 void add_med_results(const Keywords& print, PrintedPart& part, std::vector<solver::NamedResult>& results) {
@@ -317,7 +315,6 @@ void write_med(const Call& call, const std::string& path, std::vector<WrittenMes
 }
 
 // --- text
-// -------------------------------------------------------------------------------------------------------------------
 
 ListingStyle style_of(const Keywords& print) {
   ListingStyle style{RealFormat(print.text("FORMAT_R"))};
@@ -376,7 +373,6 @@ std::string mesh_text(const Call& call, const Keywords& print) {
 }
 
 // --- Gmsh
-// -------------------------------------------------------------------------------------------------------------------
 
 // For each of Gmsh's values, which of the components of NOM_CMP it is; -1: none, it is 0.
 std::vector<int> gmsh_layout(const Keywords& print, std::size_t components) {

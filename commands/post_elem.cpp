@@ -29,7 +29,6 @@ namespace {
 using interpreter::DiagnosticError;
 
 // --- energies
-// ---------------------------------------------------------------------------------------------------------------
 
 // The result whose energies are asked for: RESULTAT, or one step that holds the displacement CHAM_GD.
 ResultConcept energy_source(const Call& call) {
@@ -73,7 +72,6 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
 }
 
 // --- indicators of the loading
-// ---------------------------------------------------------------------------------------------
 
 // Code_Aster calls a whole model by its number among the concepts of the file, in eight hexadecimal digits (U4.81.22,
 // LIEU).
@@ -114,7 +112,6 @@ void list_indicators(Table& table, const Call& call, const std::string& keyword)
 }
 
 // --- masses
-// -----------------------------------------------------------------------------------------------------------------
 
 solver::StaticProblem named_problem(const Call& call) {
   if (call.has("RESULTAT")) return problem_of_result(call, call.data<ResultConcept>("RESULTAT"));
@@ -186,7 +183,6 @@ void list_masses(Table& table, const Call& call) {
 }
 
 // --- integrals
-// --------------------------------------------------------------------------------------------------------------
 
 /// Of each cell.
 struct Integrals {
@@ -293,7 +289,6 @@ void list_integrals(Table& table, const Call& call, interpreter::Diagnostics& di
 }
 
 // --- extremes
-// ---------------------------------------------------------------------------------------------------------------
 
 void add_extremes(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source) {
   const auto& components = solver::components_of(source.field);
@@ -347,7 +342,6 @@ void list_extremes(Table& table, const Call& call, interpreter::Diagnostics& dia
 }
 
 // --- work
-// -------------------------------------------------------------------------------------------------------------------
 
 void list_work(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
   const auto& result = call.data<ResultConcept>("RESULTAT").result;
@@ -365,7 +359,6 @@ void list_work(Table& table, const Call& call, interpreter::Diagnostics& diagnos
 }
 
 // --- holes
-// ------------------------------------------------------------------------------------------------------------------
 
 void list_areas(Table& table, const Call& call) {
   const solver::Mesh& mesh = *call.data<ModelConcept>("MODELE").model->mesh;

@@ -408,7 +408,6 @@ void list_extremes(Table& table, const Keywords& action, const Reading& reading)
 }
 
 // --- values as cells have them: only what is extracted is averaged at nodes (U4.81.21)
-// -------------------------------------
 
 bool is_of_cells(const Keywords& action, const FieldSource& source, const std::string& operation) {
   const bool is_plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX");

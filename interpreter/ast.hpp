@@ -157,8 +157,8 @@ struct CallNode : Node {
     std::string name;
     std::uint32_t name_begin = 0, name_end = 0;
     NodePtr value;
-    bool repeated =
-        false;  ///< an argument before it has the same name, which has been reported: this one does not count
+    /// An argument before it has the same name, which has been reported: this one does not count.
+    bool repeated = false;
   };
   NodePtr callee;
   std::vector<Item> arguments;

@@ -18,8 +18,8 @@ struct CheckContext {
   std::string without = {};  ///< a hint: what happens without what is not supported
   bool met_unsupported = false;
   bool met_open = false;  ///< a level has arguments that are not known
-  const LevelPage* level =
-      nullptr;         ///< whose keywords are looked at: where a word is not known, another of them may have it
+  /// Whose keywords are looked at: where a word is not known, another of them may have it.
+  const LevelPage* level = nullptr;
   bool quiet = false;  ///< inside a keyword that was itself reported as unsupported
 
   void report_unsupported(std::string message, const Span& span);

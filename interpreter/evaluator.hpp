@@ -171,8 +171,8 @@ class Evaluator {
   std::shared_ptr<const SourceFile> file_;
   const Ast* tree_ = nullptr;  ///< of the command file, without those that it includes
   std::shared_ptr<Frame> frame_;
-  std::vector<std::weak_ptr<Frame>>
-      closures_;  ///< frames that functions keep alive: emptied at the end, since they hold each other
+  /// Frames that functions keep alive: emptied at the end, since they hold each other.
+  std::vector<std::weak_ptr<Frame>> closures_;
   Value returned_;
   std::optional<Diagnostic> failed_exit_;
   std::string target_;  ///< the variable that takes the value of the call evaluated next

@@ -13,8 +13,8 @@ struct InitialStateChoice {
   std::shared_ptr<const solver::InitialState> state;  ///< null without ETAT_INIT
   std::optional<double> instant;                      ///< of the step of EVOL_NOLI, or INST_ETAT_INIT
   std::optional<int> order;                           ///< NUME_ORDRE of that step
-  std::shared_ptr<const solver::BehaviourOfCells>
-      behaviours;  ///< that it was computed with; null: elasticity, or not known
+  /// That it was computed with; null: elasticity, or not known.
+  std::shared_ptr<const solver::BehaviourOfCells> behaviours;
 };
 
 /// The step of EVOL_NOLI that NUME_ORDRE or INST names, the last one without; DEPL, SIGM and VARI in the place of its

@@ -45,7 +45,6 @@ Row row_of(const FieldSource& source, const Part& part) {
 }
 
 // --- norms
-// ------------------------------------------------------------------------------------------------------------------
 
 // The weights of the squares: those of the norm, times COEF_MULT; without a coefficient a component does not count.
 std::vector<double> weights_of(const Keywords& occurrence, const std::vector<std::string>& components) {
@@ -88,7 +87,6 @@ void add_norms(Table& table, const Call& call, const Keywords& occurrence, const
 }
 
 // --- distributions
-// ----------------------------------------------------------------------------------------------------------
 
 // The ends of the intervals: as many alike as NB_INTERV between BORNES (the extremes without it), or below and above
 // SEUIL.

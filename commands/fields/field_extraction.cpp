@@ -22,7 +22,6 @@ using interpreter::Keywords;
 namespace {
 
 // --- of a result
-// ------------------------------------------------------------------------------------------------------------
 
 solver::Field extreme_of_steps(const Call& call, const solver::Result& result) {
   static const std::map<std::string, solver::ExtremeOverTime, std::less<>> kinds = {
@@ -71,7 +70,6 @@ std::shared_ptr<const MultiplierSum> multipliers_beside(const Call& call) {
 }
 
 // --- of a table
-// -------------------------------------------------------------------------------------------------------------
 
 // Names are texts or, where a table was read from a file, numbers.
 std::string name_in(const Cell& cell) {

@@ -27,8 +27,8 @@ class MultiplierSum {
 
  private:
   std::function<Values()> source_;
-  mutable std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>>
-      terms_;  ///< taken apart when it is let go of
+  /// Taken apart when it is let go of.
+  mutable std::vector<std::pair<double, std::shared_ptr<const MultiplierSum>>> terms_;
 };
 
 }  // namespace comma::commands

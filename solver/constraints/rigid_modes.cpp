@@ -27,8 +27,8 @@ struct PartModes {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double size = 1.0;
   Eigen::MatrixXd values;  ///< unknowns x modes
-  Eigen::MatrixXd
-      admissible;  ///< modes x k, orthonormal: the modes that the conditions let all nodes of the part follow
+  /// Modes x k, orthonormal: the modes that the conditions let all nodes of the part follow.
+  Eigen::MatrixXd admissible;
 };
 
 /// What each mode gives to a degree of freedom.
@@ -95,8 +95,8 @@ PartModes modes_of(const Mesh& mesh, const DofMap& dofs, const Elimination& elim
 
 struct ModeEnergies {
   ModeMatrix energy = ModeMatrix::Zero();  ///< R^T K R
-  double largest_diagonal =
-      0.0;  ///< of rotations times 1 / size^2, as the modes have them: whatever the unit of length
+  /// Of rotations times 1 / size^2, as the modes have them: whatever the unit of length.
+  double largest_diagonal = 0.0;
 };
 
 /// Rows outside the part do not couple with it, so only its own columns are walked.

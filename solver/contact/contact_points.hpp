@@ -35,8 +35,8 @@ struct ContactPoint {
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap
   bool kept = false;                                   ///< see ContactPair
-  std::vector<GapShare>
-      shares;  ///< of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`
+  /// Of a patch that faces the master: the mean gap is the sum of coefficient . position, less `offset`.
+  std::vector<GapShare> shares;
   double offset = 0.0;         ///< see shares; thicknesses count in it
   bool bears_nothing = false;  ///< on the axis of an axisymmetric face of second order: no uniform pressure there has a
                                ///< force at its node

@@ -18,8 +18,8 @@ struct UnilateralCondition {
   std::vector<Component> components;
   std::vector<FieldFunction> coefficients;  ///< one a component
   FieldFunction bound;
-  double penalty =
-      0.0;  ///< positive: the bound gives way, and pushes back by this much a unit of what it is passed by; 0: it holds
+  /// Positive: the bound gives way, and pushes back by this much a unit of what it is passed by; 0: it holds.
+  double penalty = 0.0;
 };
 
 /// How the inequalities of the discrete formulation are solved.
@@ -44,8 +44,8 @@ struct MixedZone {
   bool keeps_augmentation = false;  ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
   bool local_average = false;  ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
   bool penalised = false;      ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
-  std::optional<double>
-      largest_depth;  ///< PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper
+  /// PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper.
+  std::optional<double> largest_depth;
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;            ///< COULOMB
@@ -54,9 +54,9 @@ struct MixedZone {
   double friction_penalty = 0.0;    ///< a force over a length, or one over a length
   std::optional<double> largest_slip;  ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks
                                        ///< slips by more in the step
-  double friction_augmentation =
-      100.0;                            ///< COEF_FROT: of shares of the limit of friction by the slip, a unit of length
-  std::vector<int> frictionless_nodes;  ///< SANS_GROUP_NO_FR
+  /// COEF_FROT: of shares of the limit of friction by the slip, a unit of length.
+  double friction_augmentation = 100.0;
+  std::vector<int> frictionless_nodes;                          ///< SANS_GROUP_NO_FR
   std::optional<std::array<double, 3>> frictionless_direction;  ///< DIRE_EXCL_FROT: these nodes have no friction along
                                                                 ///< it (not null); without: along no direction
 };
@@ -82,11 +82,11 @@ struct ContactZone {
       master_vector{};  ///< for NormalRule::fixed: the outward normal of the master surface (VECT_MAIT FIXE)
   NormalRule slave_normal = NormalRule::automatic;
   std::array<double, 3> slave_vector{};  ///< the same of the slave surface (VECT_ESCL)
-  std::optional<std::array<double, 3>>
-      pairing_direction;  ///< DIRE_APPA: slave points look for the master along it; absent: for the nearest place
+  /// DIRE_APPA: slave points look for the master along it; absent: for the nearest place.
+  std::optional<std::array<double, 3>> pairing_direction;
   std::vector<int> excluded_slave_nodes;  ///< SANS_GROUP_NO
-  double projection_tolerance =
-      0.5;  ///< TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all
+  /// TOLE_PROJ_EXT: how far outside a facet's reference cell a projection may fall; < 0: not at all.
+  double projection_tolerance = 0.5;
   bool resolved = true;  ///< RESOLUTION: false: contact is not enforced, interpenetration only watched
   double interpenetration_tolerance = 0.0;  ///< TOLE_INTERP: how deep a node of a watched zone may go
   double pairing_distance = -1.0;  ///< TOLE_APPA / DIST_APPA: slave nodes farther than this from the nearest master
@@ -94,9 +94,9 @@ struct ContactZone {
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
   bool thickness_changes = false;  ///< either depends on time
-  std::unordered_map<int, HalfThickness>
-      half_thickness;  ///< of cells of both surfaces, what their elements add; those not named add nothing
-  MixedZone mixed;     ///< for zones that is_condensed() speaks of
+  /// Of cells of both surfaces, what their elements add; those not named add nothing.
+  std::unordered_map<int, HalfThickness> half_thickness;
+  MixedZone mixed;  ///< for zones that is_condensed() speaks of
 };
 
 struct ContactDefinition {
@@ -106,8 +106,8 @@ struct ContactDefinition {
   int controlled_updates = 2;        ///< NB_ITER_GEOM, for GeometryUpdate::controlled
   int max_geometry_updates = 10;     ///< ITER_GEOM_MAXI
   double geometry_tolerance = 0.01;  ///< RESI_GEOM
-  double restless_tolerance =
-      0.0;  ///< updates that have long brought the geometry no nearer to rest end where it moves by less than this
+  /// Updates that have long brought the geometry no nearer to rest end where it moves by less than this.
+  double restless_tolerance = 0.0;
   double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
   bool joint_iterations = false;           ///< one iteration of Newton's method updates statuses, geometry and bodies
                                            ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')

@@ -27,16 +27,16 @@ Eigen::Vector3d point_at(const FacetGeometry& facet, const Eigen::Vector2d& xi);
 struct OverlapPoint {
   Eigen::Vector2d slave;
   Eigen::Vector2d master;
-  double weight =
-      0.0;  ///< in the slave's reference cell: all points of a slave facet that is wholly covered add up to its measure
+  /// In the slave's reference cell: all points of a slave facet that is wholly covered add up to its measure.
+  double weight = 0.0;
 };
 
 /// What two facets have in common, integrated on either side: both empty where they do not overlap or do not face each
 /// other (normals that are within 5.7 degrees of a right angle do not).
 struct FacetOverlap {
   std::vector<OverlapPoint> points;
-  std::vector<FacePoint>
-      master;  ///< points and weights in the master's reference cell, of its part that the slave faces
+  /// Points and weights in the master's reference cell, of its part that the slave faces.
+  std::vector<FacePoint> master;
 };
 
 /// Both facets by their own normals, whatever `normals` say.

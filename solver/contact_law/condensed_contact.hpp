@@ -17,8 +17,8 @@ struct CondensedSolution {
   int changes = 0;      ///< of status, beside the start
   bool is_far = false;  ///< solved, and further away than bodies go (CondensedProblem::farthest): of solve_condensed,
                         ///< where there is nothing nearer; it says what nothing holds
-  bool by_shears =
-      false;  ///< points have a share_augmentation, and no solution by shares was found: it is one by shears
+  /// Points have a share_augmentation, and no solution by shares was found: it is one by shears.
+  bool by_shears = false;
 };
 
 /// Newton's method with statuses held during an iteration (the primal-dual active set of Hintermueller, Ito and

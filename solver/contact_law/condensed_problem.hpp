@@ -63,27 +63,27 @@ struct CondensedProblem {
   Eigen::VectorXd begin;  ///< jumps that Newton's method begins with, near those of the solution: the free ones may be
                           ///< far away, since a body that contact alone holds hardly resists; empty: the free ones
   double displacement = 0.0;  ///< the largest (a length): what its rounding makes of jumps is nothing
-  double farthest =
-      std::numeric_limits<double>::infinity();  ///< jumps beyond are those of bodies that nothing holds (a length)
+  /// Jumps beyond are those of bodies that nothing holds (a length).
+  double farthest = std::numeric_limits<double>::infinity();
   int node_count = 0;
   int components = 1;        ///< of a multiplier: 1, 2 or 3
   std::vector<char> smooth;  ///< one a node: whether its shear vanishes; empty: nowhere by itself
   int max_iterations = 200;  ///< of each attempt
   int direct_rows = 900;  ///< more unknown rows are solved for by products with S, where points lie on nodes and jumps
                           ///< alone bring no force of a penalty (solver/contact_law/nodal_step.hpp)
-  int direct_rows_between =
-      200;  ///< the same where points lie between nodes: a direct system has all jumps and multipliers there, one by
-            ///< products the multipliers alone (solver/contact_law/interpolated_step.hpp)
+  /// The same where points lie between nodes: a direct system has all jumps and multipliers there, one by products the
+  /// multipliers alone (solver/contact_law/interpolated_step.hpp).
+  int direct_rows_between = 200;
   int most_products = 150;  ///< a system
-  int most_direct_rows =
-      6000;  ///< where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB)
+  /// Where products lead nowhere, no more rows than these are solved for directly (a few seconds, 900 MB).
+  int most_direct_rows = 6000;
   bool indefinite = false;  ///< S may be: no active-set method on it
   bool one_step = false;    ///< the law is solved as it is with the statuses given, which stay
-  Eigen::VectorXd
-      expected;  ///< multipliers to begin with where there is friction, besides those of the state; empty: none
+  /// Multipliers to begin with where there is friction, besides those of the state; empty: none.
+  Eigen::VectorXd expected;
   NearInverse* near_inverse = nullptr;  ///< of systems solved by products, if they are to begin from each other
-  InterpolatedSolver* interpolated_solver =
-      nullptr;                          ///< of those whose points lie between nodes, if one is to serve them all
+  /// Of those whose points lie between nodes, if one is to serve them all.
+  InterpolatedSolver* interpolated_solver = nullptr;
   ShareSearch* share_search = nullptr;  ///< of shares of friction, if searches are to learn from each other
   ActiveSetMemory* memory = nullptr;    ///< of solutions without friction, if they are to begin from each other
 };

@@ -176,8 +176,8 @@ class Assembler {
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
-  std::vector<std::pair<const ElementBlock*, std::vector<double>>>
-      initial_stresses_;            ///< that elements without a memory have beside those of their displacements
+  /// That elements without a memory have beside those of their displacements.
+  std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };

@@ -37,9 +37,9 @@ Eigen::Matrix3d own_axes(const Mesh& mesh, int cell, double roll = 0.0);
 /// How the axes of an element are turned (AFFE_CARA_ELEM ORIENTATION of U4.42.01).
 struct Orientation {
   double roll = 0.0;  ///< of a segment, in radians: see own_axes
-  Eigen::Matrix3d point_axes =
-      Eigen::Matrix3d::Identity();  ///< axes (rows) of a point, and of a segment without length
-  double no_length = 0.0;           ///< a segment no longer than this (m) counts as one without length
+  /// Axes (rows) of a point, and of a segment without length.
+  Eigen::Matrix3d point_axes = Eigen::Matrix3d::Identity();
+  double no_length = 0.0;  ///< a segment no longer than this (m) counts as one without length
 };
 
 /// Whether the cell has an own first axis: whether it is a segment longer than `no_length` (m).
@@ -104,8 +104,8 @@ struct BeamSection {
   SectionShape shape = SectionShape::general;
   double reach_y = 1.0;  ///< distance from the axis to the outermost fibre along y (RY of U4.42.01)
   double reach_z = 1.0;  ///< along z (RZ)
-  double torsion_reach =
-      1.0;  ///< torsional moment times this over the torsion constant is the largest shear stress (RT)
+  /// Torsional moment times this over the torsion constant is the largest shear stress (RT).
+  double torsion_reach = 1.0;
   /// The section at the second node; null where it is the same along the beam. Roll, centre of torsion and shape are
   /// those of the first node.
   std::shared_ptr<const BeamSection> end = nullptr;

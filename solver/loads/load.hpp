@@ -51,8 +51,8 @@ struct PressureLoad {
   double shear = 0.0;
   FieldFunction pressure_function;  ///< when set, replaces `pressure`
   FieldFunction shear_function;
-  NodalFunction pressure_at_nodes =
-      {};  ///< when set, replaces both pressures; interpolated by the shape functions of the cell
+  /// When set, replaces both pressures; interpolated by the shape functions of the cell.
+  NodalFunction pressure_at_nodes = {};
 };
 
 /// A force per unit of the cell's own measure, in global axes: per volume in a solid, per area in a plane body (of
@@ -146,11 +146,10 @@ struct Load {
   std::vector<InitialStrain> initial_strains;
   std::vector<InitialSlenderStrain> initial_slender_strains;
   std::vector<InitialPlateStrain> initial_plate_strains;
-  std::vector<std::shared_ptr<const ElementField>>
-      initial_strain_fields;  ///< at integration points: EPXX ... of continua, EPXX KY KZ of beams, EXX ... KXY of
-                              ///< plates
-  std::vector<std::shared_ptr<const ElementField>>
-      initial_stress_fields;  ///< at integration points: SIXX ...; they push and leave no other trace
+  /// At integration points: EPXX ... of continua, EPXX KY KZ of beams, EXX ... KXY of plates.
+  std::vector<std::shared_ptr<const ElementField>> initial_strain_fields;
+  /// At integration points: SIXX ...; they push and leave no other trace.
+  std::vector<std::shared_ptr<const ElementField>> initial_stress_fields;
   std::vector<PlateForce> plate_forces;
 };
 

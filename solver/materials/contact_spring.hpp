@@ -23,8 +23,8 @@ enum class ContactSpringStatus : std::uint8_t { open = 0, sticking = 1, slipping
 /// is negative where they touch.
 struct ContactSpringResponse {
   Eigen::Vector3d force;
-  Eigen::Matrix3d
-      tangent;  ///< derivative of the force by the gap and the sideways displacements; not symmetric where it slips
+  /// Derivative of the force by the gap and the sideways displacements; not symmetric where it slips.
+  Eigen::Matrix3d tangent;
   Eigen::Vector2d slip;  ///< the part of the sideways displacements that the force does not come from
   ContactSpringStatus status;
 };

@@ -78,8 +78,8 @@ class GeometryUpdates {
   double restless_ = 0.0;
   double relaxation_ = 1.0;
   Eigen::VectorXd last_move_;  ///< of the solution from where its surfaces were paired
-  std::deque<std::pair<Eigen::VectorXd, Eigen::VectorXd>>
-      earlier_;     ///< where surfaces were paired and where nodes went from there, in the updates that are accelerated
+  /// Where surfaces were paired and where nodes went from there, in the updates that are accelerated.
+  std::deque<std::pair<Eigen::VectorXd, Eigen::VectorXd>> earlier_;
   int worst_ = -1;  ///< the node that moved most
   std::vector<std::vector<ContactPair>> visited_;
 };

@@ -40,8 +40,8 @@ struct InitialState {
   std::optional<NodalField> displacement;
   std::optional<ElementField> stresses;   ///< as SIEF_ELGA
   std::optional<ElementField> variables;  ///< as VARI_ELGA
-  std::optional<NodalField>
-      differential_reference;         ///< from which differential loads count; absent: from `displacement`
+  /// From which differential loads count; absent: from `displacement`.
+  std::optional<NodalField> differential_reference;
   std::vector<AppliedLoad> loads;     ///< that led there: initial strains count from theirs
   std::optional<NodalField> earlier;  ///< the displacement a step before, which gives a path its direction
   std::optional<double> intensity;    ///< of driven loads; absent: 0
@@ -115,8 +115,8 @@ struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
   std::optional<double> referred_residual;         ///< RESI_REFE_RELA: against forces that the reference efforts make
-  std::optional<double>
-      component_residual;  ///< RESI_COMP_RELA: component by component, against the internal forces where the step began
+  /// RESI_COMP_RELA: component by component, against the internal forces where the step began.
+  std::optional<double> component_residual;
   ReferenceEfforts reference;
   bool one_criterion = false;                     ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
   int max_iterations = 10;                        ///< ITER_GLOB_MAXI
@@ -124,8 +124,8 @@ struct NewtonOptions {
                                                   ///< the same, and are told here by their instant (ARRET='NON')
   std::function<void(int)> note_unused_stresses;  ///< set: is told a cell whose initial stresses are not those that the
                                                   ///< rest of the initial state makes, where laws take these
-  int max_elastic_iterations =
-      25;  ///< ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness
+  /// ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness.
+  int max_elastic_iterations = 25;
   std::optional<LinearMethod> method;  ///< empty: chosen for the matrix
   LinearOptions linear;
   TangentPolicy tangent;
@@ -149,8 +149,8 @@ struct IterationReport {
   std::string worst;  ///< "DY at N12": where the residual is largest
   int active_conditions = 0;
   int contact_changes = 0;
-  std::optional<double>
-      penetration;    ///< how deep contact and unilateral conditions are passed at worst (a length, as a rule)
+  /// How deep contact and unilateral conditions are passed at worst (a length, as a rule).
+  std::optional<double> penetration;
   std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
 };
 

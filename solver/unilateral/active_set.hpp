@@ -15,8 +15,8 @@ namespace comma::solver {
 /// dual of  min 1/2 u^T K u - f^T u  subject to  A u <= b.
 struct ActiveSetProblem {
   Eigen::VectorXd excess;  ///< A u0 - b for the solution u0 without conditions (m)
-  Eigen::VectorXd
-      scale;  ///< size of the terms that make up A u - b, row by row (m, > 0): tolerances are relative to it
+  /// Size of the terms that make up A u - b, row by row (m, > 0): tolerances are relative to it.
+  Eigen::VectorXd scale;
   std::vector<int> guess;     ///< rows that were active before
   int max_iterations = 1000;  ///< changes of the active set, at most
 };
@@ -36,8 +36,8 @@ struct ActiveSetSolution {
   Eigen::VectorXd multipliers;  ///< m, >= 0
   std::vector<int> active;      ///< rows with equality, rising
   int iterations = 0;
-  std::vector<int>
-      contradiction;  ///< rows that cannot hold together (verdict contradictory); the first is the violated one
+  /// Rows that cannot hold together (verdict contradictory); the first is the violated one.
+  std::vector<int> contradiction;
 };
 
 /// First in packets: all violated rows enter and all pulling ones leave at once, which finds most contact states in two

@@ -125,8 +125,8 @@ class SchurComplement {
   SingleTriangle single_;         ///< of whole_matrix_, or nothing
   Eigen::VectorXd softness_;
   std::vector<int> support_;
-  std::vector<Eigen::VectorXd>
-      compliance_;  ///< one an unknown of the support: its column of C over the support, or empty
+  /// One an unknown of the support: its column of C over the support, or empty.
+  std::vector<Eigen::VectorXd> compliance_;
   bool rows_change_ = false;
   bool exact_ = true;
   long version_ = 0;

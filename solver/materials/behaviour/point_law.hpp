@@ -17,8 +17,8 @@ inline constexpr int most_variables = 16;
 /// A point where the step began.
 struct PointPast {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< H = du / dX
-  Vector6d stress =
-      Vector6d::Zero();  ///< of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff
+  /// Of the law's own strain: Cauchy's, T of the logarithm, or the second Piola-Kirchhoff.
+  Vector6d stress = Vector6d::Zero();
   Vector6d inelastic = Vector6d::Zero();  ///< strain of the command variables
   PlasticModuli moduli;
   std::array<double, most_variables> variables{};
@@ -35,8 +35,8 @@ struct PointInput {
 };
 
 struct PointResponse {
-  Vector6d
-      stress;  ///< whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress
+  /// Whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress.
+  Vector6d stress;
   Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
   Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in
                       ///< plane stress
