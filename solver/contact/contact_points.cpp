@@ -153,8 +153,9 @@ class ZonePoints {
   }
 
   /// A node of both surfaces cannot face the facets that it belongs to.
-  std::span<const int> own_nodes(const ContactPoint& point) const {
-    return point.node >= 0 ? std::span(&point.node, 1) : mesh_.cell(point.cell);
+  OwnNodes own_nodes(const ContactPoint& point) const {
+    if (point.node >= 0) return {std::span(&point.node, 1)};
+    return {mesh_.cell(point.cell), point.cell};
   }
 
   const ContactZone& zone_;

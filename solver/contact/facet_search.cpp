@@ -18,6 +18,8 @@ constexpr double bulge = 0.25;
 constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
 /// Boxes this share farther than the nearest facet are looked into still: what is left out must not be as near.
 constexpr double search_margin = 1e-10;
+/// Faces at right angles do not look at each other, whatever rounding says.
+constexpr double least_opposition = 1e-6;
 constexpr double infinitely_far = std::numeric_limits<double>::infinity();
 
 bool share_a_node(std::span<const int> a, std::span<const int> b) {
@@ -68,7 +70,7 @@ bool FacetSearch::too_far(const Vector3d& point) const {
   return nearest > zone_.pairing_distance;
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, std::span<const int> own,
+std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, const OwnNodes& own,
                                                      FacedFacet faced) const {
   Hit best;
   best.projection.distance = infinitely_far;
@@ -142,9 +144,9 @@ std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType
   return project_along(Vector3d(zone_.pairing_direction->data()), point, type, places);
 }
 
-void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int facet, Hit& best) const {
+void FacetSearch::consider(const Vector3d& point, const OwnNodes& own, int facet, Hit& best) const {
   const auto cell = mesh_.cell(facet);
-  if (share_a_node(own, cell)) return;
+  if (share_a_node(own.nodes, cell) && !(own.face >= 0 && look_at_each_other(own.face, facet))) return;
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
   const auto places = places_of(facet, points, box);
@@ -157,6 +159,16 @@ void FacetSearch::consider(const Vector3d& point, std::span<const int> own, int 
   const double tie = tie_tolerance * std::max(point.cwiseAbs().maxCoeff(), box.diagonal().norm());
   const double gain = best.projection.distance - found->distance;
   if (gain > tie || (gain >= -tie && facet < best.facet)) best = {facet, *found};
+}
+
+bool FacetSearch::look_at_each_other(int face, int facet) const {
+  const auto normal_of = [&](int cell) {
+    std::array<Vector3d, max_facet_nodes> points;
+    Box box;
+    const CellType type = mesh_.cell_types[cell];
+    return facet_normal(type, places_of(cell, points, box), facet_centre(type));
+  };
+  return normal_of(face).dot(normal_of(facet)) < -least_opposition;
 }
 
 bool FacetSearch::is_outside(const Projection& projection, double margin) const {

@@ -17,6 +17,13 @@
 
 namespace comma::solver {
 
+/// What a slave point belongs to, which it cannot face: its node, or the nodes of the face in which it lies. Of the
+/// latter facets count that look back at the face: the lips of a crack share nodes at its tip, and face each other.
+struct OwnNodes {
+  std::span<const int> nodes;
+  int face = -1;  ///< in which the point lies between nodes; -1: it lies on a node
+};
+
 /// Searches one zone on one geometry. Keeps references to its arguments.
 class FacetSearch {
  public:
@@ -33,11 +40,11 @@ class FacetSearch {
   /// Whether no master node lies within the zone's pairing distance.
   bool too_far(const Eigen::Vector3d& point) const;
 
-  /// The facet whose nearest place is nearest; facets that contain one of `own` nodes are passed over. Empty where the
+  /// The facet whose nearest place is nearest; facets of the point's own nodes are passed over. Empty where the
   /// orthogonal projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing
   /// direction: the nearest facet among those that a line along it meets, else the one that it passes by the closest.
   /// A facet that was faced before is kept within its margin, and facing any of them.
-  std::optional<Hit> nearest(const Eigen::Vector3d& point, std::span<const int> own, FacedFacet faced = {}) const;
+  std::optional<Hit> nearest(const Eigen::Vector3d& point, const OwnNodes& own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
   std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
@@ -56,8 +63,9 @@ class FacetSearch {
                                       std::span<const Eigen::Vector3d> places) const;
   std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points,
                                              Box& box) const;
-  void consider(const Eigen::Vector3d& point, std::span<const int> own, int facet, Hit& best) const;
+  void consider(const Eigen::Vector3d& point, const OwnNodes& own, int facet, Hit& best) const;
   std::optional<Hit> kept(const Eigen::Vector3d& point, FacedFacet faced, double least_distance) const;
+  bool look_at_each_other(int face, int facet) const;
   bool is_outside(const Projection& projection, double margin) const;
 
   const ContactZone& zone_;

@@ -55,7 +55,7 @@ class ZonePairing {
   std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
     const std::span own(&slave, 1);
     return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own)
-                                              : search_.nearest(positions_[slave], own, before);
+                                              : search_.nearest(positions_[slave], {own}, before);
   }
 
   const ContactZone& zone_;
