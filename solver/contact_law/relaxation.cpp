@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/linear/largest_component.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -39,7 +41,7 @@ class Relaxation {
       double change = 0.0;
       for (std::size_t p = 0; p < problem_.points.size(); ++p) change = std::max(change, visit(p));
       for (const CondensedSpring& spring : problem_.springs) visit(spring);
-      if (change <= force_tolerance * forces_.cwiseAbs().maxCoeff()) break;
+      if (change <= force_tolerance * largest_component(forces_)) break;
     }
     take_multipliers();
     for (std::size_t p = 0; p < problem_.points.size(); ++p) clean_jumps(p);

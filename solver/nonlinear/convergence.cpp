@@ -45,7 +45,11 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
   const bool vanished = has_vanished(load);
   result.relative = vanished ? -1.0 : residual / load;
   if (!std::isfinite(residual) || !std::isfinite(load)) return result;
-  const double vanished_limit = has_history ? relative_limit() * smallest_load_ : default_absolute_residual;
+  const double rounding = rounding_of_loads * largest_load_;
+  const double of_history = has_history      ? relative_limit() * smallest_load_
+                            : rounding > 0.0 ? rounding
+                                             : default_absolute_residual;
+  const double vanished_limit = std::max(of_history, rounding);
   const double to_loads = is_rounding ? 0.0
                           : vanished  ? excess_over(vanished_limit, residual)
                                       : excess_over(relative_limit(), result.relative);
@@ -65,10 +69,12 @@ ConvergenceCriterion::Measure ConvergenceCriterion::measure(double residual, dou
 }
 
 bool ConvergenceCriterion::has_vanished(double load) const {
-  return !(load > (smallest_load_ > 0.0 ? vanishing_load * smallest_load_ : 0.0));
+  return !(load >
+           std::max(smallest_load_ > 0.0 ? vanishing_load * smallest_load_ : 0.0, rounding_of_loads * largest_load_));
 }
 
 void ConvergenceCriterion::accept(double load) {
+  take_up(load);
   if (load > 0.0 && !has_vanished(load)) smallest_load_ = smallest_load_ > 0.0 ? std::min(smallest_load_, load) : load;
 }
 

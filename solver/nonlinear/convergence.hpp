@@ -1,6 +1,7 @@
 // When Newton's iterations may stop.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -59,6 +60,10 @@ class ConvergenceCriterion {
   /// no measure of later ones.
   void accept(double load);
 
+  /// The bodies have been in balance under such loads, in the step or before: of what is left where these have gone,
+  /// contact that has been lost for instance, their rounding is no load.
+  void take_up(double load) { largest_load_ = std::max(largest_load_, load); }
+
  private:
   bool has_vanished(double load) const;
   double relative_limit() const { return options_.relative_residual.value_or(default_relative_residual); }
@@ -67,11 +72,14 @@ class ConvergenceCriterion {
   static constexpr double default_relative_residual = 1e-6;
   /// Loads below this share of the smallest so far have vanished.
   static constexpr double vanishing_load = 1e-6;
+  /// What rounding makes of loads that have gone, as a share of them.
+  static constexpr double rounding_of_loads = 1e-13;
   /// Absolute limit (force) while no loaded step is known.
   static constexpr double default_absolute_residual = 1e-6;
 
   NewtonOptions options_;
   double smallest_load_ = -1.0;
+  double largest_load_ = 0.0;
 };
 
 }  // namespace comma::solver

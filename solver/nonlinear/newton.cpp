@@ -103,6 +103,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
         is_satisfied(state.u)) {
       if (!is_joint && !relations_.update) polish(state, external, offset);
       require_at_hand(time, state.u);
+      criterion_.take_up(load_);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;

@@ -47,6 +47,19 @@ TEST_CASE("A body that has been unloaded is loaded and unloaded again") {
   }
 }
 
+TEST_CASE("What rounding leaves of loads that have gone is no load") {
+  ConvergenceCriterion criterion(NewtonOptions{});
+  criterion.accept(1e-14);  // a body that moved freely
+  criterion.accept(30.0);
+  CHECK(criterion.measure(1e-13, 1e-13, false).converged);
+  // Contact that the first geometry of a step had and the next has not.
+  ConvergenceCriterion first(NewtonOptions{});
+  CHECK_FALSE(first.measure(1e-13, 1e-13, false).converged);
+  first.take_up(50.0);
+  CHECK(first.measure(1e-13, 1e-13, false).converged);
+  CHECK_FALSE(first.measure(1e-9, 1e-9, false).converged);
+}
+
 TEST_CASE("Rounding passes the relative test, what is not a number passes none") {
   const ConvergenceCriterion criterion(NewtonOptions{});
   CHECK(criterion.measure(1e-13, 1e-13, true).converged);
