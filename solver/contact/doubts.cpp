@@ -66,8 +66,8 @@ double wanted_penalty(double penalty, double share) {
   return std::pow(10.0, std::ceil(std::log10(penalty * share * (1.0 - penalty_goal) / (penalty_goal * stuck))));
 }
 
-void note_soft_penalty(ContactDoubt doubt, double reach, ContactDoubts& doubts) {
-  if (doubt.length <= doubtful_share * reach) return;
+void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDoubts& doubts) {
+  if (doubt.length <= doubtful_share * reach || doubt.length <= rounding_of_length * size) return;
   doubt.share = std::min(1.0, doubt.length / reach);
   doubt.wanted = wanted_penalty(doubt.penalty, doubt.share);
   doubts.note(doubt);

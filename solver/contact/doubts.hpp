@@ -70,6 +70,8 @@ class ContactDoubts {
 
 /// Places are exact to this share of a facet's size.
 inline constexpr double rounding_of_place = 1e-10;
+/// A length below this share of the size of the mesh is what rounding leaves where nothing presses any more.
+inline constexpr double rounding_of_length = 1e-15;
 /// Contact forces are short by about the share that points sink in: below this it passes for what a penalty is expected
 /// to leave.
 inline constexpr double doubtful_share = 1e-2;
@@ -89,8 +91,8 @@ inline constexpr double doubtful_friction = 0.05;
 double wanted_penalty(double penalty, double share);
 
 /// A doubt about a penalty that leaves the doubt's length of `reach`, what there would be without it; none where that
-/// is within `doubtful_share`.
-void note_soft_penalty(ContactDoubt doubt, double reach, ContactDoubts& doubts);
+/// is within `doubtful_share`, or rounding beside `size`, that of the mesh.
+void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDoubts& doubts);
 
 /// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone
 /// in, beyond where the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back.

@@ -119,7 +119,7 @@ void note_depth(const SolvedContact& contact, const ContactResponse& response, i
                      .length = depth,
                      .penalty = response.penalties.contact_penalty(definition.mixed, zone)};
   // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
-  if (contact.problem.springs.empty()) note_soft_penalty(doubt, reach, doubts);
+  if (contact.problem.springs.empty()) note_soft_penalty(doubt, reach, extent(contact.mesh), doubts);
   const double size = extent(contact.mesh, definition.slave_cells);
   if (depth <= doubtful_depth * size) return;
   doubt.kind = DoubtKind::deep_penalty;
@@ -130,7 +130,7 @@ void note_depth(const SolvedContact& contact, const ContactResponse& response, i
 
 void note_creep(const SolvedContact& contact, const ContactResponse& response, int zone, const Eigen::VectorXd& without,
                 ContactDoubts& doubts) {
-  const double least = negligible_slip * motion_of(contact, zone);
+  const double least = std::max(negligible_slip * motion_of(contact, zone), rounding_of_length * extent(contact.mesh));
   double creep = 0.0;
   double reach = 0.0;
   double limit = 0.0;

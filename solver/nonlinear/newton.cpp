@@ -405,7 +405,7 @@ void NewtonSolver::note_doubts(ContactDoubts& doubts) {
     if (passed.most > 0.0)
       note_soft_penalty(
           {.kind = DoubtKind::soft_bound, .zone = condition, .length = passed.most, .penalty = 1.0 / passed.softest},
-          passed.reach, doubts);
+          passed.reach, extent(mesh_), doubts);
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {

@@ -170,3 +170,14 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
   sides.definition.zones.front().pairing_distance = 0.1;
   CHECK(told(0.2, 1.0).size() == 1);
 }
+
+TEST_CASE("A penalty is doubted where points lie deep beside what holds them, not for what rounding leaves") {
+  const auto told = [](double length, double reach) {
+    ContactDoubts found;
+    note_soft_penalty({.kind = DoubtKind::soft_penalty, .length = length, .penalty = 1e8}, reach, 2.0, found);
+    return found.all().size();
+  };
+  CHECK(told(1e-5, 2e-5) == 1);
+  CHECK(told(1e-5, 2e-3) == 0);
+  CHECK(told(1.7e-59, 4e-58) == 0);
+}
