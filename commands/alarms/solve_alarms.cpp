@@ -11,6 +11,7 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/strains.hpp"
 
 namespace comma::commands {
 
@@ -232,6 +233,25 @@ void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, 
           "{}: beams turn so far in a step (DEFORMATION='GROT_GDEP') that {} is taken for {:.2g} % longer than it is",
           call.command, product.result.mesh().cell_name(worst), 100.0 * largest),
       call.span, "take more steps: half as long ones leave half as much");
+}
+
+void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& product, Context& context) {
+  const auto& behaviours = product.problem.behaviours;
+  if (!behaviours) return;
+  for (const solver::ResultStep& step : product.result.steps) {
+    const auto found = step.fields.find("DEPL");
+    if (found == step.fields.end()) continue;
+    const auto cell =
+        solver::inverted_cell(*product.problem.model, *behaviours, std::get<solver::NodalField>(found->second));
+    if (!cell) continue;
+    context.diagnostics.alarm(
+        "inside-out",
+        fmt::format("{}: cell {} is turned inside out at t = {:g}: GREEN_LAGRANGE with ELAS has stresses for that, and "
+                    "a body has not",
+                    call.command, product.result.mesh().cell_name(*cell), step.instant),
+        call.span, "take finer cells there, or a law for such compression (ELAS_HYPER; GDEF_LOG)");
+    return;
+  }
 }
 
 void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell,

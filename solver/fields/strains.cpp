@@ -163,6 +163,23 @@ ElementField strains(const FieldInput& input, const NodalField& displacement, St
   return field;
 }
 
+std::optional<int> inverted_cell(const Model& model, const BehaviourOfCells& behaviours,
+                                 const NodalField& displacement) {
+  ContinuumPoints points(model);
+  const DisplacementGradients gradients(model, displacement);
+  for (int cell = 0; cell < static_cast<int>(behaviours.size()); ++cell) {
+    const CellBehaviour& behaviour = behaviours[static_cast<std::size_t>(cell)];
+    if (behaviour.kinematics != Kinematics::green_lagrange || behaviour.relation != Relation::elastic ||
+        !points.covers(cell))
+      continue;
+    for (const ContinuumSample& sample : points.samples(cell)) {
+      const Eigen::Matrix3d h = gradients.at(cell, sample, points.locate(cell, sample));
+      if (!((Eigen::Matrix3d::Identity() + h).determinant() > 0.0)) return cell;
+    }
+  }
+  return std::nullopt;
+}
+
 ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses) {
   ElementField field = strains(input, displacement, StrainKind::mechanical);
   ContinuumPoints points(input.model);

@@ -1,8 +1,11 @@
 // Strains of continua and bars from displacements (CALC_CHAMP, DEFORMATION; U4.81.04).
 #pragma once
 
+#include <optional>
+
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
+#include "solver/model/behaviour.hpp"
 
 namespace comma::solver {
 
@@ -23,5 +26,10 @@ ElementField strains(const FieldInput& input, const NodalField& displacement, St
 /// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is
 /// taken away, in small strains; components as above. In plane stress EPZZ keeps the volume. Bars have none.
 ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses);
+
+/// A cell of a continuum, elastic in GREEN_LAGRANGE, that these displacements turn inside out at a Gauss point: the law
+/// has stresses for that, and a body has not. Empty where there is none. Throws as strains() does.
+std::optional<int> inverted_cell(const Model& model, const BehaviourOfCells& behaviours,
+                                 const NodalField& displacement);
 
 }  // namespace comma::solver
