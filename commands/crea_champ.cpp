@@ -76,9 +76,10 @@ void finish(const Call& call, FieldConcept& product) {
       product.functions.push_back(std::make_shared<ConstantConcept>(0.0));
     }
     auto* element = std::get_if<solver::ElementField>(&product.field);
-    if (element != nullptr && product.model && product.functions.empty() && element->support != solver::Support::cell)
-      solver::add_unnamed_zeros(*element, *product.model);
-    solver::fill_absent(product.field, zero);
+    if (element != nullptr && product.model && product.functions.empty())
+      solver::fill_with_zeros(*element, *product.model);
+    else
+      solver::fill_absent(product.field, zero);
   }
   if (auto* element = std::get_if<solver::ElementField>(&product.field)) solver::drop_empty_cells(*element);
 }

@@ -120,42 +120,68 @@ void write_block(const ElementBlock& block, const std::vector<std::string>& name
   }
 }
 
-/// The way back; empty without a field.
+[[noreturn]] void throw_other_points(const ElementField& field, int cell, const Mesh& mesh, int points) {
+  throw Error("incompatible-field",
+              fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity,
+                          field.points(cell), mesh.cell_name(cell), points),
+              "take a field of a result of the same elements there (CREA_CHAMP, OPERATION='EXTR', then 'ASSE')");
+}
+
+/// The way back: what a field has on one cell.
+void read_cell(int cell, const ElementBlock& block, const std::vector<std::string>& names, const ElementField& field,
+               const Mesh& mesh, std::vector<double>& values) {
+  if (field.points(cell) != block.point_count()) throw_other_points(field, cell, mesh, block.point_count());
+  for (int point = 0; point < block.point_count(); ++point) {
+    for (const auto& name : names) {
+      const int column = field.component(name);
+      const double value = column < 0 ? absent : field.at(cell, point, column);
+      if (std::isnan(value))
+        throw Error("incompatible-field",
+                    fmt::format("the field {} has no {} on cell {}", field.quantity, name, mesh.cell_name(cell)),
+                    field.quantity == "SIEF_R" ? "PROL_ZERO='OUI' of CREA_CHAMP makes zero what is not named" : "");
+      values.push_back(value);
+    }
+  }
+}
+
+/// Empty without a field.
 std::vector<double> read_block(const ElementBlock& block, const std::vector<std::string>& names,
                                const ElementField* field, const Mesh& mesh) {
   if (field == nullptr) return {};
   std::vector<double> values;
   values.reserve(block.cells().size() * static_cast<std::size_t>(block.point_count()) * names.size());
+  for (const int cell : block.cells()) read_cell(cell, block, names, *field, mesh, values);
+  return values;
+}
+
+/// The same of stresses. A cell without stress is one whatever points and components the zeros stand for: what made the
+/// field knew the model alone, and how many points springs and plates have depends on their stiffness and layers.
+std::vector<double> read_stresses(const ElementBlock& block, const ElementField* field, const Mesh& mesh) {
+  if (field == nullptr) return {};
+  const std::vector<std::string> names = stress_names(block);
+  const std::size_t each = static_cast<std::size_t>(block.point_count()) * names.size();
+  std::vector<double> values;
+  values.reserve(block.cells().size() * each);
   for (const int cell : block.cells()) {
-    if (field->points(cell) != block.point_count()) {
-      throw Error("incompatible-field",
-                  fmt::format("the field {} has {} points on cell {}, where the element has {}", field->quantity,
-                              field->points(cell), mesh.cell_name(cell), block.point_count()));
-    }
-    for (int point = 0; point < block.point_count(); ++point) {
-      for (const auto& name : names) {
-        const int column = field->component(name);
-        const double value = column < 0 ? absent : field->at(cell, point, column);
-        if (std::isnan(value))
-          throw Error("incompatible-field",
-                      fmt::format("the field {} has no {} on cell {}", field->quantity, name, mesh.cell_name(cell)));
-        values.push_back(value);
-      }
-    }
+    if (is_zero(*field, cell))
+      values.insert(values.end(), each, 0.0);
+    else
+      read_cell(cell, block, names, *field, mesh, values);
   }
   return values;
 }
 
-/// The values of a field on some cells, point after point, in the order of the components of `layout`, which has as
-/// many values a cell; NaN without one.
+/// The stresses of a field on some cells, point after point, in the order of the components of `layout`, which has as
+/// many values a cell, or all are zero; NaN without one.
 std::vector<double> values_on(std::span<const int> cells, const ElementField& layout, const ElementField& field,
                               const Mesh& mesh) {
   std::vector<double> values;
   for (const int cell : cells) {
-    if (field.points(cell) != layout.points(cell))
-      throw Error("incompatible-field",
-                  fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity,
-                              field.points(cell), mesh.cell_name(cell), layout.points(cell)));
+    if (is_zero(field, cell)) {
+      values.insert(values.end(), static_cast<std::size_t>(layout.points(cell)) * layout.components.size(), 0.0);
+      continue;
+    }
+    if (field.points(cell) != layout.points(cell)) throw_other_points(field, cell, mesh, layout.points(cell));
     for (int point = 0; point < field.points(cell); ++point)
       for (const auto& name : layout.components) {
         const int column = field.component(name);
@@ -168,16 +194,14 @@ std::vector<double> values_on(std::span<const int> cells, const ElementField& la
 /// Of a solid; more of them are no stresses.
 constexpr std::size_t solid_stress_count = 6;
 
-/// Stresses of a load: what a cell that has some does not carry is zero, and a cell without has none.
+/// Stresses of a load: what a cell that has some does not carry is zero, and a cell without, or with zeros, has none.
 std::vector<double> read_initial_stresses(const ElementBlock& block, const ElementField& field, const Mesh& mesh) {
   std::vector<int> columns;
   for (const auto& name : stress_names(block)) columns.push_back(field.component(name));
   std::vector<double> values;
   for (const int cell : block.cells()) {
-    const int points = field.points(cell);
-    if (points != 0 && points != block.point_count())
-      throw Error("incompatible-field", fmt::format("the field {} has {} points on cell {}, where the element has {}",
-                                                    field.quantity, points, mesh.cell_name(cell), block.point_count()));
+    const int points = is_zero(field, cell) ? 0 : field.points(cell);
+    if (points != 0 && points != block.point_count()) throw_other_points(field, cell, mesh, block.point_count());
     for (int point = 0; point < block.point_count(); ++point)
       for (const int column : columns) {
         const double value = points == 0 || column < 0 ? absent : field.at(cell, point, column);
@@ -418,7 +442,7 @@ Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const El
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& block : blocks_->list) {
     if (block->has_memory()) {
-      block->add_forces_of_stresses(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh), sums);
+      block->add_forces_of_stresses(u, state_, read_stresses(*block, &stresses, *model_.mesh), sums);
       continue;
     }
     block->add_internal_forces(u, state_, sums);
@@ -449,7 +473,7 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
       if (stresses != nullptr) take_initial_stresses(*block, u, *stresses);
       continue;
     }
-    block->resume(u, state_, read_block(*block, stress_names(*block), stresses, *model_.mesh),
+    block->resume(u, state_, read_stresses(*block, stresses, *model_.mesh),
                   read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
   }
   if (initial_stresses_.empty()) return;
@@ -466,7 +490,7 @@ std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen:
       has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()))
                  : ElementField();
   std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh)
-                                          : read_block(block, stress_names(block), &given, *model_.mesh);
+                                          : read_stresses(block, &given, *model_.mesh);
   const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh)
                                                : stresses_of(block, u, state_, imposed_.get());
   // Forces and moments have units of their own.
@@ -534,7 +558,7 @@ ElementField Assembler::energy_densities(const Eigen::VectorXd& u, const Element
   for (const auto& block : blocks_->list) {
     if (!block->has_memory()) continue;
     std::vector<double> values(block->cells().size() * static_cast<std::size_t>(block->point_count()));
-    block->energy_densities(u, state_, read_block(*block, stress_names(*block), &stresses, *model_.mesh),
+    block->energy_densities(u, state_, read_stresses(*block, &stresses, *model_.mesh),
                             read_block(*block, variable_names(block->variable_count()), &variables, *model_.mesh),
                             values);
     write_block(*block, field.components, values, field);

@@ -37,7 +37,7 @@ std::unique_ptr<ElementBlock> make_continuum_block(const BlockInput& input, std:
   if (needs_stabilisation(input.model.mesh->cell_types[cell], formulation))
     throw_unsupported_element(input.model, cell);
   const bool solid = continuum_dimension(formulation) == 3;
-  if (formulation == Formulation::solid_reduced && input.model.mesh->cell_types[cell] == CellType::hexa8)
+  if (is_stabilised(formulation, input.model.mesh->cell_types[cell]))
     return make_stabilised_block(input, std::move(cells));
   if (mixed_field_count(formulation) > 0)
     return solid ? make_mixed_solid_block(input, std::move(cells)) : make_mixed_plane_block(input, std::move(cells));

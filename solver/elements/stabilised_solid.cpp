@@ -1,21 +1,25 @@
 // Hexahedra on eight nodes with one point of integration and a stabilisation (3D_SI; hourglass.hpp). Their stresses are
 // those of the point and twelve forces on the hourglass patterns, S1X .. S4Z, which are part of what the next step
 // begins from.
+#include <algorithm>
 #include <cmath>
 
 #include "solver/elements/hourglass.hpp"
 #include "solver/elements/inelastic_block.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-constexpr int stress_count = 6;
-constexpr int pattern_count = 12;
+constexpr int stress_count = solid_stress_names.size();
+constexpr int pattern_count = hourglass_force_names.size();
 constexpr int shown_count = stress_count + pattern_count;
-constexpr std::array<std::string_view, shown_count> shown_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ",
-                                                                   "S1X",  "S1Y",  "S1Z",  "S2X",  "S2Y",  "S2Z",
-                                                                   "S3X",  "S3Y",  "S3Z",  "S4X",  "S4Y",  "S4Z"};
+constexpr auto shown_names = [] {
+  std::array<std::string_view, shown_count> names;
+  std::ranges::copy(hourglass_force_names, std::ranges::copy(solid_stress_names, names.begin()).out);
+  return names;
+}();
 using PatternForces = Eigen::Matrix<double, pattern_count, 1>;
 
 PatternForces in_a_column(const Hourglass::Patterns& patterns) {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
@@ -26,19 +28,23 @@ int component_of(const Field& field, std::string_view name) {
 }
 
 /// The stresses or strains of an element that carries stiffness; nothing for other quantities.
-std::set<std::string_view> known_components(std::string_view quantity, Formulation formulation) {
+std::set<std::string_view> known_components(const ElementField& field, Formulation formulation, CellType type) {
   static const std::set<std::string_view> plane_strains = {"EPXX", "EPYY", "EPZZ", "EPXY"},
                                           solid_strains = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
   const int continuum = continuum_dimension(formulation);
-  if (quantity == "EPSI_R")
+  if (field.support == Support::cell) return {};
+  if (field.quantity == "EPSI_R")
     return continuum == 3 ? solid_strains : continuum == 2 ? plane_strains : std::set<std::string_view>();
-  if (quantity != "SIEF_R") return {};
+  if (field.quantity != "SIEF_R") return {};
   std::set<std::string_view> names;
-  if (continuum == 2) names.insert(plane_stress_names.begin(), plane_stress_names.end());
-  if (continuum == 3) names.insert(solid_stress_names.begin(), solid_stress_names.end());
-  if (mixed_field_count(formulation) > 0) names.insert("SIP");
-  if (is_beam(formulation)) names.insert(beam_force_names.begin(), beam_force_names.end());
-  if (is_bar(formulation)) names.insert("N");
+  const auto add = [&](auto&& others) { names.insert(others.begin(), others.end()); };
+  if (continuum == 2) add(plane_stress_names);
+  if (continuum == 3) add(solid_stress_names);
+  if (mixed_field_count(formulation) > 0) add(std::array{std::string_view("SIP")});
+  if (is_stabilised(formulation, type) && field.support == Support::gauss_point) add(hourglass_force_names);
+  if (is_beam(formulation)) add(beam_force_names);
+  if (is_bar(formulation)) add(std::array{beam_force_names[0]});
+  if (is_discrete(formulation)) add(discrete_force_names(formulation));
   return names;
 }
 
@@ -175,26 +181,46 @@ void fill_absent(Field& field, double value) {
   }
 }
 
-void add_unnamed_zeros(ElementField& field, const Model& model) {
+void fill_with_zeros(ElementField& field, const Model& model) {
+  std::map<std::pair<Formulation, CellType>, std::set<std::string_view>> known;
   std::set<std::string_view> wanted;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
-    if (field.points(cell) > 0 && !model.is_skin(cell))
-      wanted.merge(known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]));
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (field.points(cell) == 0 || model.is_skin(cell)) continue;
+    const std::pair kind(model.formulations[static_cast<std::size_t>(cell)],
+                         model.mesh->cell_types[static_cast<std::size_t>(cell)]);
+    if (known.contains(kind)) continue;
+    known[kind] = known_components(field, kind.first, kind.second);
+    wanted.insert(known[kind].begin(), known[kind].end());
+  }
   const std::size_t before = field.components.size();
   for (const std::string_view name : wanted)
     if (field.component(name) < 0) field.components.emplace_back(name);
-  const std::size_t width = field.components.size();
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(field.starts.back()) * field.components.size());
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    const auto own = known_components(field.quantity, model.formulations[static_cast<std::size_t>(cell)]);
+    const auto kind = known.find(
+        {model.formulations[static_cast<std::size_t>(cell)], model.mesh->cell_types[static_cast<std::size_t>(cell)]});
+    std::vector<double> unsaid;
+    for (const std::string& name : field.components) {
+      const bool is_own = kind == known.end() || kind->second.empty() || kind->second.contains(name);
+      unsaid.push_back(is_own || !wanted.contains(name) ? 0.0 : absent);
+    }
     for (int row = field.starts[static_cast<std::size_t>(cell)]; row < field.starts[static_cast<std::size_t>(cell) + 1];
          ++row)
-      for (std::size_t c = 0; c < width; ++c)
-        values.push_back(c < before                          ? field.values[static_cast<std::size_t>(row) * before + c]
-                         : own.contains(field.components[c]) ? 0.0
-                                                             : absent);
+      for (std::size_t c = 0; c < unsaid.size(); ++c) {
+        const double said = c < before ? field.values[static_cast<std::size_t>(row) * before + c] : absent;
+        values.push_back(std::isnan(said) ? unsaid[c] : said);
+      }
   }
   field.values = std::move(values);
+}
+
+bool is_zero(const ElementField& field, int cell) {
+  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
+  const auto begin = field.values.begin() + field.starts[cell] * width,
+             end = field.values.begin() + field.starts[cell + 1] * width;
+  return std::any_of(begin, end, [](double value) { return value == 0.0; }) &&
+         std::all_of(begin, end, [](double value) { return value == 0.0 || std::isnan(value); });
 }
 
 void drop_empty_cells(ElementField& field) {

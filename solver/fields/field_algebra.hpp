@@ -51,9 +51,13 @@ void assign(Field& field, int component, double value, const std::vector<int>* p
 
 /// Absent values become `value`.
 void fill_absent(Field& field, double value);
-/// Stresses (SIEF_R) and strains (EPSI_R) of the model's elements have all components that the element knows: those
-/// that the field does not name become zero.
-void add_unnamed_zeros(ElementField& field, const Model& model);
+/// Absent values become zero, and so do components that the field does not name, of stresses (SIEF_R) and strains
+/// (EPSI_R) at the points or nodes of elements that know them. What other elements of the model know, and that of the
+/// cell does not, stays absent.
+void fill_with_zeros(ElementField& field, const Model& model);
+
+/// Whether a cell has values, none of them other than zero.
+bool is_zero(const ElementField& field, int cell);
 
 /// Takes away the room of cells that have no value at all.
 void drop_empty_cells(ElementField& field);

@@ -123,6 +123,10 @@ bool is_reduced(Formulation formulation) {
          formulation == Formulation::plane_stress_reduced || formulation == Formulation::axisymmetric_reduced;
 }
 
+bool is_stabilised(Formulation formulation, CellType type) {
+  return formulation == Formulation::solid_reduced && type == CellType::hexa8;
+}
+
 bool Model::is_skin(int cell) const {
   const int type_dimension = dimension(mesh->cell_types[cell]);
   const int body = is_plate(formulations[cell]) ? 2 : continuum_dimension(formulations[cell]);

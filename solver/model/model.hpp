@@ -55,6 +55,8 @@ bool is_discrete(Formulation formulation);
 bool is_beam(Formulation formulation);
 bool is_plane_stress(Formulation formulation);  ///< with full or reduced integration
 bool is_reduced(Formulation formulation);       ///< integrated at fewer points
+/// Whether elements have one point of integration, and forces on hourglass patterns besides.
+bool is_stabilised(Formulation formulation, CellType type);
 
 /// Elements on cells. Cells of lower dimension than their continuum formulation (the edges of a plane model, the faces
 /// and edges of a solid one) are skin elements: they carry no stiffness but take pressure and contact. The edges of

@@ -12,5 +12,9 @@ inline constexpr std::array<std::string_view, 8> plate_force_names = {"NXX", "NY
                                                                       "MYY", "MXY", "QX",  "QY"};
 inline constexpr std::array<std::string_view, 6> solid_stress_names = {"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"};
 inline constexpr std::array<std::string_view, 6> beam_force_names = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
+/// Of hexahedra with one point of integration, beside the stresses of the point: the forces on their hourglass
+/// patterns.
+inline constexpr std::array<std::string_view, 12> hourglass_force_names = {"S1X", "S1Y", "S1Z", "S2X", "S2Y", "S2Z",
+                                                                           "S3X", "S3Y", "S3Z", "S4X", "S4Y", "S4Z"};
 
 }  // namespace comma::solver

@@ -119,6 +119,25 @@ TEST_CASE("a piece says at how many points springs have forces, and other elemen
   CHECK_THROWS_WITH(put_piece(target, pieces.front()), Catch::Contains("2 points in one field and 1 in the other"));
 }
 
+TEST_CASE("zeros stand where the element knows the component, and not where another one does", "[fields]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = std::vector<Point>(8);
+  mesh->add_cell(CellType::hexa8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  const Model model{mesh, {Formulation::solid_reduced, Formulation::spring_rotation_3d}};
+  ElementField field = empty_element_field(model, "SIEF_R", Support::gauss_point, {"SIXX", "VMIS"}, false);
+  field.values[0] = 7.0;
+  fill_with_zeros(field, model);
+  CHECK(field.at(0, 0, field.component("SIXX")) == 7.0);
+  CHECK(field.at(0, 0, field.component("S4Z")) == 0.0);
+  CHECK(std::isnan(field.at(0, 0, field.component("MFZ"))));
+  CHECK(field.at(1, 0, field.component("MFZ")) == 0.0);
+  CHECK(std::isnan(field.at(1, 0, field.component("SIXX"))));
+  CHECK(field.at(1, 0, field.component("VMIS")) == 0.0);  // no stress of an element
+  CHECK_FALSE(is_zero(field, 0));
+  CHECK(is_zero(field, 1));
+}
+
 TEST_CASE("cells without values give their room back", "[fields]") {
   ElementField field = empty_cell_field(*square_of_triangles().mesh, "TEMP_R", {"TEMP"});
   field.values = {absent, 4.0, absent};
