@@ -186,7 +186,8 @@ void add_face_displacements(const Keywords& keywords, const LoadedModel& target,
   if (keywords.given("DNOR")) impose_along(keywords, "DNOR", nodes, Motion::translation, origin, load, target, normal);
   if (keywords.given("DRNOR")) impose_along(keywords, "DRNOR", nodes, Motion::rotation, origin, load, target, normal);
   if (!keywords.given("DTAN")) return;
-  if (target.mesh.dimension != 2) {
+  const bool is_plane = std::ranges::all_of(normals, [](const auto& entry) { return entry.second.z() == 0.0; });
+  if (target.mesh.dimension != 2 || !is_plane) {
     throw DiagnosticError("unsupported", "FACE_IMPO/DTAN: a face in space has two tangents",
                           keywords.at("DTAN").name_span, "impose DX, DY, DZ, or LIAISON_OBLIQUE");
   }

@@ -19,6 +19,7 @@
 
 #include "solver/error.hpp"
 #include "solver/io/text_scanner.hpp"
+#include "solver/mesh/flatness.hpp"
 #include "solver/mesh/nearest_name.hpp"
 
 namespace comma::solver {
@@ -343,6 +344,7 @@ Mesh Parser::parse() {
   if (mesh_.nodes.empty()) source_.fail("the mesh has no nodes: COOR_2D or COOR_3D is missing");
   for (const PendingCells& pending : cells_) read_cells(pending);
   for (const PendingGroup& pending : groups_) read_group(pending);
+  settle_in_plane(mesh_);
   return std::move(mesh_);
 }
 

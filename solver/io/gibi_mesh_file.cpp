@@ -13,6 +13,7 @@
 
 #include "solver/error.hpp"
 #include "solver/io/text_scanner.hpp"
+#include "solver/mesh/flatness.hpp"
 
 namespace comma::solver {
 namespace {
@@ -205,6 +206,7 @@ class GibiReader {
     }
     for (const NamedObject& named : mesh_names_) add_group(named);
     for (const NamedObject& named : point_names_) mesh_.node_groups[named.name] = {node_of(named.object)};
+    settle_in_plane(mesh_);
   }
 
   int node_of(int point) const {

@@ -13,6 +13,7 @@
 #include "solver/error.hpp"
 #include "solver/io/gmsh_cells.hpp"
 #include "solver/io/text_scanner.hpp"
+#include "solver/mesh/flatness.hpp"
 
 namespace comma::solver {
 namespace {
@@ -258,9 +259,7 @@ class GmshReader {
 
   void finish() {
     if (mesh_.nodes.empty()) scan_.fail("the file holds no nodes");
-    const bool plane = std::ranges::all_of(mesh_.nodes, [](const Point& node) { return node[2] == 0.0; });
-    const bool solids = std::ranges::any_of(mesh_.cell_types, [](CellType type) { return dimension(type) == 3; });
-    mesh_.dimension = plane && !solids ? 2 : 3;
+    settle_in_plane(mesh_);
     for (auto& [name, cells] : mesh_.cell_groups) {  // a name of two physical groups, or GM<i> of two dimensions
       std::ranges::sort(cells);
       cells.erase(std::unique(cells.begin(), cells.end()), cells.end());

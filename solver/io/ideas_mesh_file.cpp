@@ -13,6 +13,7 @@
 
 #include "solver/error.hpp"
 #include "solver/io/text_scanner.hpp"
+#include "solver/mesh/flatness.hpp"
 
 namespace comma::solver {
 namespace {
@@ -213,11 +214,7 @@ class IdeasReader {
     if (in_groups_.insert(fmt::format("{} {} {}", kind, name, found->second)).second) members.push_back(found->second);
   }
 
-  void finish() {
-    const bool flat = std::ranges::all_of(mesh_.nodes, [](const Point& at) { return at[2] == 0.0; });
-    const bool solid = std::ranges::any_of(mesh_.cell_types, [](CellType type) { return dimension(type) == 3; });
-    mesh_.dimension = flat && !solid ? 2 : 3;
-  }
+  void finish() { settle_in_plane(mesh_); }
 
   // --- lines
 

@@ -9,6 +9,7 @@
 #include "solver/io/med_file.hpp"
 #include "solver/io/med_library.hpp"
 #include "solver/io/med_sanity.hpp"
+#include "solver/mesh/flatness.hpp"
 
 namespace comma::solver {
 namespace {
@@ -40,7 +41,6 @@ class Reader {
   std::vector<med_int> read_families(med_entity_type entity, med_geometry_type geometry, med_int entities) const;
   std::map<med_int, std::vector<std::string>> read_family_groups() const;
   void fill_groups(Mesh& mesh) const;
-  static bool is_flat(const Mesh& mesh);
 
   const MedFile& file_;
   MeshHeader header_;
@@ -191,14 +191,6 @@ void Reader::fill_groups(Mesh& mesh) const {
   fill(cell_families_, mesh.cell_groups);
 }
 
-/// Faces in the plane Z = 0, whatever the file says of the space around them: their edges have normals in that plane.
-bool Reader::is_flat(const Mesh& mesh) {
-  const auto has = [&](int wanted) {
-    return std::ranges::any_of(mesh.cell_types, [&](CellType type) { return dimension(type) == wanted; });
-  };
-  return has(2) && !has(3) && std::ranges::all_of(mesh.nodes, [](const Point& node) { return node[2] == 0.0; });
-}
-
 Mesh Reader::read() {
   if (header_.type != MED_UNSTRUCTURED_MESH) {
     throw Error("unsupported",
@@ -215,7 +207,7 @@ Mesh Reader::read() {
     if (std::ranges::find(present, type) != present.end()) read_cells(mesh, type);
   }
   fill_groups(mesh);
-  if (is_flat(mesh)) mesh.dimension = 2;
+  settle_in_plane(mesh);
   return mesh;
 }
 

@@ -83,6 +83,17 @@ TEST_CASE("a mesh file in free format is read") {
   CHECK(mesh.cell_name(0) == "M1");
 }
 
+TEST_CASE("faces in the plane Z = 0 lie in two dimensions, and lines in as many as the file says") {
+  const auto dimension_of = [](const std::string& cells, const std::string& height) {
+    return parse_aster_mesh("COOR_3D\nA 0 0 0\nB 1 0 0\nC 0 1 " + height + "\nFINSF\n" + cells + "\nFINSF\nFIN",
+                            "x.mail")
+        .dimension;
+  };
+  CHECK(dimension_of("TRIA3\nT A B C", "0") == 2);
+  CHECK(dimension_of("TRIA3\nT A B C", "0.1") == 3);
+  CHECK(dimension_of("SEG2\nS A B", "0") == 3);
+}
+
 TEST_CASE("sub-files may come in any order, and lines end in any way") {
   const Mesh mesh = parse_aster_mesh("POI1\r\nP N1\r\nFINSF\r\nCOOR_3D\r\nN1 1 2 3\r\nFINSF\r\nFIN", "x.mail");
   CHECK(mesh.dimension == 3);
