@@ -11,7 +11,7 @@
 #include "commands/fields/input_field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/contact/normals.hpp"
+#include "solver/constraints/directions.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -235,13 +235,9 @@ FieldPtr of_mesh(const Call& call) {
 // Unit normals at the nodes of boundary cells.
 FieldPtr of_normals(const Call& call) {
   FieldPtr product = on_support(call);
-  std::vector<Eigen::Vector3d> positions;
-  for (const solver::Point& at : product->mesh->nodes) positions.emplace_back(at.data());
   auto normals = solver::empty_nodal_field(*product->mesh, "GEOM_R", {"X", "Y", "Z"});
-  for (const auto& [node, normal] :
-       solver::nodal_normals(*product->mesh, selected_cells(call, *product->mesh), positions)) {
+  for (const auto& [node, normal] : solver::mean_normals(*product->mesh, selected_cells(call, *product->mesh)))
     std::copy_n(normal.data(), 3, normals.values.begin() + 3 * node);
-  }
   product->field = std::move(normals);
   return product;
 }

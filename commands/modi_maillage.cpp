@@ -93,7 +93,7 @@ void change_axes(const Keywords& axes, solver::Mesh& mesh) {
     throw DiagnosticError("missing-keyword", "MODI_MAILLAGE/MODI_BASE: in space the new axes need two directions",
                           axes.span, "give VECT_Y");
   }
-  solver::change_axes(mesh, x, mesh.dimension == 3 ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0});
+  solver::change_axes(mesh, x, axes.given("VECT_Y") ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0});
 }
 
 void deform(const Keywords& deformation, solver::Mesh& mesh) {

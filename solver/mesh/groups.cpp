@@ -36,11 +36,11 @@ double distance_from_axis(const Vector& position, const Vector& point, const Vec
   return axis.cross(position - point).norm();
 }
 
-/// Along the normal of a face or, in the plane, of a line; its length is no matter.
+/// Along the normal of a face or of a line in the plane; its length is no matter.
 Vector normal_of(const Mesh& mesh, int cell) {
   const auto nodes = mesh.cell(cell);
   const auto at = [&](int i) { return to_vector(mesh.nodes[nodes[static_cast<std::size_t>(i)]]); };
-  if (mesh.dimension == 2) return (at(1) - at(0)).cross(Vector::UnitZ());
+  if (dimension(mesh.cell_types[cell]) == 1) return (at(1) - at(0)).cross(Vector::UnitZ());
   const int corners = corner_count(mesh.cell_types[cell]);
   Vector sum = Vector::Zero();
   for (int i = 1; i + 1 < corners; ++i) sum += (at(i) - at(0)).cross(at(i + 1) - at(0));
@@ -134,7 +134,7 @@ std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, dou
   const Vector wanted = unit(to_vector(direction));
   std::vector<int> result;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    if (dimension(mesh.cell_types[cell]) != mesh.dimension - 1) continue;
+    if (const int own = dimension(mesh.cell_types[cell]); own != 2 && own != mesh.dimension - 1) continue;
     const Vector normal = normal_of(mesh, cell);
     const double along = wanted.dot(normal);
     const double between = std::atan2(wanted.cross(normal).norm(), either_sense ? std::abs(along) : along);

@@ -34,9 +34,10 @@ enum class NodeCriterion { all, any, majority, corners };
 /// criterion says.
 std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, NodeCriterion criterion);
 
-/// The face cells (in a plane mesh: the line cells) whose normal makes at most `angle` (in radians) with `direction`;
-/// `either_sense`: or with its opposite. The normal is that of the corners, by the right-hand rule; a line's is its
-/// direction turned by -90 degrees. Error `zero-vector` where the direction has no length.
+/// The face cells (in a plane mesh, which may be one of flat plates: the line cells too) whose normal makes at most
+/// `angle` (in radians) with `direction`; `either_sense`: or with its opposite. The normal is that of the corners, by
+/// the right-hand rule; a line's is its direction turned by -90 degrees. Error `zero-vector` where the direction has no
+/// length.
 std::vector<int> cells_with_normal(const Mesh& mesh, const Point& direction, double angle, bool either_sense);
 
 /// Lengths below are in the mesh's unit; `tolerance` is a distance. All return the nodes of the mesh, rising.

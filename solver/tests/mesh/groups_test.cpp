@@ -199,8 +199,18 @@ TEST_CASE("faces are chosen by their normal, of one sense or either") {
   CHECK(cells_with_normal(mesh, {0, 0.1, 1}, 6 * degree, true) == Group{up, down});
   CHECK(cells_with_normal(mesh, {0, 0.1, 1}, 5 * degree, true).empty());
   CHECK_THROWS_AS(cells_with_normal(mesh, {0, 0, 0}, 1.0, true), Error);
+}
+
+TEST_CASE("in the plane lines are chosen by their normal, and faces by the one out of it") {
+  Mesh mesh;
   mesh.dimension = 2;
-  CHECK(cells_with_normal(mesh, {0, -1, 0}, degree, false) == Group{3});
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const int face = mesh.add_cell(CellType::quad4, Group{0, 1, 2, 3});
+  const int side = mesh.add_cell(CellType::seg2, Group{0, 1});
+  const double degree = std::numbers::pi / 180.0;
+  CHECK(cells_with_normal(mesh, {0, -1, 0}, degree, false) == Group{side});
+  CHECK(cells_with_normal(mesh, {0, 0, 1}, degree, false) == Group{face});
+  CHECK(cells_with_normal(mesh, {0, 0, -1}, degree, false).empty());
 }
 
 TEST_CASE("a quadratic cell can be chosen by its corners alone") {
