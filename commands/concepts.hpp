@@ -98,6 +98,16 @@ struct EarlierPhase {
   solver::StaticProblem problem;
 };
 
+/// A table that grows with the steps of a result, and shrinks with them.
+struct StepTable {
+  Table table;
+  std::map<int, std::size_t> ends = {};  ///< how many rows there were when a step had left its own, by its order
+
+  void end_step(int order) { ends[order] = table.rows.size(); }
+  /// Takes away what later steps have left.
+  void forget_after(int order);
+};
+
 /// A result and what CALC_CHAMP needs to go on from it; `problem` has no model when the result lies on a mesh alone.
 struct ResultConcept : ConceptData {
   solver::Result result;
@@ -106,8 +116,8 @@ struct ResultConcept : ConceptData {
 
   /// What a step was computed from.
   const solver::StaticProblem& problem_of(const solver::ResultStep& step) const;
-  std::optional<Table> observations;  ///< what OBSERVATION followed through the steps
-  std::optional<Table> modes;         ///< the eigenvalues that CRIT_STAB asked for
+  std::optional<StepTable> observations;  ///< what OBSERVATION followed through the steps
+  std::optional<StepTable> modes;         ///< the eigenvalues that CRIT_STAB asked for
 
   /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one
   /// value a step: LIST_VARI_ACCES() and getAccessParameters() (NUME_ORDRE, INST), LIST_PARA() (these and the

@@ -311,11 +311,12 @@ Product stat_non_line(const Call& call, Context& context) {
   };
   // What goes on with steps that are there has no initial one.
   const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
-    if (product->observations) observer.observe(number, *product->observations);
+    if (product->observations) observer.observe(number, product->observations->table);
     ++number;
     computed.push_back(result.steps.back().instant);
     keep_residuals(last, result.steps.back());
     archive.update(result);
+    if (product->observations) product->observations->end_step(result.steps.back().order);
   };
   std::set<double> unconverged;
   if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON")

@@ -221,7 +221,11 @@ solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& s
 std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int> last_order) {
   auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
   auto& steps = product->result.steps;
-  if (last_order) std::erase_if(steps, [&](const solver::ResultStep& step) { return step.order > *last_order; });
+  if (last_order) {
+    std::erase_if(steps, [&](const solver::ResultStep& step) { return step.order > *last_order; });
+    for (std::optional<StepTable>* kept : {&product->observations, &product->modes})
+      if (*kept) (*kept)->forget_after(*last_order);
+  }
   if (steps.empty()) return product;
   const int last = steps.back().order;
   std::erase_if(product->earlier, [&](const EarlierPhase& phase) { return phase.last_order > last; });

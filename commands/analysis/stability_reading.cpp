@@ -62,7 +62,10 @@ std::optional<solver::StabilityAnalysis> stability_analysis(const Call& call, Re
     for (const std::string& name : given.texts("DDL_EXCLUS"))
       if (const auto component = solver::component_named(name)) analysis.excluded.push_back(*component);
   if (!product.modes) product.modes.emplace();
-  analysis.report = [&table = *product.modes](const solver::StabilityReport& report) { add_rows(report, table); };
+  analysis.report = [&product](const solver::StabilityReport& report) {
+    add_rows(report, product.modes->table);
+    product.modes->end_step(product.result.steps.back().order);
+  };
   return analysis;
 }
 

@@ -17,10 +17,16 @@ Table computation(const solver::Result& result) {
 
 }  // namespace
 
+void StepTable::forget_after(int order) {
+  ends.erase(ends.upper_bound(order), ends.end());
+  table.rows.resize(ends.empty() ? 0 : ends.rbegin()->second);
+}
+
 std::optional<Table> table_of_result(const ResultConcept& data, std::string_view name) {
   if (name == "PARA_CALC") return computation(data.result);
-  if (name == "ANALYSE_MODALE") return data.modes;
-  return name == "OBSERVATION" ? data.observations : std::nullopt;
+  const auto kept = [](const std::optional<StepTable>& any) { return any ? std::optional(any->table) : std::nullopt; };
+  if (name == "ANALYSE_MODALE") return kept(data.modes);
+  return name == "OBSERVATION" ? kept(data.observations) : std::nullopt;
 }
 
 }  // namespace comma::commands
