@@ -30,6 +30,16 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::
   return found;
 }
 
+// The name of a file in the folder, by whatever path it is called; nothing for one that lies elsewhere.
+std::optional<std::string> name_in(const fs::path& folder, const std::string& path) {
+  fs::path wanted = fs::path(path).lexically_normal();
+  std::error_code absent;
+  if (wanted.is_absolute() && fs::equivalent(wanted.parent_path(), folder.empty() ? "." : folder, absent))
+    wanted = wanted.filename();
+  const bool is_bare = wanted.filename() == wanted && !wanted.empty() && wanted != "." && wanted != "..";
+  return is_bare ? std::optional(wanted.string()) : std::nullopt;
+}
+
 // A link leads out of the folder that a file of somebody else may use.
 void require_no_link(const fs::path& path, const interpreter::Span& where) {
   std::error_code absent;
@@ -136,22 +146,21 @@ fs::path Files::included_by_unit(int unit, const interpreter::Span& where) const
 }
 
 fs::path Files::included(const std::string& name, const interpreter::Span& where) const {
-  const fs::path wanted(name);
-  // A plain name leads nowhere but into the folder itself.
-  if (wanted.filename() != wanted || name.empty() || name == "." || name == "..") {
+  const auto wanted = name_in(command_file_.parent_path(), name);
+  if (!wanted) {
     throw interpreter::DiagnosticError("forbidden-file", "a command file reads only what lies in its own folder", where,
                                        "write the bare name of a file beside the command file");
   }
   for (const ExportFile& file : exported_) {
-    if (file.input && file.path.filename() == wanted) return file.path;
+    if (file.input && file.path.filename() == *wanted) return file.path;
   }
-  const fs::path candidate = command_file_.parent_path() / wanted;
+  const fs::path candidate = command_file_.parent_path() / *wanted;
   if (fs::is_regular_file(candidate)) {
     require_no_link(candidate, where);
     read_.push_back(candidate);
     return candidate;
   }
-  throw interpreter::DiagnosticError("missing-file", "there is no file " + name + " beside the command file", where);
+  throw interpreter::DiagnosticError("missing-file", "there is no file " + *wanted + " beside the command file", where);
 }
 
 bool Files::is_read(const fs::path& path) const {
@@ -190,11 +199,11 @@ void Files::name_output(int unit, const std::string& name) {
     named_.erase(unit);
     return;
   }
-  const fs::path wanted = fs::path(name).lexically_normal();
-  if (wanted.filename() != wanted || wanted == "." || wanted == "..")
+  const auto wanted = name_in(output_folder_, name);
+  if (!wanted)
     throw interpreter::DiagnosticError("unsupported", "comma writes into the current folder alone, and not to " + name,
                                        {}, "write the bare name of a file");
-  named_[unit] = wanted;
+  named_[unit] = *wanted;
 }
 
 }  // namespace comma::commands

@@ -109,6 +109,22 @@ TEST_CASE(
     CHECK_THROWS_AS(files.name_output(37, elsewhere), DiagnosticError);
 }
 
+TEST_CASE("A path that leads into the folder itself is the bare name") {
+  const Folder folder, elsewhere;
+  const auto other = folder.file("b.comm");
+  Files files(folder.path / "a.comm", {}, folder.path);
+  files.name_output(37, (folder.path / "." / "curve.txt").string());
+  CHECK(files.output(37, "resu", 8) == folder.path / "curve.txt");
+  for (const fs::path& path : {elsewhere.path / "curve.txt", folder.path / "deep" / "curve.txt", folder.path})
+    CHECK_THROWS_WITH(files.name_output(37, path.string()), Catch::Contains("current folder alone"));
+  CHECK(files.included(other.string(), {}) == other);
+  CHECK(files.included("./b.comm", {}) == other);
+  CHECK_THROWS_WITH(files.included((elsewhere.path / "b.comm").string(), {}), Catch::Contains("its own folder"));
+  fs::create_symlink(elsewhere.file("far.txt"), folder.path / "link.txt");
+  files.name_output(37, (folder.path / "link.txt").string());
+  CHECK_THROWS_WITH(files.output(37, "resu", 8), Catch::Contains("link.txt is a link"));
+}
+
 TEST_CASE("What the study reads is not written over") {
   const Folder folder;
   const auto mesh = folder.file("my.mail"), command_file = folder.file("a.comm");
