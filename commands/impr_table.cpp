@@ -5,6 +5,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/functions/curves.hpp"
+#include "commands/tables/row_keys.hpp"
 #include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -21,15 +22,13 @@ std::vector<Table> pages_of(const Table& table, const Call& call) {
   for (const std::string& name : call.texts("PAGINATION"))
     columns.push_back(column_of(table, name, call, "PAGINATION"));
   std::vector<Table> pages;
+  FirstComers known;
   for (const auto& row : table.rows) {
-    const auto belongs = [&](const Table& page) {
-      return std::ranges::all_of(columns, [&](int column) {
-        return page.rows.front()[static_cast<std::size_t>(column)] == row[static_cast<std::size_t>(column)];
-      });
-    };
-    auto page = std::ranges::find_if(pages, belongs);
-    if (page == pages.end()) page = pages.insert(pages.end(), Table{table.title, table.columns, {}});
-    page->rows.push_back(row);
+    std::vector<Cell> key;
+    for (const int column : columns) key.push_back(row[static_cast<std::size_t>(column)]);
+    const std::size_t page = known.number_of(key);
+    if (page == pages.size()) pages.push_back({table.title, table.columns, {}});
+    pages[page].rows.push_back(row);
   }
   return pages;
 }

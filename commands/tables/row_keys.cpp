@@ -37,6 +37,17 @@ std::vector<std::string> SameKey::words(const Cell& cell) const {
   return found;
 }
 
+std::size_t FirstComers::Hash::operator()(const std::vector<Cell>& key) const {
+  constexpr std::size_t spread = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+  std::size_t sum = 0;
+  for (const Cell& cell : key) sum = (sum ^ std::hash<Cell>()(cell)) * spread;
+  return sum ^ (sum >> 32);
+}
+
+std::size_t FirstComers::number_of(const std::vector<Cell>& key) {
+  return numbers_.try_emplace(key, numbers_.size()).first->second;
+}
+
 void RowKeys::add(const std::vector<Cell>& row, std::size_t index) {
   std::string key;
   for (const int column : columns_) key += same_.words(row[static_cast<std::size_t>(column)]).front() + '\n';

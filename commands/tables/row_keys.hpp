@@ -28,6 +28,18 @@ class SameKey {
   std::optional<RealFormat> format_;
 };
 
+/// Numbers keys from 0 in the order in which they first come; equal ones have one number.
+class FirstComers {
+ public:
+  std::size_t number_of(const std::vector<Cell>& key);
+
+ private:
+  struct Hash {
+    std::size_t operator()(const std::vector<Cell>& key) const;
+  };
+  std::unordered_map<std::vector<Cell>, std::size_t, Hash> numbers_;
+};
+
 /// Rows by what stands in their key columns.
 class RowKeys {
  public:

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "commands/tables/fortran_format.hpp"
+#include "commands/tables/row_keys.hpp"
 
 namespace comma::commands {
 
@@ -56,13 +57,18 @@ const char* type_of(const Table& table, std::size_t column) {
   return "K8";
 }
 
-/// One of two rows or columns of a crossed table.
-std::size_t place_of(std::vector<Cell>& known, const Cell& wanted) {
-  const auto found = std::ranges::find(known, wanted);
-  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-  known.push_back(wanted);
-  return known.size() - 1;
-}
+/// What stands in a column, each once, and where each row of the table comes to stand among that.
+struct Entries {
+  Entries(const Table& table, std::size_t column) {
+    FirstComers known;
+    for (const auto& row : table.rows) {
+      places.push_back(known.number_of({row[column]}));
+      if (places.back() == cells.size()) cells.push_back(row[column]);
+    }
+  }
+  std::vector<Cell> cells;
+  std::vector<std::size_t> places;
+};
 
 }  // namespace
 
@@ -78,20 +84,17 @@ std::string aster_table(const Table& table, const TableLayout& layout) {
 }
 
 Table crossed(const Table& table) {
-  std::vector<Cell> down, across;
-  for (const auto& row : table.rows) {
-    place_of(down, row[0]);
-    place_of(across, row[1]);
-  }
+  const Entries down(table, 0), across(table, 1);
   Table result;
   result.title = fmt::format("{} by {} and {}", table.columns[2], table.columns[0], table.columns[1]);
   result.columns = {fmt::format("{}/{}", table.columns[0], table.columns[1])};
-  for (const Cell& cell : across) result.columns.push_back(format_cell(cell, "1PE12.5"));
-  for (const Cell& cell : down) {
+  for (const Cell& cell : across.cells) result.columns.push_back(format_cell(cell, "1PE12.5"));
+  for (const Cell& cell : down.cells) {
     result.rows.emplace_back(result.columns.size());
     result.rows.back().front() = cell;
   }
-  for (const auto& row : table.rows) result.rows[place_of(down, row[0])][1 + place_of(across, row[1])] = row[2];
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    result.rows[down.places[i]][1 + across.places[i]] = table.rows[i][2];
   return result;
 }
 

@@ -43,6 +43,17 @@ TEST_CASE("A crossed table has a row and a column for each value of two columns"
   CHECK(both.rows[1] == std::vector<Cell>{2.0, Cell(), 30.0});
 }
 
+TEST_CASE("A number that is none stands in a row of its own of a crossed table") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Table table;
+  table.columns = {"INST", "NOEUD", "DX"};
+  table.rows = {{none, std::string("A"), 10.0}, {0.0, std::string("A"), 20.0}, {-0.0, std::string("B"), 30.0}};
+  const Table both = crossed(table);
+  REQUIRE(both.rows.size() == 2);
+  CHECK(both.rows[0][1] == Cell(10.0));
+  CHECK(both.rows[1] == std::vector<Cell>{0.0, 20.0, 30.0});
+}
+
 TEST_CASE("A column added later is empty in the rows before") {
   Table table;
   table.columns = {"A"};
